@@ -1,0 +1,19 @@
+# Targets a user types. `cargo` is all they need.
+
+.PHONY: all font test check bench clean
+
+all: font
+
+font: ## the demo fonts, into build/
+	cargo build --release --locked --quiet
+	for p in glyphs/*.toml; do target/release/khatt build "$$p" || exit 1; done
+
+test: ## every test
+	cargo test --locked --quiet
+
+check: ## the gate: format, lints, tests, docs
+	.githooks/pre-push
+
+clean: ## what was built
+	cargo clean --quiet
+	rm -rf build

@@ -1,0 +1,1 @@
+//! Outlines → Font: names, metrics, spacing, joining, features.

@@ -1,0 +1,1 @@
+//! Contours → bits: vertex-based shape coding by rate and distortion.

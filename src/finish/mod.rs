@@ -1,0 +1,1 @@
+//! Fitted curves in px → Outline in font units: place, direction, extrema, rounding.

@@ -1,0 +1,88 @@
+//! Span → curves: several published answers to one question.
+//!
+//! | takes | gives |
+//! |---|---|
+//! | [`Span`], px, y up; a tolerance, px | [`Fitted`]: lines and cubics, ends exact |
+//!
+//! A room a method, each a struct of options that implements [`Fitter`]; [`Method`] is the menu.
+//! No method reports its own residual as the error: the judge measures all of them alike.
+
+pub mod joint;
+
+use crate::types::{Fitted, Span};
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+/// Why a fitter gives nothing.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum FitError {
+    /// An option is outside its range.
+    #[error("{method}: {option} is {value}; {range}")]
+    Option {
+        /// key of the method
+        method: &'static str,
+        /// name of the option
+        option: &'static str,
+        /// value given
+        value: String,
+        /// what is allowed
+        range: &'static str,
+    },
+}
+
+/// Fits curves through a span.
+pub trait Fitter {
+    /// Curves within `tolerance_px` of the span if the method can; else its best, and the verdict says so.
+    ///
+    /// # Errors
+    /// An option is outside its range. Degenerate spans are no error: they give their own polygon.
+    fn fit(&self, span: Span<'_>, tolerance_px: f64) -> Result<Fitted, FitError>;
+}
+
+/// The fitters one can choose, with their options.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "method", rename_all = "kebab-case")]
+#[non_exhaustive]
+pub enum Method {
+    /// One global choice of nodes, then one refinement of all of them.
+    Joint(joint::Joint),
+}
+
+impl Default for Method {
+    fn default() -> Self {
+        Self::Joint(joint::Joint::default())
+    }
+}
+
+impl Method {
+    /// Every method with its default options.
+    #[must_use]
+    pub fn all() -> Vec<Self> {
+        vec![Self::Joint(joint::Joint::default())]
+    }
+
+    /// The word for it on the command line, in project files, snapshots and the bibliography.
+    #[must_use]
+    pub const fn key(&self) -> &'static str {
+        match self {
+            Self::Joint(_) => "joint",
+        }
+    }
+
+    /// One line for `khatt methods`.
+    #[must_use]
+    pub const fn about(&self) -> &'static str {
+        match self {
+            Self::Joint(_) => "global choice of nodes, joint refinement (default)",
+        }
+    }
+
+    /// The method itself.
+    #[must_use]
+    pub fn fitter(&self) -> &dyn Fitter {
+        match self {
+            Self::Joint(f) => f,
+        }
+    }
+}

@@ -1,0 +1,1 @@
+//! Mathematics without pictures; imports nothing of ours.

@@ -1,0 +1,1 @@
+//! The order of the stages: a page to cells, cells to outlines, outlines to a font.

@@ -1,0 +1,1 @@
+//! Cubic Outline → quadratic Outline.

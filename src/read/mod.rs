@@ -1,0 +1,1 @@
+//! Font and SVG files → Font: the mirror of `write`.

@@ -1,0 +1,1 @@
+//! Cell → which letter it is; thinning, stroke graphs, B-spline matching.

@@ -1,0 +1,1 @@
+//! Fitted curves and the grey picture → better fitted curves.

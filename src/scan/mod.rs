@@ -1,0 +1,1 @@
+//! Image bytes → Cells: load, clean, deskew, cut.

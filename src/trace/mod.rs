@@ -1,0 +1,1 @@
+//! Cell → Contours at half coverage, subpixel.

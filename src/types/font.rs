@@ -1,0 +1,168 @@
+//! A font before it is written.
+
+use super::{Glyph, Name};
+use std::collections::{BTreeMap, BTreeSet};
+use thiserror::Error;
+
+/// Why glyphs are no font.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum FontError {
+    /// The first glyph is not `.notdef`.
+    #[error("the first glyph must be .notdef")]
+    NoNotdef,
+    /// Two glyphs have one name.
+    #[error("two glyphs are named {0}")]
+    TwiceName(String),
+    /// Two glyphs have one character.
+    #[error("the character U+{:04X} belongs to both {first} and {second}", u32::from(*.char))]
+    TwiceChar {
+        /// the character
+        char: char,
+        /// the glyph that has it
+        first: String,
+        /// the other
+        second: String,
+    },
+    /// More than the format can count.
+    #[error("{0} glyphs; a font holds 65535 at most")]
+    TooMany(usize),
+}
+
+/// What the font says about itself.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Info {
+    /// Family name.
+    pub family: String,
+    /// Style name, such as `Regular`.
+    pub style: String,
+    /// Major and minor version.
+    pub version: (u16, u16),
+    /// Units an em, 16…16384.
+    pub units_per_em: u16,
+    /// Weight class, 1…1000.
+    pub weight: u16,
+    /// Angle of the stems, degrees counter-clockwise from upright: negative for an italic.
+    pub italic_angle: f64,
+    /// Seconds since 1970-01-01T00:00:00Z that the font gives as its date.
+    pub created: i64,
+    /// Copyright notice.
+    pub copyright: Option<String>,
+    /// Designer.
+    pub designer: Option<String>,
+    /// Manufacturer.
+    pub manufacturer: Option<String>,
+    /// Licence text.
+    pub license: Option<String>,
+    /// Where the licence stands in full.
+    pub license_url: Option<String>,
+    /// Vendor's web address.
+    pub vendor_url: Option<String>,
+    /// Four letters registered for the vendor.
+    pub vendor_id: [u8; 4],
+    /// Heights.
+    pub metrics: Metrics,
+}
+
+/// Vertical measures, font units.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Metrics {
+    /// Above the baseline; also the window's upper bound at least.
+    pub ascender: f64,
+    /// Below the baseline: at most 0.
+    pub descender: f64,
+    /// Between two lines beyond ascender and descender.
+    pub line_gap: f64,
+    /// Height of x, or 0 where the font has none.
+    pub x_height: f64,
+    /// Height of H, or 0 where the font has none.
+    pub cap_height: f64,
+}
+
+/// Pair kerning by groups.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Kerning {
+    /// Group name without prefix → its glyphs as first of a pair.
+    pub first: BTreeMap<String, Vec<Name>>,
+    /// Group name without prefix → its glyphs as second of a pair.
+    pub second: BTreeMap<String, Vec<Name>>,
+    /// (first, second) → advance change, font units. Each side is a glyph name, or `@` and a group name.
+    pub pairs: BTreeMap<(String, String), f64>,
+}
+
+/// Glyphs in glyph-id order with everything a writer needs.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Font {
+    /// Names, version, heights.
+    pub info: Info,
+    glyphs: Vec<Glyph>,
+    /// Pair kerning.
+    pub kerning: Kerning,
+    /// OpenType features in feature-file syntax, kerning and marks included.
+    pub features: String,
+}
+
+impl Font {
+    /// A font of these glyphs, the first of which is `.notdef`.
+    ///
+    /// # Errors
+    /// `.notdef` is not first, a name or a character stands twice, or there are more than 65535.
+    pub fn new(info: Info, glyphs: Vec<Glyph>) -> Result<Self, FontError> {
+        if glyphs.first().is_none_or(|g| g.name.as_str() != ".notdef") {
+            return Err(FontError::NoNotdef);
+        }
+        if glyphs.len() > usize::from(u16::MAX) {
+            return Err(FontError::TooMany(glyphs.len()));
+        }
+        let mut names = BTreeSet::new();
+        let mut chars: BTreeMap<char, &Name> = BTreeMap::new();
+        for g in &glyphs {
+            if !names.insert(&g.name) {
+                return Err(FontError::TwiceName(g.name.to_string()));
+            }
+            for &c in &g.codepoints {
+                if let Some(other) = chars.insert(c, &g.name) {
+                    let (first, second) = (other.to_string(), g.name.to_string());
+                    return Err(FontError::TwiceChar {
+                        char: c,
+                        first,
+                        second,
+                    });
+                }
+            }
+        }
+        Ok(Self {
+            info,
+            glyphs,
+            kerning: Kerning::default(),
+            features: String::new(),
+        })
+    }
+
+    /// The glyphs in glyph-id order.
+    #[must_use]
+    pub fn glyphs(&self) -> &[Glyph] {
+        &self.glyphs
+    }
+
+    /// The same font with every outline replaced by `change`'s answer.
+    ///
+    /// # Errors
+    /// The first error of `change`.
+    pub fn try_map_outlines<E>(
+        &self,
+        mut change: impl FnMut(&Glyph) -> Result<super::Outline, E>,
+    ) -> Result<Self, E> {
+        let mut font = self.clone();
+        for glyph in &mut font.glyphs {
+            glyph.outline = change(glyph)?;
+        }
+        Ok(font)
+    }
+
+    /// The glyph of that name.
+    #[must_use]
+    pub fn glyph(&self, name: &str) -> Option<&Glyph> {
+        self.glyphs.iter().find(|g| g.name.as_str() == name)
+    }
+}

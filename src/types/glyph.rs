@@ -1,0 +1,123 @@
+//! A glyph: a name, a shape, an advance.
+
+use super::Outline;
+use kurbo::{Affine, Point};
+use std::fmt;
+use thiserror::Error;
+
+/// Why a text is no glyph name.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error(
+    "“{0}” is no glyph name: 1 to 63 of A–Z a–z 0–9 . _ -, not beginning with a digit or a dash"
+)]
+pub struct NameError(pub String);
+
+/// A legal glyph name: what a feature file may write.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Name(String);
+
+impl Name {
+    /// Checks a name.
+    ///
+    /// # Errors
+    /// It is empty, longer than 63 characters, has a character outside `A–Z a–z 0–9 . _ -`, or begins
+    /// with a digit or a dash.
+    pub fn new(name: impl Into<String>) -> Result<Self, NameError> {
+        let name = name.into();
+        let legal = |b: u8| b.is_ascii_alphanumeric() || matches!(b, b'.' | b'_' | b'-');
+        let first = name
+            .bytes()
+            .next()
+            .is_some_and(|b| !b.is_ascii_digit() && b != b'-');
+        if first && name.len() <= 63 && name.bytes().all(legal) {
+            Ok(Self(name))
+        } else {
+            Err(NameError(name))
+        }
+    }
+
+    /// The name.
+    #[must_use]
+    pub fn as_str(&self) -> &str {
+        &self.0
+    }
+}
+
+impl fmt::Display for Name {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+/// A named point for attaching marks (`top`, `_top`, `entry`, `exit`), font units.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Anchor {
+    /// Its name; a leading `_` is the mark's side.
+    pub name: String,
+    /// Where, font units.
+    pub at: Point,
+}
+
+/// Another glyph's shape, placed.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Component {
+    /// The glyph whose shape it is.
+    pub base: Name,
+    /// From that glyph's space to this one's, font units.
+    pub place: Affine,
+}
+
+/// One glyph of a font, font units.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Glyph {
+    /// Unique in the font.
+    pub name: Name,
+    /// Characters it stands for; none for alternates and ligatures.
+    pub codepoints: Vec<char>,
+    /// Advance width, at least 0.
+    pub advance: f64,
+    /// Its own contours.
+    pub outline: Outline,
+    /// Contours of other glyphs.
+    pub components: Vec<Component>,
+    /// Attachment points.
+    pub anchors: Vec<Anchor>,
+}
+
+impl Glyph {
+    /// An empty glyph.
+    #[must_use]
+    pub const fn new(name: Name, codepoints: Vec<char>, advance: f64) -> Self {
+        let outline = Outline::EMPTY;
+        Self {
+            name,
+            codepoints,
+            advance,
+            outline,
+            components: Vec::new(),
+            anchors: Vec::new(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names() {
+        for good in [
+            ".notdef",
+            "a",
+            "beh-ar.init",
+            "uni06440627.fina",
+            "_part.dot",
+        ] {
+            assert!(Name::new(good).is_ok(), "{good}");
+        }
+        let long = "a".repeat(64);
+        for bad in ["", "0a", "-a", "a b", "é", long.as_str(), "a/b"] {
+            assert!(Name::new(bad).is_err(), "{bad}");
+        }
+    }
+}

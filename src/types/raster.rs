@@ -1,0 +1,222 @@
+//! Pictures: grey ink coverage and bits.
+
+use thiserror::Error;
+
+/// Why a picture could not be made.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum RasterError {
+    /// The number of samples is not width × height.
+    #[error("a picture of {width}×{height} px needs {} samples, not {samples}", width * height)]
+    Size {
+        /// px
+        width: usize,
+        /// px
+        height: usize,
+        /// samples given
+        samples: usize,
+    },
+    /// A sample is NaN, infinite or far outside 0…1.
+    #[error("sample {index} of the picture is {value}, not ink between 0 and 1")]
+    Value {
+        /// index of the sample, row-major
+        index: usize,
+        /// its value
+        value: f32,
+    },
+}
+
+/// Ink coverage: 0 is paper and 1 is ink. Rows from the top; the centre of pixel (0, 0) is at (½, ½).
+///
+/// A scanner's noise swings about both levels, so samples may pass 0 and 1 by up to [`Gray::OVERSHOOT`]:
+/// cutting the noise off there would shift every level estimated from them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Gray {
+    width: usize,
+    height: usize,
+    samples: Vec<f32>,
+}
+
+impl Gray {
+    /// How far a sample may lie outside 0…1.
+    pub const OVERSHOOT: f32 = 0.5;
+
+    /// A picture of `width` × `height` px from row-major coverage.
+    ///
+    /// # Errors
+    /// The number of samples is wrong, or one is not finite or outside 0…1 by more than
+    /// [`Gray::OVERSHOOT`].
+    pub fn new(width: usize, height: usize, samples: Vec<f32>) -> Result<Self, RasterError> {
+        if width.checked_mul(height) != Some(samples.len()) {
+            return Err(RasterError::Size {
+                width,
+                height,
+                samples: samples.len(),
+            });
+        }
+        let range = -Self::OVERSHOOT..=1.0 + Self::OVERSHOOT;
+        if let Some((index, &value)) = samples
+            .iter()
+            .enumerate()
+            .find(|(_, v)| !range.contains(*v))
+        {
+            return Err(RasterError::Value { index, value });
+        }
+        Ok(Self {
+            width,
+            height,
+            samples,
+        })
+    }
+
+    /// Samples a function of the pixel's column and row, cut to the legal range; NaN becomes paper.
+    #[must_use]
+    pub fn from_fn(width: usize, height: usize, mut ink: impl FnMut(usize, usize) -> f32) -> Self {
+        let mut samples = Vec::with_capacity(width * height);
+        for y in 0..height {
+            for x in 0..width {
+                let v = ink(x, y);
+                let v = if v.is_nan() { 0.0 } else { v };
+                samples.push(v.clamp(-Self::OVERSHOOT, 1.0 + Self::OVERSHOOT));
+            }
+        }
+        Self {
+            width,
+            height,
+            samples,
+        }
+    }
+
+    /// Columns, px.
+    #[must_use]
+    pub const fn width(&self) -> usize {
+        self.width
+    }
+
+    /// Rows, px.
+    #[must_use]
+    pub const fn height(&self) -> usize {
+        self.height
+    }
+
+    /// All samples, row-major.
+    #[must_use]
+    pub fn samples(&self) -> &[f32] {
+        &self.samples
+    }
+
+    /// The coverage of the pixel in column `x` of row `y`; paper outside the picture.
+    #[must_use]
+    pub fn at(&self, x: usize, y: usize) -> f32 {
+        if x < self.width && y < self.height {
+            self.samples[y * self.width + x]
+        } else {
+            0.0
+        }
+    }
+
+    /// One row of samples; empty outside the picture.
+    #[must_use]
+    pub fn row(&self, y: usize) -> &[f32] {
+        self.samples
+            .get(y * self.width..(y + 1) * self.width)
+            .unwrap_or(&[])
+    }
+}
+
+/// Ink (true) or paper, rows from the top.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Bitmap {
+    width: usize,
+    height: usize,
+    bits: Vec<bool>,
+}
+
+impl Bitmap {
+    /// A picture of `width` × `height` px from row-major bits.
+    ///
+    /// # Errors
+    /// The number of bits is not width × height.
+    pub fn new(width: usize, height: usize, bits: Vec<bool>) -> Result<Self, RasterError> {
+        if width.checked_mul(height) == Some(bits.len()) {
+            Ok(Self {
+                width,
+                height,
+                bits,
+            })
+        } else {
+            Err(RasterError::Size {
+                width,
+                height,
+                samples: bits.len(),
+            })
+        }
+    }
+
+    /// The pixels whose coverage is at least `level`.
+    #[must_use]
+    pub fn threshold(gray: &Gray, level: f32) -> Self {
+        let bits = gray.samples().iter().map(|&v| v >= level).collect();
+        Self {
+            width: gray.width(),
+            height: gray.height(),
+            bits,
+        }
+    }
+
+    /// Columns, px.
+    #[must_use]
+    pub const fn width(&self) -> usize {
+        self.width
+    }
+
+    /// Rows, px.
+    #[must_use]
+    pub const fn height(&self) -> usize {
+        self.height
+    }
+
+    /// All bits, row-major.
+    #[must_use]
+    pub fn bits(&self) -> &[bool] {
+        &self.bits
+    }
+
+    /// Whether the pixel in column `x` of row `y` is ink; paper outside the picture.
+    #[must_use]
+    pub fn at(&self, x: usize, y: usize) -> bool {
+        x < self.width && y < self.height && self.bits[y * self.width + x]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_picture_keeps_its_shape_rule() {
+        assert!(Gray::new(2, 2, vec![0.0; 4]).is_ok());
+        assert!(matches!(
+            Gray::new(2, 2, vec![0.0; 3]),
+            Err(RasterError::Size { .. })
+        ));
+        assert!(matches!(
+            Gray::new(usize::MAX, 2, vec![]),
+            Err(RasterError::Size { .. })
+        ));
+        assert!(matches!(
+            Gray::new(1, 1, vec![f32::NAN]),
+            Err(RasterError::Value { .. })
+        ));
+        assert!(Bitmap::new(3, 1, vec![true; 3]).is_ok());
+        assert!(Bitmap::new(3, 1, vec![true; 2]).is_err());
+    }
+
+    #[test]
+    fn outside_is_paper() {
+        let g = Gray::from_fn(2, 1, |x, _| x as f32);
+        assert!(g.at(1, 0) > 0.5 && g.at(2, 0) < 0.5 && g.at(0, 1) < 0.5);
+        let b = Bitmap::threshold(&g, 0.5);
+        assert!(b.at(1, 0) && !b.at(0, 0) && !b.at(5, 5));
+    }
+}

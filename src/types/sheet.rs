@@ -1,0 +1,47 @@
+//! Pages and the cells that are cut from them.
+
+use super::Gray;
+use kurbo::{Affine, Rect};
+
+/// A scanned page, its light evened out.
+#[derive(Debug, Clone)]
+pub struct Sheet {
+    /// Ink coverage, px, y down.
+    pub gray: Gray,
+    /// Resolution, dots an inch, where the file says so.
+    pub dpi: Option<f64>,
+    /// The file it came from, as messages name it.
+    pub source: String,
+}
+
+/// The glyph name or character that a cell is said to hold, as the user wrote it.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Label(pub String);
+
+/// Heights that the page, never the cell's own ink, gives a cell.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Guides {
+    /// The baseline, px below the cell's top edge.
+    pub baseline_px: f64,
+    /// Pixels an em.
+    pub px_per_em: f64,
+    /// Left and right ends of the glyph's advance, px from the cell's left edge, where the page says them.
+    pub advance_px: Option<(f64, f64)>,
+}
+
+/// One letter of a page: the ink that belongs to it and nothing else.
+#[derive(Debug, Clone)]
+pub struct Cell {
+    /// What it is said to hold.
+    pub label: Label,
+    /// Position in reading order, from 0.
+    pub index: usize,
+    /// Coverage inside the cell; other cells' ink, printed lines and dust are paper here.
+    pub gray: Gray,
+    /// The ink's rectangle in the sheet's picture, px, y down, inside the picture.
+    pub in_sheet: Rect,
+    /// From cell px (y down) to px of the sheet's picture.
+    pub to_sheet: Affine,
+    /// Baseline and scale.
+    pub guides: Guides,
+}

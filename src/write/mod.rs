@@ -1,0 +1,1 @@
+//! Font → Files: TTF, OTF, WOFF2, UFO, SVG, proof.

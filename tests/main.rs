@@ -1,0 +1,4 @@
+//! All integration tests, linked once.
+
+mod layers;
+mod papers;
