@@ -1,1 +1,82 @@
-//! Cubic Outline → quadratic Outline.
+//! Cubic outline → quadratic outline, which is all that TrueType can draw.
+//!
+//! | takes | gives |
+//! |---|---|
+//! | [`Outline`] of lines, quadratics and cubics; a tolerance, font units | [`Outline`] of lines and quadratics |
+//!
+//! A room a method, each a struct of options; [`Method`] is the menu. Both directions of the
+//! distance between the two outlines stay below the tolerance. A point that joins two quadratics
+//! half way between their control points need not be stored: TrueType implies it.
+
+pub mod split;
+
+use crate::types::{Outline, OutlineError};
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+/// Why an outline has no quadratic form.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum QuadraticError {
+    /// The tolerance is not a positive number.
+    #[error("the tolerance is {0} units; it must be a positive number")]
+    Tolerance(f64),
+    /// The curves are no outline: a coordinate left the range of numbers.
+    #[error(transparent)]
+    Outline(#[from] OutlineError),
+}
+
+/// The conversions one can choose, with their options.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "method", rename_all = "kebab-case")]
+#[non_exhaustive]
+pub enum Method {
+    /// Each cubic alone.
+    Split(split::Split),
+}
+
+impl Default for Method {
+    fn default() -> Self {
+        Self::Split(split::Split::default())
+    }
+}
+
+impl Method {
+    /// Every method with its default options.
+    #[must_use]
+    pub fn all() -> Vec<Self> {
+        vec![Self::Split(split::Split::default())]
+    }
+
+    /// The word for it on the command line, in project files and snapshots.
+    #[must_use]
+    pub const fn key(&self) -> &'static str {
+        match self {
+            Self::Split(_) => "split",
+        }
+    }
+
+    /// One line for `khatt methods`.
+    #[must_use]
+    pub const fn about(&self) -> &'static str {
+        match self {
+            Self::Split(_) => "each cubic alone, implied points where they fall out",
+        }
+    }
+
+    /// The outline in lines and quadratics, nowhere farther than `tolerance` (font units) from the given one.
+    ///
+    /// # Errors
+    /// The tolerance is not positive.
+    pub fn convert(&self, outline: &Outline, tolerance: f64) -> Result<Outline, QuadraticError> {
+        if !(tolerance > 0.0 && tolerance.is_finite()) {
+            return Err(QuadraticError::Tolerance(tolerance));
+        }
+        match self {
+            Self::Split(m) => m.convert(outline, tolerance),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,78 @@
+use super::{Method, QuadraticError};
+use crate::types::Outline;
+use kurbo::{BezPath, ParamCurve, ParamCurveNearest, PathSeg, Point};
+use proptest::prelude::*;
+
+/// The largest distance of samples of `a` from `b`.
+fn apart(a: &Outline, b: &Outline) -> f64 {
+    let segs: Vec<PathSeg> = b.to_path().segments().collect();
+    let near = |p: Point| {
+        let all = segs.iter().map(|s| s.nearest(p, 1e-9).distance_sq);
+        all.fold(f64::INFINITY, f64::min).sqrt()
+    };
+    let ts = (0..=24).map(|i| f64::from(i) / 24.0);
+    let samples = a
+        .to_path()
+        .segments()
+        .collect::<Vec<_>>()
+        .into_iter()
+        .flat_map(|s| ts.clone().map(move |t| s.eval(t)).collect::<Vec<_>>());
+    samples.map(near).fold(0.0, f64::max)
+}
+
+fn outline(svg: &str) -> Outline {
+    Outline::new(vec![BezPath::from_svg(svg).unwrap()]).unwrap()
+}
+
+fn coordinate() -> impl Strategy<Value = f64> {
+    (-800.0..1200.0f64).prop_map(|v| (v * 4.0).round() / 4.0)
+}
+
+prop_compose! {
+    fn ring()(p in prop::collection::vec((coordinate(), coordinate()), 4..20), kinds in prop::collection::vec(0..3u8, 8)) -> Outline {
+        let mut points = p.into_iter().map(Point::from);
+        let mut path = BezPath::new();
+        path.move_to(points.next().unwrap());
+        for kind in kinds {
+            let mut next = || points.next();
+            match kind {
+                0 => if let Some(p) = next() { path.line_to(p) },
+                1 => if let (Some(a), Some(b)) = (next(), next()) { path.quad_to(a, b) },
+                _ => if let (Some(a), Some(b), Some(c)) = (next(), next(), next()) { path.curve_to(a, b, c) },
+            }
+        }
+        path.close_path();
+        Outline::new(vec![path]).unwrap()
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(40))]
+
+    #[test]
+    fn within_the_tolerance_both_ways(o in ring(), tolerance in 0.3..4.0f64) {
+        for method in Method::all() {
+            let q = method.convert(&o, tolerance).unwrap();
+            let (there, back) = (apart(&o, &q), apart(&q, &o));
+            prop_assert!(there <= tolerance + 1e-6, "{}: {there} > {tolerance}", method.key());
+            prop_assert!(back <= tolerance + 1e-6, "{}: {back} > {tolerance}", method.key());
+            prop_assert!(q.to_path().segments().all(|s| !matches!(s, PathSeg::Cubic(_))));
+        }
+    }
+}
+
+#[test]
+fn a_tolerance_is_positive() {
+    for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        let err = Method::default().convert(&Outline::EMPTY, bad);
+        assert!(matches!(err, Err(QuadraticError::Tolerance(_))), "{bad}");
+    }
+}
+
+#[test]
+fn lines_and_quadratics_stay() {
+    let o = outline("M0 0L100 0Q150 50 100 100L0 100Z");
+    for method in Method::all() {
+        assert_eq!(method.convert(&o, 1.0).unwrap(), o, "{}", method.key());
+    }
+}
