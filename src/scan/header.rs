@@ -1,0 +1,180 @@
+//! What the headers of picture files say beside the pixels: resolution, further pages, completeness.
+
+use exif::{In, Reader, Tag, Value};
+use std::io::Cursor;
+
+/// Dots an inch below which a figure is taken for a slip.
+const MIN_DPI: f64 = 20.0;
+/// Dots an inch above which a figure is taken for a slip.
+const MAX_DPI: f64 = 20_000.0;
+/// What Exif writes when the resolution is unknown, dots an inch (Exif 2.3 sec. 4.6.4, `XResolution`).
+const EXIF_UNKNOWN_DPI: f64 = 72.0;
+/// How far the resolutions of the two axes may differ, as a ratio, and still count as one.
+const SQUARE: f64 = 0.01;
+/// Metres an inch.
+const METRES_PER_INCH: f64 = 0.0254;
+/// Centimetres an inch.
+const CM_PER_INCH: f64 = 2.54;
+
+/// Resolution in dots an inch where the file says it, says it for both axes alike, and it makes sense.
+pub(super) fn dpi(bytes: &[u8]) -> Option<f64> {
+    let exact = || {
+        png_dpi(bytes)
+            .or_else(|| bmp_dpi(bytes))
+            .or_else(|| pcx_dpi(bytes))
+    };
+    let (x, y) = exact()
+        .or_else(|| exif_dpi(bytes))
+        .or_else(|| jfif_dpi(bytes))?;
+    let fine = (MIN_DPI..=MAX_DPI).contains(&x) && (x / y - 1.0).abs() <= SQUARE;
+    fine.then_some(x)
+}
+
+fn be16(bytes: &[u8], at: usize) -> Option<u16> {
+    Some(u16::from_be_bytes(*bytes.get(at..)?.first_chunk()?))
+}
+
+fn be32(bytes: &[u8], at: usize) -> Option<u32> {
+    Some(u32::from_be_bytes(*bytes.get(at..)?.first_chunk()?))
+}
+
+fn le32(bytes: &[u8], at: usize) -> Option<u32> {
+    Some(u32::from_le_bytes(*bytes.get(at..)?.first_chunk()?))
+}
+
+/// `pHYs`, which stands before the first `IDAT`.
+fn png_dpi(bytes: &[u8]) -> Option<(f64, f64)> {
+    let mut at = bytes.starts_with(b"\x89PNG").then_some(8)?;
+    loop {
+        let length = be32(bytes, at)? as usize;
+        match bytes.get(at + 4..at + 8)? {
+            b"pHYs" if bytes.get(at + 16) == Some(&1) => {
+                let axis = |o| Some(f64::from(be32(bytes, at + o)?) * METRES_PER_INCH);
+                return Some((axis(8)?, axis(12)?));
+            }
+            b"IDAT" => return None,
+            _ => at = at.checked_add(length)?.checked_add(12)?,
+        }
+    }
+}
+
+/// Pixels a metre of `BITMAPINFOHEADER`.
+fn bmp_dpi(bytes: &[u8]) -> Option<(f64, f64)> {
+    let known = bytes.starts_with(b"BM") && le32(bytes, 14)? >= 40;
+    let axis = |o| Some(f64::from(le32(bytes, o)?) * METRES_PER_INCH);
+    known.then_some((axis(38)?, axis(42)?))
+}
+
+/// Dots an inch of a PCX header.
+fn pcx_dpi(bytes: &[u8]) -> Option<(f64, f64)> {
+    let axis = |o| {
+        Some(f64::from(u16::from_le_bytes(
+            *bytes.get(o..)?.first_chunk()?,
+        )))
+    };
+    is_pcx(bytes).then_some((axis(12)?, axis(14)?))
+}
+
+/// Whether the first bytes are those of a PCX file: maker 10, a known version, run-length coding.
+pub(super) fn is_pcx(bytes: &[u8]) -> bool {
+    matches!(bytes, [10, 0 | 2 | 3 | 4 | 5, 0 | 1, 1 | 2 | 4 | 8, ..])
+}
+
+/// `XResolution` and `YResolution` of TIFF itself and of Exif inside JPEG, WebP and PNG.
+fn exif_dpi(bytes: &[u8]) -> Option<(f64, f64)> {
+    let exif = Reader::new()
+        .read_from_container(&mut Cursor::new(bytes))
+        .ok()?;
+    let axis = |tag| match exif.get_field(tag, In::PRIMARY)?.value {
+        Value::Rational(ref v) => v.first().map(|r| r.to_f64()),
+        _ => None,
+    };
+    let unit = exif.get_field(Tag::ResolutionUnit, In::PRIMARY);
+    let scale = match unit.and_then(|f| f.value.get_uint(0)) {
+        Some(3) => CM_PER_INCH,
+        Some(1) => return None,
+        _ => 1.0,
+    };
+    let (x, y) = (
+        axis(Tag::XResolution)? * scale,
+        axis(Tag::YResolution)? * scale,
+    );
+    ((x - EXIF_UNKNOWN_DPI).abs() > 1e-9).then_some((x, y))
+}
+
+/// Density of a JFIF header, which is the first segment of its file.
+fn jfif_dpi(bytes: &[u8]) -> Option<(f64, f64)> {
+    let here = bytes.starts_with(b"\xff\xd8\xff\xe0") && bytes.get(6..11) == Some(b"JFIF\0");
+    let scale = match (here, bytes.get(13)?) {
+        (true, 1) => 1.0,
+        (true, 2) => CM_PER_INCH,
+        _ => return None,
+    };
+    let axis = |o| Some(f64::from(be16(bytes, o)?) * scale);
+    Some((axis(14)?, axis(16)?))
+}
+
+/// Whether a JPEG file reaches its end marker. Decoders fill what is missing with grey.
+pub(super) fn jpeg_is_whole(bytes: &[u8]) -> bool {
+    fn end(bytes: &[u8]) -> Option<()> {
+        let mut at = 2;
+        loop {
+            while *bytes.get(at)? != 0xff {
+                at += 1;
+            }
+            match bytes.get(at + 1)? {
+                0xd9 => return Some(()),
+                0xff => at += 1,
+                // stuffed bytes and restarts inside the coded picture, and markers without a length
+                0x00 | 0x01 | 0xd0..=0xd8 => at += 2,
+                _ => at += 2 + usize::from(be16(bytes, at + 2)?),
+            }
+        }
+    }
+    end(bytes).is_some()
+}
+
+/// The pages of a TIFF file, each as a file of its own whose header points to that page's directory;
+/// empty when there are fewer than two or the chain is broken.
+pub(super) fn tiff_pages(bytes: &[u8]) -> Vec<Vec<u8>> {
+    /// Pages of one file; a chain that is longer runs in a circle.
+    const MAX_PAGES: usize = 1000;
+    let little = match bytes.get(..4) {
+        Some(b"II*\0") => true,
+        Some(b"MM\0*") => false,
+        _ => return Vec::new(),
+    };
+    let u32_at = |at| {
+        if little {
+            le32(bytes, at)
+        } else {
+            be32(bytes, at)
+        }
+    };
+    let u16_at = |at| {
+        Some(if little {
+            be16(bytes, at)?.swap_bytes()
+        } else {
+            be16(bytes, at)?
+        })
+    };
+    let next = |at: usize| {
+        let entries = usize::from(u16_at(at)?);
+        u32_at(at.checked_add(2 + 12 * entries)?)
+    };
+    let first = u32_at(4).filter(|&o| o != 0);
+    let chain = std::iter::successors(first, |&o| next(o as usize).filter(|&o| o != 0));
+    let starts: Vec<u32> = chain.take(MAX_PAGES + 1).collect();
+    if starts.len() < 2 || starts.len() > MAX_PAGES {
+        return Vec::new();
+    }
+    let page = |start: u32| {
+        let order = if little {
+            start.to_le_bytes()
+        } else {
+            start.to_be_bytes()
+        };
+        [&bytes[..4], &order, &bytes[8..]].concat()
+    };
+    starts.into_iter().map(page).collect()
+}

@@ -1,0 +1,209 @@
+//! Picture files → [`Sheet`]s: decoded, turned as the file says, grey, ink made 1.
+
+use super::error::{MAX_PIXELS, ScanError};
+use super::header;
+use crate::types::{Gray, Sheet};
+use image::error::ImageError;
+use image::metadata::Orientation;
+use image::{DynamicImage, ImageDecoder, ImageReader, Limits};
+use image_extras::pcx::PCXDecoder;
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+use std::io::{Cursor, ErrorKind};
+
+/// Bytes that decoding one page may take: eight a pixel, 16 bit RGBA, of the largest page.
+const MAX_BYTES: u64 = 8 * MAX_PIXELS;
+/// Rec. 709 luma weights of red, green and blue.
+const LUMA: [f32; 3] = [0.2126, 0.7152, 0.0722];
+/// A picture whose colours differ by less than this, of 1, says nothing by its colours.
+const FLAT: f32 = 0.02;
+/// Share of dark pixels, of the outermost ring, from which the picture counts as light on dark.
+const DARK_RING: f32 = 0.9;
+
+/// Which of dark and light is the ink.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Polarity {
+    /// Dark ink, unless most of the picture and nine tenths of its outermost ring of pixels are dark.
+    #[default]
+    Auto,
+    /// Dark ink on light paper.
+    DarkInk,
+    /// Light ink on a dark ground.
+    LightInk,
+}
+
+/// The pages of a file in order, almost always one: PNG, JPEG, TIFF, BMP, GIF, WebP, PNM or PCX of 8 or
+/// 16 bit. `source` names the file in messages.
+///
+/// Ink is 1 − luma (or luma, see [`Polarity`]), black and white of the file being 1 and 0: levels and noise
+/// stay as they were scanned. Transparency lies over white paper; where colour says nothing, opacity is the ink.
+///
+/// # Errors
+/// The content is no picture of these kinds, ends too early, is damaged, or is larger than a page can be.
+pub fn load(bytes: &[u8], source: &str, polarity: Polarity) -> Result<Vec<Sheet>, ScanError> {
+    let pages = header::tiff_pages(bytes);
+    if pages.is_empty() {
+        return Ok(vec![load_page(bytes, source, polarity)?]);
+    }
+    let named = pages.iter().zip(1..);
+    named
+        .map(|(page, n)| load_page(page, &format!("{source}, page {n}"), polarity))
+        .collect()
+}
+
+fn load_page(bytes: &[u8], source: &str, polarity: Polarity) -> Result<Sheet, ScanError> {
+    let image = decode(bytes, source)?;
+    let (width, height) = (image.width() as usize, image.height() as usize);
+    let mut samples = ink(image);
+    if light_on_dark(&samples, width, polarity) {
+        samples.par_iter_mut().for_each(|v| *v = 1.0 - *v);
+    }
+    let gray = Gray::new(width, height, samples).map_err(|e| ScanError::Decode {
+        source_name: source.to_owned(),
+        why: e.to_string(),
+    })?;
+    Ok(Sheet {
+        gray,
+        dpi: header::dpi(bytes),
+        source: source.to_owned(),
+    })
+}
+
+/// The picture as the file has it, turned upright as its orientation tag says.
+fn decode(bytes: &[u8], source: &str) -> Result<DynamicImage, ScanError> {
+    let source_name = || source.to_owned();
+    let fail = |e: ImageError| match e {
+        ImageError::IoError(e) if e.kind() == ErrorKind::UnexpectedEof => ScanError::Truncated {
+            source_name: source_name(),
+        },
+        e => ScanError::Decode {
+            source_name: source_name(),
+            why: e.to_string(),
+        },
+    };
+    let kind = || ScanError::Kind {
+        source_name: source_name(),
+    };
+    let mut decoder: Box<dyn ImageDecoder + '_> = if header::is_pcx(bytes) {
+        Box::new(PCXDecoder::new(Cursor::new(bytes)).map_err(fail)?)
+    } else {
+        let reader = ImageReader::new(Cursor::new(bytes)).with_guessed_format();
+        let mut reader = reader.map_err(|_| kind())?;
+        reader.format().ok_or_else(kind)?;
+        reader.no_limits();
+        Box::new(reader.into_decoder().map_err(fail)?)
+    };
+    let (width, height) = decoder.dimensions();
+    if u64::from(width) * u64::from(height) > MAX_PIXELS || decoder.total_bytes() > MAX_BYTES {
+        return Err(ScanError::Large {
+            source_name: source_name(),
+            width,
+            height,
+        });
+    }
+    if bytes.starts_with(b"\xff\xd8") && !header::jpeg_is_whole(bytes) {
+        return Err(ScanError::Truncated {
+            source_name: source_name(),
+        });
+    }
+    // `from_decoder` does not hold the decoder to any limit by itself.
+    let mut limits = Limits::no_limits();
+    limits.max_alloc = Some(2 * MAX_BYTES);
+    limits.reserve(decoder.total_bytes()).map_err(fail)?;
+    decoder.set_limits(limits).map_err(fail)?;
+    let orientation = decoder.orientation().unwrap_or(Orientation::NoTransforms);
+    let mut image = DynamicImage::from_decoder(decoder).map_err(fail)?;
+    image.apply_orientation(orientation);
+    Ok(image)
+}
+
+/// Ink of every pixel, 1 − luma over white.
+fn ink(image: DynamicImage) -> Vec<f32> {
+    match image {
+        DynamicImage::ImageLuma8(i) => grey(i.as_raw()),
+        DynamicImage::ImageLumaA8(i) => grey_alpha(i.as_raw()),
+        DynamicImage::ImageRgb8(i) => rgb(i.as_raw()),
+        DynamicImage::ImageRgba8(i) => rgba(i.as_raw()),
+        DynamicImage::ImageLuma16(i) => grey(i.as_raw()),
+        DynamicImage::ImageLumaA16(i) => grey_alpha(i.as_raw()),
+        DynamicImage::ImageRgb16(i) => rgb(i.as_raw()),
+        other => rgba(other.into_rgba16().as_raw()),
+    }
+}
+
+/// A channel's sample, 0 to 1.
+trait Sample: Copy + Sync {
+    fn unit(self) -> f32;
+}
+
+impl Sample for u8 {
+    fn unit(self) -> f32 {
+        f32::from(self) / 255.0
+    }
+}
+
+impl Sample for u16 {
+    fn unit(self) -> f32 {
+        f32::from(self) / 65535.0
+    }
+}
+
+fn luma<S: Sample>(p: &[S]) -> f32 {
+    p.iter().zip(LUMA).map(|(s, w)| s.unit() * w).sum()
+}
+
+fn grey<S: Sample>(raw: &[S]) -> Vec<f32> {
+    raw.par_iter().map(|s| 1.0 - s.unit()).collect()
+}
+
+fn rgb<S: Sample>(raw: &[S]) -> Vec<f32> {
+    raw.par_chunks_exact(3).map(|p| 1.0 - luma(p)).collect()
+}
+
+fn grey_alpha<S: Sample>(raw: &[S]) -> Vec<f32> {
+    let pixels = raw.par_chunks_exact(2);
+    over_white(pixels.map(|p| (p[0].unit(), p[1].unit())).collect())
+}
+
+fn rgba<S: Sample>(raw: &[S]) -> Vec<f32> {
+    let pixels = raw.par_chunks_exact(4);
+    over_white(pixels.map(|p| (luma(&p[..3]), p[3].unit())).collect())
+}
+
+/// Ink of (luma, opacity) pixels over white paper; where the visible colours are all one, the opacity.
+fn over_white(pixels: Vec<(f32, f32)>) -> Vec<f32> {
+    let span = |a: (f32, f32), v: f32| (a.0.min(v), a.1.max(v));
+    let none = (f32::INFINITY, f32::NEG_INFINITY);
+    let visible = pixels.iter().filter(|p| p.1 > FLAT).map(|p| p.0);
+    let (dark, light) = visible.fold(none, span);
+    let (clear, opaque) = pixels.iter().map(|p| p.1).fold(none, span);
+    let by_opacity = light - dark < FLAT && opaque - clear > FLAT;
+    let ink = |(v, a): (f32, f32)| if by_opacity { a } else { (1.0 - v) * a };
+    pixels.into_par_iter().map(ink).collect()
+}
+
+/// Whether light is the ink.
+fn light_on_dark(ink: &[f32], width: usize, polarity: Polarity) -> bool {
+    let dark = |v: &&f32| **v > 0.5;
+    match polarity {
+        Polarity::DarkInk => false,
+        Polarity::LightInk => true,
+        Polarity::Auto => {
+            let rows = || ink.chunks(width.max(1));
+            let sides = rows().flat_map(|r| r.first().into_iter().chain(r.last()));
+            let ends = rows()
+                .next()
+                .into_iter()
+                .chain(rows().next_back())
+                .flatten();
+            let ring: Vec<&f32> = sides.chain(ends).collect();
+            let ring_dark = ring.iter().filter(|v| dark(v)).count();
+            ring_dark as f32 > DARK_RING * ring.len() as f32
+                && ink.par_iter().filter(dark).count() * 2 > ink.len()
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

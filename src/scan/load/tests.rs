@@ -1,0 +1,218 @@
+use super::*;
+use image::imageops::invert;
+use image::{
+    ExtendedColorType, GrayImage, ImageEncoder, ImageFormat, Luma, codecs::tiff::TiffEncoder,
+};
+
+/// A ramp with a dark spot.
+fn picture() -> GrayImage {
+    GrayImage::from_fn(40, 30, |x, y| {
+        let spot = (10..14).contains(&x) && (8..12).contains(&y);
+        Luma([if spot {
+            20
+        } else {
+            200 + u8::try_from(x).unwrap_or(0)
+        }])
+    })
+}
+
+fn encoded(image: &DynamicImage, format: ImageFormat) -> Vec<u8> {
+    let mut out = Cursor::new(Vec::new());
+    image.write_to(&mut out, format).unwrap();
+    out.into_inner()
+}
+
+fn one(bytes: &[u8]) -> Sheet {
+    let mut pages = load(bytes, "page", Polarity::Auto).unwrap();
+    assert_eq!(pages.len(), 1, "one page");
+    pages.remove(0)
+}
+
+/// The picture as PCX of 8 bit with a grey palette, by hand.
+fn pcx(image: &GrayImage) -> Vec<u8> {
+    let mut out = vec![10, 5, 1, 8, 0, 0, 0, 0, 39, 0, 29, 0, 44, 1, 44, 1];
+    out.resize(128, 0);
+    (out[65], out[66], out[68]) = (1, 40, 1);
+    for p in image.as_raw() {
+        out.extend(if *p >= 0xc0 { vec![0xc1, *p] } else { vec![*p] });
+    }
+    out.push(12);
+    out.extend((0..=255u8).flat_map(|v| [v, v, v]));
+    out
+}
+
+#[test]
+fn every_kind_of_file_gives_the_same_ink() {
+    let grey = DynamicImage::ImageLuma8(picture());
+    let colour = DynamicImage::ImageRgb8(grey.to_rgb8());
+    let deep = DynamicImage::ImageLuma16(grey.to_luma16());
+    let files = [
+        encoded(&grey, ImageFormat::Png),
+        encoded(&deep, ImageFormat::Png),
+        encoded(&colour, ImageFormat::Png),
+        encoded(
+            &DynamicImage::ImageRgba16(grey.to_rgba16()),
+            ImageFormat::Png,
+        ),
+        encoded(
+            &DynamicImage::ImageLumaA8(grey.to_luma_alpha8()),
+            ImageFormat::Png,
+        ),
+        encoded(&deep, ImageFormat::Tiff),
+        encoded(&colour, ImageFormat::Bmp),
+        encoded(&colour, ImageFormat::WebP),
+        encoded(&grey, ImageFormat::Pnm),
+        encoded(&colour, ImageFormat::Gif),
+        pcx(&picture()),
+    ];
+    for (i, file) in files.iter().enumerate() {
+        let sheet = one(file);
+        assert_eq!((sheet.gray.width(), sheet.gray.height()), (40, 30));
+        for (got, raw) in sheet.gray.samples().iter().zip(picture().as_raw()) {
+            let want = 1.0 - f32::from(*raw) / 255.0;
+            assert!((got - want).abs() < 1e-5, "file {i}: {got} for {want}");
+        }
+    }
+    let lossy = one(&encoded(&grey, ImageFormat::Jpeg));
+    assert!(
+        lossy.gray.at(12, 10) > 0.8 && lossy.gray.at(30, 20) < 0.2,
+        "JPEG"
+    );
+}
+
+#[test]
+fn every_page_of_a_tiff_is_read() {
+    let mut out = Cursor::new(Vec::new());
+    let raw = picture().into_raw();
+    TiffEncoder::new(&mut out)
+        .write_image(&raw, 40, 30, ExtendedColorType::L8)
+        .unwrap();
+    let mut file = out.into_inner();
+    // a second directory that shows the same strips, one column narrower on paper
+    let start = u32::from_le_bytes(*file[4..].first_chunk().unwrap()) as usize;
+    let entries = usize::from(u16::from_le_bytes([file[start], file[start + 1]]));
+    let end = start + 2 + 12 * entries;
+    let second = u32::try_from(file.len()).unwrap();
+    let copy = file[start..end + 4].to_vec();
+    file[end..end + 4].copy_from_slice(&second.to_le_bytes());
+    file.extend(copy);
+    let pages = load(&file, "two.tif", Polarity::Auto).unwrap();
+    assert_eq!(pages.len(), 2);
+    assert_eq!(pages[0].gray, pages[1].gray);
+    assert_eq!(pages[1].source, "two.tif, page 2");
+    let circle = u32::try_from(start).unwrap().to_le_bytes();
+    let last = file.len() - 4;
+    file[last..].copy_from_slice(&circle);
+    assert!(
+        load(&file, "circle.tif", Polarity::Auto).is_ok(),
+        "a circle of pages ends"
+    );
+}
+
+#[test]
+fn light_ink_and_opacity_become_ink() {
+    let mut dark = picture();
+    invert(&mut dark);
+    let turned = one(&encoded(
+        &DynamicImage::ImageLuma8(dark.clone()),
+        ImageFormat::Png,
+    ));
+    assert!(turned.gray.at(12, 10) > 0.9 && turned.gray.at(30, 20) < 0.2);
+    let bytes = encoded(&DynamicImage::ImageLuma8(dark), ImageFormat::Png);
+    let kept = load(&bytes, "dark", Polarity::DarkInk).unwrap();
+    assert!(kept[0].gray.at(12, 10) < 0.1, "as told");
+    let glass = image::GrayAlphaImage::from_fn(9, 9, |x, _| {
+        image::LumaA([255, if x == 4 { 200 } else { 0 }])
+    });
+    let drawn = one(&encoded(
+        &DynamicImage::ImageLumaA8(glass),
+        ImageFormat::Png,
+    ));
+    assert!(drawn.gray.at(4, 4) > 0.7 && drawn.gray.at(1, 4) < 0.01);
+}
+
+#[test]
+fn orientation_and_resolution_come_from_the_file() {
+    let jpeg = encoded(&DynamicImage::ImageLuma8(picture()), ImageFormat::Jpeg);
+    let tiff = [
+        b"MM\0*\0\0\0\x08\0\x04".as_slice(),
+        b"\x01\x12\0\x03\0\0\0\x01\0\x06\0\0", // orientation: turn by 90°
+        b"\x01\x1a\0\x05\0\0\0\x01\0\0\0\x3e",
+        b"\x01\x1b\0\x05\0\0\0\x01\0\0\0\x3e",
+        b"\x01\x28\0\x03\0\0\0\x01\0\x02\0\0",
+        b"\0\0\0\0\0\0\x02\x58\0\0\0\x01",
+    ]
+    .concat();
+    let length = u16::try_from(tiff.len() + 8).unwrap().to_be_bytes();
+    let app1 = [b"\xff\xe1".as_slice(), &length, b"Exif\0\0", &tiff].concat();
+    let with = [&jpeg[..2], &app1, &jpeg[2..]].concat();
+    let sheet = one(&with);
+    assert_eq!(
+        (sheet.gray.width(), sheet.gray.height()),
+        (30, 40),
+        "turned"
+    );
+    assert_eq!(sheet.dpi, Some(600.0));
+    let mut jfif = jpeg;
+    assert_eq!(&jfif[6..10], b"JFIF");
+    jfif[13..18].copy_from_slice(&[2, 0, 118, 0, 118]);
+    assert!(
+        (one(&jfif).dpi.unwrap() - 299.72).abs() < 0.01,
+        "dots a centimetre"
+    );
+    let png = encoded(&DynamicImage::ImageLuma8(picture()), ImageFormat::Png);
+    assert_eq!(one(&png).dpi, None);
+    let phys = b"\0\0\0\x09pHYs\0\0\x2e\x23\0\0\x2e\x23\x01\x78\xa5\x3f\x76";
+    let with = [&png[..33], phys, &png[33..]].concat();
+    assert!((one(&with).dpi.unwrap() - 300.0).abs() < 0.01);
+    assert!((one(&pcx(&picture())).dpi.unwrap() - 300.0).abs() < 0.01);
+    let mut bmp = encoded(&DynamicImage::ImageLuma8(picture()), ImageFormat::Bmp);
+    bmp[38..46].copy_from_slice(&[0x46, 0x5c, 0, 0, 0x46, 0x5c, 0, 0]);
+    assert!((one(&bmp).dpi.unwrap() - 600.0).abs() < 0.01);
+}
+
+#[test]
+fn what_is_no_whole_picture_is_refused_with_its_name() {
+    let no = |bytes: &[u8]| load(bytes, "x.png", Polarity::Auto).unwrap_err();
+    assert!(matches!(
+        no(b"just some words in a file"),
+        ScanError::Kind { .. }
+    ));
+    assert!(matches!(no(b""), ScanError::Kind { .. }));
+    assert!(no(b"words").to_string().contains("x.png"));
+    let grey = DynamicImage::ImageLuma8(picture());
+    for format in [
+        ImageFormat::Jpeg,
+        ImageFormat::Png,
+        ImageFormat::Tiff,
+        ImageFormat::Bmp,
+        ImageFormat::Gif,
+    ] {
+        let grey = if format == ImageFormat::Gif {
+            DynamicImage::ImageRgb8(grey.to_rgb8())
+        } else {
+            grey.clone()
+        };
+        let file = encoded(&grey, format);
+        for part in [3, 5, 9] {
+            assert!(
+                load(&file[..file.len() * part / 10], "x", Polarity::Auto).is_err(),
+                "{format:?} {part}/10"
+            );
+        }
+    }
+    let mut huge = encoded(&grey, ImageFormat::Png);
+    huge[16..24].copy_from_slice(&[0, 0, 0xea, 0x60, 0, 0, 0xea, 0x60]);
+    // the header's checksum
+    let crc = huge[12..29].iter().fold(!0u32, |c, &b| {
+        (0..8).fold(c ^ u32::from(b), |c, _| {
+            if c & 1 == 1 {
+                c >> 1 ^ 0xedb8_8320
+            } else {
+                c >> 1
+            }
+        })
+    });
+    huge[29..33].copy_from_slice(&(!crc).to_be_bytes());
+    assert!(matches!(no(&huge), ScanError::Large { width: 60_000, .. }));
+}
