@@ -1,4 +1,7 @@
 //! All integration tests, linked once.
 
+mod common;
+mod detectors;
+mod fitters;
 mod layers;
 mod papers;

@@ -8,6 +8,7 @@
 //! No method reports its own residual as the error: the judge measures all of them alike.
 
 pub mod joint;
+pub mod judge;
 
 use crate::types::{Fitted, Span};
 use serde::{Deserialize, Serialize};

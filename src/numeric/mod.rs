@@ -1,1 +1,3 @@
 //! Mathematics without pictures; imports nothing of ours.
+
+pub mod distance;

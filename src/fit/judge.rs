@@ -1,0 +1,170 @@
+//! One measure for all methods: how far a span and its curves lie apart, both ways, px.
+//!
+//! Points to curve tells what the curve misses; curve to points tells where it goes astray between
+//! them. A method's own residual is neither.
+
+use crate::numeric::distance::Polyline;
+use crate::types::Span;
+use kurbo::{BezPath, ParamCurve, ParamCurveArclen, PathEl, Point, flatten};
+
+/// The curve is measured by chords that leave it by no more than this, px: the error of every figure here.
+pub const PRECISION_PX: f64 = 1e-3;
+
+/// Step along the curve when it is measured against the points, px.
+const STEP_PX: f64 = 0.25;
+
+/// Distances one way.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Deviation {
+    /// The largest, px.
+    pub max_px: f64,
+    /// Root of the mean square, px.
+    pub rms_px: f64,
+}
+
+/// How far a span and its curves lie apart.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Judgement {
+    /// From the span's points to the curve; every point counts once.
+    pub points: Deviation,
+    /// From the curve, at equal steps along it, to the span's polyline.
+    pub curve: Deviation,
+}
+
+impl Judgement {
+    /// The larger maximum of both ways, px: the Hausdorff distance.
+    #[must_use]
+    pub const fn max_px(&self) -> f64 {
+        self.points.max_px.max(self.curve.max_px)
+    }
+
+    /// The larger root mean square of both ways, px.
+    #[must_use]
+    pub const fn rms_px(&self) -> f64 {
+        self.points.rms_px.max(self.curve.rms_px)
+    }
+}
+
+/// Measures `path` against `span`; all infinite when the path draws nothing or is not finite.
+#[must_use]
+pub fn judge(span: Span<'_>, path: &BezPath) -> Judgement {
+    Judgement {
+        points: points_to_curve(span.points(), path),
+        curve: curve_to_points(span, path),
+    }
+}
+
+/// The half of [`judge`] that tells what the curve misses.
+#[must_use]
+pub fn points_to_curve(points: &[Point], path: &BezPath) -> Deviation {
+    chords(path).map_or(ASTRAY, |line| deviation(points.iter().copied(), &line))
+}
+
+const ASTRAY: Deviation = Deviation {
+    max_px: f64::INFINITY,
+    rms_px: f64::INFINITY,
+};
+
+fn curve_to_points(span: Span<'_>, path: &BezPath) -> Deviation {
+    let mut ring = span.points().to_vec();
+    if span.is_ring() {
+        ring.extend(span.points().first());
+    }
+    match Polyline::new(ring) {
+        Some(line) if path.is_finite() => deviation(steps(path), &line),
+        _ => ASTRAY,
+    }
+}
+
+/// The path as chords within [`PRECISION_PX`].
+fn chords(path: &BezPath) -> Option<Polyline> {
+    if !path.is_finite() {
+        return None;
+    }
+    let mut points = Vec::new();
+    let mut start = Point::ORIGIN;
+    flatten(path, PRECISION_PX, |el| match el {
+        PathEl::ClosePath => points.push(start),
+        PathEl::MoveTo(p) => {
+            start = p;
+            points.push(p);
+        }
+        el => points.extend(el.end_point()),
+    });
+    Polyline::new(points)
+}
+
+/// Points on the curve, [`STEP_PX`] apart or less.
+fn steps(path: &BezPath) -> impl Iterator<Item = Point> {
+    path.segments().flat_map(|seg| {
+        let n = (seg.arclen(STEP_PX) / STEP_PX).ceil().max(1.0);
+        let count = std::iter::successors(Some(0.0), |i| Some(i + 1.0)).take_while(move |&i| i < n);
+        count.map(move |i| seg.eval((i + 0.5) / n))
+    })
+}
+
+fn deviation(points: impl Iterator<Item = Point>, line: &Polyline) -> Deviation {
+    let (mut max, mut sum, mut n) = (0.0_f64, 0.0, 0.0);
+    for p in points {
+        let d = line.nearest(p).distance;
+        max = max.max(d);
+        sum += d * d;
+        n += 1.0;
+    }
+    if n > 0.0 {
+        Deviation {
+            max_px: max,
+            rms_px: (sum / n).sqrt(),
+        }
+    } else {
+        ASTRAY
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use kurbo::{Circle, Shape};
+
+    fn ring(radius: f64, n: u32) -> Vec<Point> {
+        let at = |i: u32| f64::from(i) / f64::from(n) * std::f64::consts::TAU;
+        (0..n)
+            .map(|i| Point::new(radius * at(i).cos(), radius * at(i).sin()))
+            .collect()
+    }
+
+    #[test]
+    fn circles_lie_apart_by_their_radii() {
+        let path = Circle::new((0.0, 0.0), 20.0).to_path(1e-6);
+        let points = ring(21.0, 1000);
+        let j = judge(Span::Ring(&points), &path);
+        for d in [
+            j.points.max_px,
+            j.points.rms_px,
+            j.curve.max_px,
+            j.curve.rms_px,
+        ] {
+            assert!((d - 1.0).abs() < 2e-3, "{j:?}");
+        }
+    }
+
+    #[test]
+    fn an_offshoot_is_seen_from_the_curve_alone() {
+        let points: Vec<_> = (0..=10).map(|i| Point::new(f64::from(i), 0.0)).collect();
+        let mut path = BezPath::from_vec(vec![PathEl::MoveTo(points[0])]);
+        for p in [(5.0, 0.0), (5.0, 9.0), (5.0, 0.0), (10.0, 0.0)] {
+            path.line_to(p);
+        }
+        let j = judge(Span::Open(&points), &path);
+        assert!(
+            j.points.max_px < 1e-9 && (j.max_px() - 9.0).abs() < STEP_PX,
+            "{j:?}"
+        );
+        assert!(
+            judge(Span::Open(&points), &BezPath::new())
+                .max_px()
+                .is_infinite(),
+            "nothing drawn"
+        );
+    }
+}

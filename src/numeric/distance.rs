@@ -1,0 +1,165 @@
+//! Distance from a point to a polyline, by a tree of boxes over its runs.
+
+use kurbo::{Point, Rect};
+
+/// Segments in a leaf of the tree: below this, looking at all of them is faster than going deeper.
+const LEAF: usize = 8;
+
+/// A polyline made ready for many questions: each costs O(log n) where the line does not fold.
+#[derive(Debug, Clone)]
+pub struct Polyline {
+    points: Vec<Point>,
+    /// Boxes of a complete binary tree, root at 1; the last `leaves` of them are the runs.
+    boxes: Vec<Rect>,
+    leaves: usize,
+}
+
+/// The point of a polyline that lies nearest to the one asked for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Nearest {
+    /// How far away it is, in the points' own unit.
+    pub distance: f64,
+    /// The segment it lies on, counted from 0.
+    pub segment: usize,
+    /// Where on the segment, 0…1.
+    pub t: f64,
+}
+
+impl Polyline {
+    /// Through `points` in order; one point is a segment without length. `None` when there is no point.
+    #[must_use]
+    pub fn new(mut points: Vec<Point>) -> Option<Self> {
+        let &last = points.last()?;
+        if points.len() == 1 {
+            points.push(last);
+        }
+        let runs = (points.len() - 1).div_ceil(LEAF);
+        let leaves = runs.next_power_of_two();
+        let nothing = Rect::new(
+            f64::INFINITY,
+            f64::INFINITY,
+            f64::NEG_INFINITY,
+            f64::NEG_INFINITY,
+        );
+        let mut boxes = vec![nothing; 2 * leaves];
+        for (run, b) in boxes[leaves..].iter_mut().take(runs).enumerate() {
+            let end = ((run + 1) * LEAF + 1).min(points.len());
+            for &p in &points[run * LEAF..end] {
+                *b = b.union_pt(p);
+            }
+        }
+        for i in (1..leaves).rev() {
+            let (a, b) = (boxes[2 * i], boxes[2 * i + 1]);
+            boxes[i] = Rect::new(
+                a.x0.min(b.x0),
+                a.y0.min(b.y0),
+                a.x1.max(b.x1),
+                a.y1.max(b.y1),
+            );
+        }
+        Some(Self {
+            points,
+            boxes,
+            leaves,
+        })
+    }
+
+    /// The nearest point of the line.
+    #[must_use]
+    pub fn nearest(&self, p: Point) -> Nearest {
+        let mut best = Nearest {
+            distance: f64::INFINITY,
+            segment: 0,
+            t: 0.0,
+        };
+        self.descend(1, p, &mut best);
+        best.distance = best.distance.sqrt();
+        best
+    }
+
+    /// Lowers `best`, whose distance is squared here, by what lies below `node`.
+    fn descend(&self, node: usize, p: Point, best: &mut Nearest) {
+        if node >= self.leaves {
+            let start = (node - self.leaves) * LEAF;
+            let end = (start + LEAF + 1).min(self.points.len());
+            for (k, ab) in self.points[start..end].windows(2).enumerate() {
+                let (d2, t) = to_segment(p, ab[0], ab[1]);
+                if d2 < best.distance {
+                    *best = Nearest {
+                        distance: d2,
+                        segment: start + k,
+                        t,
+                    };
+                }
+            }
+            return;
+        }
+        let (mut near, mut far) = (2 * node, 2 * node + 1);
+        let (mut dn, mut df) = (to_box(p, self.boxes[near]), to_box(p, self.boxes[far]));
+        if df < dn {
+            (near, far, dn, df) = (far, near, df, dn);
+        }
+        if dn < best.distance {
+            self.descend(near, p, best);
+        }
+        if df < best.distance {
+            self.descend(far, p, best);
+        }
+    }
+}
+
+/// Squared distance from `p` to segment `ab`, and where on it.
+fn to_segment(p: Point, a: Point, b: Point) -> (f64, f64) {
+    let (d, v) = (b - a, p - a);
+    let len2 = d.hypot2();
+    let t = if len2 > 0.0 {
+        (v.dot(d) / len2).clamp(0.0, 1.0)
+    } else {
+        0.0
+    };
+    ((v - d * t).hypot2(), t)
+}
+
+/// Squared distance from `p` to a box, 0 inside; infinite to the empty box.
+fn to_box(p: Point, r: Rect) -> f64 {
+    let dx = (r.x0 - p.x).max(p.x - r.x1).max(0.0);
+    let dy = (r.y0 - p.y).max(p.y - r.y1).max(0.0);
+    dx * dx + dy * dy
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_tree_finds_what_looking_at_all_finds() {
+        let at = |i: u32| {
+            let a = f64::from(i) * 0.37;
+            Point::new(a.cos() * (3.0 + a), a.sin() * (2.0 + 0.3 * a))
+        };
+        let points: Vec<_> = (0..77).map(at).collect();
+        let line = Polyline::new(points.clone()).unwrap();
+        for i in 0..200 {
+            let p = Point::new(
+                f64::from(i % 17) * 3.1 - 25.0,
+                f64::from(i / 17) * 2.7 - 16.0,
+            );
+            let all = points.windows(2).map(|w| to_segment(p, w[0], w[1]).0);
+            let least = all.fold(f64::INFINITY, f64::min).sqrt();
+            let n = line.nearest(p);
+            assert!((n.distance - least).abs() < 1e-12, "at {p}");
+            let on = points[n.segment].lerp(points[n.segment + 1], n.t);
+            assert!(
+                (on.distance(p) - least).abs() < 1e-12,
+                "the place is the nearest one"
+            );
+        }
+    }
+
+    #[test]
+    fn short_lines() {
+        assert!(Polyline::new(Vec::new()).is_none());
+        let one = Polyline::new(vec![Point::new(3.0, 4.0)]).unwrap();
+        assert!((one.nearest(Point::ORIGIN).distance - 5.0).abs() < 1e-12);
+    }
+}
