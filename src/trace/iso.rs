@@ -1,0 +1,122 @@
+//! Iso-contours of the bilinear surface through the pixels' centres.
+
+use crate::types::Gray;
+use kurbo::Point;
+
+/// A sample's column and row; the picture's own run from 0, and one ring of paper lies around them.
+type Place = (i64, i64);
+
+/// The grid edge that a walker stands on: ink at its left hand, paper at its right.
+#[derive(Clone, Copy, PartialEq, Eq)]
+struct Step {
+    left: Place,
+    right: Place,
+}
+
+/// The picture, with paper around it.
+struct Field<'a> {
+    gray: &'a Gray,
+    level: f64,
+}
+
+impl Field<'_> {
+    fn at(&self, (x, y): Place) -> f64 {
+        match (usize::try_from(x), usize::try_from(y)) {
+            (Ok(x), Ok(y)) => f64::from(self.gray.at(x, y)),
+            _ => 0.0,
+        }
+    }
+
+    fn ink(&self, p: Place) -> bool {
+        self.at(p) >= self.level
+    }
+
+    /// Where the surface passes the level on a grid edge, px, y up.
+    #[expect(clippy::cast_precision_loss, reason = "columns and rows are small")]
+    fn crossing(&self, s: Step) -> Point {
+        let (a, b) = (self.at(s.left), self.at(s.right));
+        let t = (a - self.level) / (a - b);
+        let mix = |l: i64, r: i64| l as f64 + t * (r - l) as f64 + 0.5;
+        let y = mix(s.left.1, s.right.1);
+        Point::new(mix(s.left.0, s.right.0), self.gray.height() as f64 - y)
+    }
+
+    /// The next grid edge around the same ink.
+    fn next(&self, s: Step) -> Step {
+        let Step { left, right } = s;
+        // a quarter turn left from "to the right hand" is "ahead"; y runs down
+        let ahead = (right.1 - left.1, left.0 - right.0);
+        let further = |p: Place| (p.0 + ahead.0, p.1 + ahead.1);
+        let (far_left, far_right) = (further(left), further(right));
+        let around_paper = Step {
+            left: far_right,
+            right,
+        };
+        let around_ink = Step {
+            left,
+            right: far_left,
+        };
+        match (self.ink(far_left), self.ink(far_right)) {
+            (true, true) => around_paper,
+            (true, false) => Step {
+                left: far_left,
+                right: far_right,
+            },
+            (false, false) => around_ink,
+            (false, true) => {
+                // the bilinear surface's own saddle says which diagonal is connected
+                let (l, r) = (self.at(left), self.at(right));
+                let (fl, fr) = (self.at(far_left), self.at(far_right));
+                let saddle = (l * fr - r * fl) / (l + fr - r - fl);
+                if saddle >= self.level {
+                    around_paper
+                } else {
+                    around_ink
+                }
+            }
+        }
+    }
+}
+
+/// All rings at `level`, ink on the left, px, y up; ordered by their first grid edge in reading order.
+pub(super) fn rings(gray: &Gray, level: f64) -> Vec<Vec<Point>> {
+    // below this, the paper around the picture would be ink
+    let level = level.max(f64::MIN_POSITIVE);
+    let field = Field { gray, level };
+    let (w, h) = (gray.width(), gray.height());
+    let mut seen = vec![false; w * h];
+    let mut rings = Vec::new();
+    for (i, x, y) in (0..h).flat_map(|y| (0..w).map(move |x| (y * w + x, x, y))) {
+        let inside = f64::from(gray.at(x, y)) >= level;
+        if !inside || seen[i] || f64::from(gray.at(x + 1, y)) >= level {
+            continue;
+        }
+        // every ring somewhere goes up between ink and the paper right of it
+        let (x, y) = (signed(x), signed(y));
+        let start = Step {
+            left: (x, y),
+            right: (x + 1, y),
+        };
+        let mut ring = Vec::new();
+        let mut at = start;
+        loop {
+            ring.push(field.crossing(at));
+            if at.right == (at.left.0 + 1, at.left.1)
+                && let (Ok(x), Ok(y)) = (usize::try_from(at.left.0), usize::try_from(at.left.1))
+            {
+                seen[y * w + x] = true;
+            }
+            at = field.next(at);
+            if at == start {
+                break;
+            }
+        }
+        rings.push(ring);
+    }
+    rings
+}
+
+/// A column or row as a signed number.
+fn signed(i: usize) -> i64 {
+    i64::try_from(i).unwrap_or(i64::MAX)
+}

@@ -1,0 +1,131 @@
+use super::*;
+use kurbo::Point;
+use proptest::prelude::*;
+
+/// A picture of what `inside` says, 16 × 16 samples a pixel.
+fn picture(w: usize, h: usize, inside: impl Fn(f64, f64) -> bool) -> Gray {
+    Gray::from_fn(w, h, |x, y| {
+        let at = |p: usize, i: usize| p as f64 + (i as f64 + 0.5) / 16.0;
+        let hits = (0..256).filter(|i| inside(at(x, i % 16), at(y, i / 16)));
+        hits.count() as f32 / 256.0
+    })
+}
+
+fn traced(gray: &Gray) -> Vec<Contour> {
+    trace(gray, &Options::default())
+}
+
+#[test]
+fn nothing_in_nothing() {
+    assert!(traced(&Gray::from_fn(0, 0, |_, _| 1.0)).is_empty());
+    assert!(traced(&Gray::from_fn(9, 7, |_, _| 0.0)).is_empty());
+    assert!(traced(&Gray::from_fn(1, 1, |_, _| 1.0)).is_empty(), "dust");
+}
+
+#[test]
+fn a_picture_full_of_ink_is_its_frame() {
+    let c = &traced(&Gray::from_fn(9, 7, |_, _| 1.0))[0];
+    assert_eq!(c.bounds(), kurbo::Rect::new(0.0, 0.0, 9.0, 7.0));
+    assert!(c.area() > 62.0, "{}", c.area());
+}
+
+#[test]
+fn a_ring_is_an_outer_contour_and_a_hole() {
+    let ring = picture(40, 30, |x, y| {
+        (4.0..10.0).contains(&(x - 17.3).hypot(y - 14.6))
+    });
+    let c = traced(&ring);
+    assert_eq!(c.len(), 2);
+    assert!(
+        (c[0].area() - 100.0 * std::f64::consts::PI).abs() < 2.0,
+        "{}",
+        c[0].area()
+    );
+    assert!(
+        (c[1].area() + 16.0 * std::f64::consts::PI).abs() < 1.0,
+        "{}",
+        c[1].area()
+    );
+    let centre = Point::new(17.3, 30.0 - 14.6);
+    for p in c[0].points() {
+        assert!((p.distance(centre) - 10.0).abs() < 0.1, "{p:?}");
+    }
+}
+
+#[test]
+fn saddles_follow_the_surface() {
+    let pair = |centre: f32| {
+        Gray::from_fn(8, 8, |x, y| match (x < 4, y < 4) {
+            (true, true) | (false, false) => 1.0,
+            _ => centre,
+        })
+    };
+    assert_eq!(traced(&pair(0.1)).len(), 1, "ink meets at 0.55");
+    assert_eq!(traced(&pair(-0.1)).len(), 2, "ink parts at 0.45");
+}
+
+#[test]
+fn contours_that_almost_touch_stay_apart() {
+    let two = picture(40, 30, |x, y| {
+        (x - 10.0).hypot(y - 15.0) < 8.0 || (x - 27.2).hypot(y - 15.0) < 8.0
+    });
+    assert_eq!(traced(&two).len(), 2);
+}
+
+proptest! {
+    #[test]
+    fn noise_gives_contours_that_alternate_around_all_ink(
+        seed in prop::collection::vec(-0.5f32..1.5, 12 * 9)
+    ) {
+        let gray = Gray::new(12, 9, seed).unwrap();
+        let all = Options { speckle_px2: 0.0, ..Options::default() };
+        let c = trace(&gray, &all);
+        for y in 0..9usize {
+            for x in 0..12usize {
+                let p = Point::new(x as f64 + 0.5, 8.5 - y as f64);
+                let around: i32 = c.iter().map(|c| winding(c, p)).sum();
+                let v = gray.at(x, y);
+                prop_assert!((v - 0.5).abs() < 1e-5 || around == i32::from(v >= 0.5), "({x}, {y}): {around}");
+            }
+        }
+        // the same picture, the same contours; a quarter turn turns them
+        prop_assert_eq!(&c, &trace(&gray, &all));
+        let turned = Gray::from_fn(9, 12, |x, y| gray.at(11 - y, x));
+        let area = |c: &[Contour]| c.iter().map(Contour::area).sum::<f64>();
+        prop_assert!((area(&c) - area(&trace(&turned, &all))).abs() < 1e-9);
+    }
+
+    #[test]
+    fn a_shift_of_a_disk_shifts_its_contour(dx in 0.0..1.0f64, dy in 0.0..1.0f64, r in 3.0..9.0f64) {
+        let disk = picture(24, 24, |x: f64, y: f64| (x - 11.0 - dx).hypot(y - 11.0 - dy) < r);
+        let c = traced(&disk);
+        prop_assert_eq!(c.len(), 1);
+        let centre = Point::new(11.0 + dx, 13.0 - dy);
+        for p in c[0].points() {
+            prop_assert!((p.distance(centre) - r).abs() < 0.12, "{:?}", p);
+        }
+    }
+
+    #[test]
+    fn contours_move_continuously_with_the_level(r in 3.0..9.0f64, level in 0.1..0.9f64) {
+        let disk = picture(24, 24, |x: f64, y: f64| (x - 12.0).hypot(y - 12.0) < r);
+        let at = |level| trace(&disk, &Options { level, ..Options::default() })[0].area();
+        let (a, b) = (at(level), at(level + 0.001));
+        prop_assert!(b <= a && a - b < 0.01 * 2.0 * std::f64::consts::PI * (r + 1.0), "{} {}", a, b);
+    }
+}
+
+/// How often `c` goes around `p`.
+fn winding(c: &Contour, p: Point) -> i32 {
+    let points = c.points();
+    let ends = points.iter().zip(points.iter().cycle().skip(1));
+    ends.map(|(a, b)| {
+        let side = (*b - *a).cross(p - *a);
+        match (a.y <= p.y, b.y <= p.y) {
+            (true, false) if side > 0.0 => 1,
+            (false, true) if side < 0.0 => -1,
+            _ => 0,
+        }
+    })
+    .sum()
+}
