@@ -1,7 +1,9 @@
 //! The `khatt` program: the first customer of the library.
 
+mod cli;
+
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    ExitCode::SUCCESS
+    cli::main()
 }

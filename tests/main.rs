@@ -1,5 +1,6 @@
 //! All integration tests, linked once.
 
+mod cli;
 mod common;
 mod detectors;
 mod fitters;

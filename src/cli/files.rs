@@ -1,0 +1,55 @@
+//! Bytes in and out: files, or `-` for standard input and output.
+
+use super::failure::Failure;
+use std::fs;
+use std::io::{self, Read, Write};
+use std::path::Path;
+
+/// Whether the user means standard input or output.
+pub(crate) fn is_dash(path: &Path) -> bool {
+    path.as_os_str() == "-"
+}
+
+/// What messages call it.
+pub(crate) fn name(path: &Path) -> String {
+    if is_dash(path) {
+        "standard input".to_owned()
+    } else {
+        path.display().to_string()
+    }
+}
+
+/// The whole content of a file or of standard input.
+pub(crate) fn read(path: &Path) -> Result<Vec<u8>, Failure> {
+    if is_dash(path) {
+        let mut bytes = Vec::new();
+        return match io::stdin().lock().read_to_end(&mut bytes) {
+            Ok(_) => Ok(bytes),
+            Err(e) => Err(Failure::at(name(path), &e)),
+        };
+    }
+    fs::read(path).map_err(|e| Failure::at(name(path), &e))
+}
+
+/// Writes a file in one step, or to standard output: a reader sees the old file or the new one.
+pub(crate) fn write(path: &Path, content: &[u8]) -> Result<(), Failure> {
+    let place = path.display();
+    if is_dash(path) {
+        let mut out = io::stdout().lock();
+        let done = out.write_all(content).and_then(|()| out.flush());
+        return done.map_err(|e| Failure::at("standard output", &e));
+    }
+    let folder = match path.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() => parent,
+        _ => Path::new("."),
+    };
+    let beside = |e: &dyn std::error::Error| Failure::at(&place, e);
+    fs::create_dir_all(folder).map_err(|e| beside(&e))?;
+    let mut temporary = tempfile::Builder::new()
+        .prefix(".khatt-")
+        .tempfile_in(folder)
+        .map_err(|e| beside(&e))?;
+    temporary.write_all(content).map_err(|e| beside(&e))?;
+    temporary.persist(path).map_err(|e| beside(&e.error))?;
+    Ok(())
+}

@@ -1,0 +1,69 @@
+//! `khatt methods`: what can be chosen.
+
+use super::Outcome;
+use clap::Args;
+use khatt::{corner, fit, quadratic};
+use serde::Serialize;
+
+/// Lists the methods one can choose, with their options' defaults
+#[derive(Debug, Args)]
+pub(crate) struct Methods {
+    /// As JSON
+    #[arg(long)]
+    json: bool,
+}
+
+#[derive(Serialize)]
+struct Row {
+    stage: &'static str,
+    method: &'static str,
+    about: &'static str,
+    options: serde_json::Value,
+}
+
+impl Methods {
+    pub(crate) fn run(&self) -> Outcome {
+        let rows = rows();
+        if self.json {
+            println!("{:#}", serde_json::json!(rows));
+            return Ok(());
+        }
+        let mut stage = "";
+        for row in &rows {
+            if row.stage != stage {
+                stage = row.stage;
+                println!("{stage}:");
+            }
+            println!("  {:<12}  {}", row.method, row.about);
+        }
+        Ok(())
+    }
+}
+
+/// A row for each method of a menu, its options with their defaults.
+macro_rules! rows {
+    ($stage:literal, $menu:ty) => {
+        <$menu>::all().into_iter().map(|m| Row {
+            stage: $stage,
+            method: m.key(),
+            about: m.about(),
+            options: options(&m),
+        })
+    };
+}
+
+fn rows() -> Vec<Row> {
+    let corners = rows!("corners", corner::Method);
+    let fitters = rows!("fit", fit::Method);
+    let quadratics = rows!("quadratic", quadratic::Method);
+    corners.chain(fitters).chain(quadratics).collect()
+}
+
+/// The options of a method without its name.
+fn options(method: &impl Serialize) -> serde_json::Value {
+    let mut value = serde_json::json!(method);
+    if let Some(table) = value.as_object_mut() {
+        table.remove("method");
+    }
+    value
+}

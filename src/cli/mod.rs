@@ -1,0 +1,74 @@
+//! What a user types: arguments in, files and messages out.
+//!
+//! Exit status: 0 done, 1 the job failed, 2 the command line is wrong.
+#![expect(
+    clippy::print_stdout,
+    clippy::print_stderr,
+    reason = "the program is where the outside world enters"
+)]
+
+mod failure;
+mod files;
+mod methods;
+mod trace;
+
+use clap::{Args, Parser, Subcommand};
+use failure::Failure;
+use std::num::NonZeroUsize;
+use std::process::ExitCode;
+
+/// What every command's work gives back.
+type Outcome = Result<(), Failure>;
+
+/// khatt turns scanned sheets of drawn Arabic and Latin letters into fonts.
+#[derive(Debug, Parser)]
+#[command(name = "khatt", version, max_term_width = 100)]
+#[command(after_help = "Exit status: 0 done, 1 the job failed, 2 the command line is wrong.")]
+struct Khatt {
+    #[command(subcommand)]
+    command: Command,
+    #[command(flatten)]
+    common: Common,
+}
+
+/// Options of every command.
+#[derive(Debug, Args)]
+struct Common {
+    /// Say nothing but errors
+    #[arg(short, long, global = true, display_order = 100)]
+    quiet: bool,
+    /// Threads to work with [default: one a processor]
+    #[arg(short, long, value_name = "N", global = true, display_order = 101)]
+    jobs: Option<NonZeroUsize>,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    Trace(trace::Trace),
+    Methods(methods::Methods),
+}
+
+/// Reads the arguments, does the work, says how it ended.
+pub(crate) fn main() -> ExitCode {
+    let args = Khatt::parse();
+    let threads = args.common.jobs.map_or(0, NonZeroUsize::get);
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+    let outcome = match pool {
+        Ok(pool) => pool.install(|| run(&args)),
+        Err(e) => Err(Failure::new(format!("no threads to work with: {e}"))),
+    };
+    match outcome {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            eprint!("{failure}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run(args: &Khatt) -> Outcome {
+    match &args.command {
+        Command::Trace(trace) => trace.run(),
+        Command::Methods(methods) => methods.run(),
+    }
+}

@@ -1,0 +1,130 @@
+//! The program as a user types it: help, errors, exit status, nothing written when it fails.
+#![expect(
+    clippy::disallowed_methods,
+    reason = "the tests play the user, who writes files"
+)]
+
+use crate::common::approved;
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output};
+
+/// Runs the program in `folder`.
+pub(crate) fn khatt(folder: &Path, args: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_khatt"))
+        .args(args)
+        .current_dir(folder)
+        .env_remove("SOURCE_DATE_EPOCH")
+        .output()
+        .expect("the program runs")
+}
+
+/// Status, standard output and standard error as one text.
+pub(crate) fn transcript(args: &[&str], out: &Output) -> String {
+    let (stdout, stderr) = (
+        String::from_utf8_lossy(&out.stdout),
+        String::from_utf8_lossy(&out.stderr),
+    );
+    let status = out
+        .status
+        .code()
+        .map_or("killed".to_owned(), |c| c.to_string());
+    format!(
+        "$ khatt {}\n{stdout}{stderr}status {status}\n",
+        args.join(" ")
+    )
+}
+
+/// A grey PNG of `width` × `height` px whose ink is `ink(x, y)`, 0…255.
+pub(crate) fn png(width: u32, height: u32, ink: impl Fn(u32, u32) -> u8) -> Vec<u8> {
+    let picture = image::GrayImage::from_fn(width, height, |x, y| image::Luma([255 - ink(x, y)]));
+    let mut bytes = std::io::Cursor::new(Vec::new());
+    picture
+        .write_to(&mut bytes, image::ImageFormat::Png)
+        .expect("a picture in memory");
+    bytes.into_inner()
+}
+
+/// A disc's coverage, 0…255, roughly antialiased.
+fn disc(x: u32, y: u32) -> u8 {
+    let (dx, dy) = (f64::from(x) + 0.5 - 40.0, f64::from(y) + 0.5 - 30.0);
+    let inside = (20.5 - dx.hypot(dy)).clamp(0.0, 1.0);
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "0…255 by the clamp"
+    )]
+    let ink = (255.0 * inside).round() as u8;
+    ink
+}
+
+#[test]
+fn help_is_approved() {
+    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
+    for command in ["", "trace", "methods"] {
+        let args: Vec<&str> = [command, "--help"]
+            .into_iter()
+            .filter(|a| !a.is_empty())
+            .collect();
+        let name = if command.is_empty() { "khatt" } else { command };
+        let out = khatt(here, &args);
+        assert_eq!(out.status.code(), Some(0), "{command}");
+        approved::check("cli", &format!("help-{name}"), &transcript(&args, &out));
+    }
+}
+
+#[test]
+fn wrong_use_exits_2_with_a_usage_line() {
+    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let cases: [&[&str]; 5] = [
+        &[],
+        &["trac"],
+        &["trace", "a.png"],
+        &["trace", "a.png", "-o", "-", "--fit", "nonsense"],
+        &["trace", "a.png", "-o", "-", "--tolerance", "-1"],
+    ];
+    for args in cases {
+        let out = khatt(here, args);
+        assert_eq!(out.status.code(), Some(2), "{args:?}");
+        let stderr = String::from_utf8_lossy(&out.stderr);
+        assert!(
+            stderr.contains("Usage:") || stderr.contains("--help"),
+            "{stderr}"
+        );
+    }
+}
+
+#[test]
+fn a_picture_becomes_one_path_in_its_own_pixels() {
+    let dir = tempfile::tempdir().expect("a folder");
+    fs::write(dir.path().join("disc.png"), png(80, 60, disc)).expect("a picture");
+    let out = khatt(dir.path(), &["trace", "disc.png", "-o", "disc.svg"]);
+    assert_eq!(
+        out.status.code(),
+        Some(0),
+        "{}",
+        String::from_utf8_lossy(&out.stderr)
+    );
+    let svg = fs::read_to_string(dir.path().join("disc.svg")).expect("the SVG");
+    assert_eq!(svg.matches("<path").count(), 1);
+    assert!(svg.contains("viewBox=\"0 0 80 60\""), "{svg}");
+    let data = svg.split(" d=\"").nth(1).and_then(|s| s.split('"').next());
+    let path = kurbo::BezPath::from_svg(data.expect("path data")).expect("a path");
+    let centre = kurbo::Shape::bounding_box(&path).center();
+    assert!(centre.distance((40.0, 30.0).into()) < 0.1, "{centre}");
+    let same = khatt(dir.path(), &["trace", "disc.png", "-o", "-"]);
+    assert_eq!(same.stdout, svg.as_bytes());
+}
+
+#[test]
+fn pictures_that_cannot_be_traced() {
+    let dir = tempfile::tempdir().expect("a folder");
+    fs::write(dir.path().join("text.png"), "this is no picture").expect("a file");
+    for picture in ["missing.png", "text.png"] {
+        let args = ["trace", picture, "-o", "out.svg"];
+        let out = khatt(dir.path(), &args);
+        assert_eq!(out.status.code(), Some(1), "{picture}");
+        assert!(!dir.path().join("out.svg").exists(), "{picture}");
+        approved::check("cli", &format!("trace-{picture}"), &transcript(&args, &out));
+    }
+}
