@@ -128,3 +128,22 @@ fn pictures_that_cannot_be_traced() {
         approved::check("cli", &format!("trace-{picture}"), &transcript(&args, &out));
     }
 }
+
+#[test]
+fn options_are_written_in_snake_case() {
+    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let out = khatt(here, &["methods", "--json"]);
+    let rows: serde_json::Value = serde_json::from_slice(&out.stdout).expect("JSON");
+    let rows = rows.as_array().expect("a list");
+    assert!(rows.len() >= 3, "only {} methods", rows.len());
+    for row in rows {
+        let options = row["options"].as_object().expect("a table");
+        for key in options.keys() {
+            assert!(
+                !key.contains('-'),
+                "{key} of {}: options are snake_case",
+                row["method"]
+            );
+        }
+    }
+}

@@ -1,6 +1,8 @@
 //! Bytes in and out: files, or `-` for standard input and output.
 
 use super::failure::Failure;
+use super::staged::Staged;
+use khatt::types::Files;
 use std::fs;
 use std::io::{self, Read, Write};
 use std::path::Path;
@@ -33,23 +35,12 @@ pub(crate) fn read(path: &Path) -> Result<Vec<u8>, Failure> {
 
 /// Writes a file in one step, or to standard output: a reader sees the old file or the new one.
 pub(crate) fn write(path: &Path, content: &[u8]) -> Result<(), Failure> {
-    let place = path.display();
     if is_dash(path) {
         let mut out = io::stdout().lock();
         let done = out.write_all(content).and_then(|()| out.flush());
         return done.map_err(|e| Failure::at("standard output", &e));
     }
-    let folder = match path.parent() {
-        Some(parent) if !parent.as_os_str().is_empty() => parent,
-        _ => Path::new("."),
-    };
-    let beside = |e: &dyn std::error::Error| Failure::at(&place, e);
-    fs::create_dir_all(folder).map_err(|e| beside(&e))?;
-    let mut temporary = tempfile::Builder::new()
-        .prefix(".khatt-")
-        .tempfile_in(folder)
-        .map_err(|e| beside(&e))?;
-    temporary.write_all(content).map_err(|e| beside(&e))?;
-    temporary.persist(path).map_err(|e| beside(&e.error))?;
-    Ok(())
+    let mut staged = Staged::default();
+    staged.add(path, &Files::single(content.to_vec()))?;
+    staged.commit()
 }

@@ -10,6 +10,7 @@
 mod failure;
 mod files;
 mod methods;
+mod staged;
 mod trace;
 
 use clap::{Args, Parser, Subcommand};

@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 
 /// How a picture becomes curves.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
+#[serde(default, deny_unknown_fields)]
 pub struct Options {
     /// Contours.
     pub trace: trace::Options,

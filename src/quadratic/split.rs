@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 
 /// It has no options: the tolerance says all.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
+#[serde(default, deny_unknown_fields)]
 pub struct Split {}
 
 impl Split {

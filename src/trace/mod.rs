@@ -16,7 +16,7 @@ use serde::{Deserialize, Serialize};
 
 /// Options of the contour tracer.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
+#[serde(default, deny_unknown_fields)]
 pub struct Options {
     /// Coverage at which the contour runs, 0…1.
     pub level: f64,

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 /// Options of the default detector.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
+#[serde(default, deny_unknown_fields)]
 pub struct Sides {
     /// Smallest turn between the sides that is a corner, degrees.
     pub turn_deg: f64,

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 /// Options of the default fitter.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
+#[serde(default, deny_unknown_fields)]
 pub struct Joint {}
 
 impl Fitter for Joint {
