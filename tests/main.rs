@@ -6,3 +6,4 @@ mod detectors;
 mod fitters;
 mod layers;
 mod papers;
+mod published;

@@ -6,6 +6,7 @@
 //!
 //! A room a method, each a struct of options that implements [`Detector`]; [`Method`] is the menu.
 
+pub mod angle;
 pub mod sides;
 
 use crate::types::Contour;
@@ -24,6 +25,8 @@ pub trait Detector {
 pub enum Method {
     /// Crossings of the two fitted sides.
     Sides(sides::Sides),
+    /// Jumps of direction between two chords.
+    Angle(angle::Angle),
 }
 
 impl Default for Method {
@@ -36,7 +39,10 @@ impl Method {
     /// Every method with its default options.
     #[must_use]
     pub fn all() -> Vec<Self> {
-        vec![Self::Sides(sides::Sides::default())]
+        vec![
+            Self::Sides(sides::Sides::default()),
+            Self::Angle(angle::Angle::default()),
+        ]
     }
 
     /// The word for it on the command line, in project files, snapshots and the bibliography.
@@ -44,6 +50,7 @@ impl Method {
     pub const fn key(&self) -> &'static str {
         match self {
             Self::Sides(_) => "sides",
+            Self::Angle(_) => "angle",
         }
     }
 
@@ -52,6 +59,7 @@ impl Method {
     pub const fn about(&self) -> &'static str {
         match self {
             Self::Sides(_) => "crossings of the two fitted sides (default)",
+            Self::Angle(_) => "jumps of direction between two chords [samavati98 sec. 3]",
         }
     }
 
@@ -60,6 +68,7 @@ impl Method {
     pub fn detector(&self) -> &dyn Detector {
         match self {
             Self::Sides(d) => d,
+            Self::Angle(d) => d,
         }
     }
 }

@@ -9,6 +9,8 @@
 
 pub mod joint;
 pub mod judge;
+mod path;
+pub mod wls;
 
 use crate::types::{Fitted, Span};
 use serde::{Deserialize, Serialize};
@@ -48,6 +50,8 @@ pub trait Fitter {
 pub enum Method {
     /// One global choice of nodes, then one refinement of all of them.
     Joint(joint::Joint),
+    /// B-splines by weighted least squares.
+    Wls(wls::Wls),
 }
 
 impl Default for Method {
@@ -60,7 +64,10 @@ impl Method {
     /// Every method with its default options.
     #[must_use]
     pub fn all() -> Vec<Self> {
-        vec![Self::Joint(joint::Joint::default())]
+        vec![
+            Self::Joint(joint::Joint::default()),
+            Self::Wls(wls::Wls::default()),
+        ]
     }
 
     /// The word for it on the command line, in project files, snapshots and the bibliography.
@@ -68,6 +75,7 @@ impl Method {
     pub const fn key(&self) -> &'static str {
         match self {
             Self::Joint(_) => "joint",
+            Self::Wls(_) => "wls",
         }
     }
 
@@ -76,6 +84,9 @@ impl Method {
     pub const fn about(&self) -> &'static str {
         match self {
             Self::Joint(_) => "global choice of nodes, joint refinement (default)",
+            Self::Wls(_) => {
+                "B-spline by weighted least squares, smoothed by weight [samavati98 sec. 4]"
+            }
         }
     }
 
@@ -84,6 +95,7 @@ impl Method {
     pub fn fitter(&self) -> &dyn Fitter {
         match self {
             Self::Joint(f) => f,
+            Self::Wls(f) => f,
         }
     }
 }

@@ -1,0 +1,150 @@
+//! What several fitters do with spans and paths.
+
+use super::judge::judge;
+use crate::types::{Fitted, Span, Verdict};
+use kurbo::{BezPath, CubicBez, PathEl, Point};
+
+/// The span's own polygon: the answer where there is nothing to fit.
+pub(super) fn polygon(span: Span<'_>) -> Fitted {
+    let points = span.points();
+    let moves = points.iter().enumerate().map(|(i, &p)| match i {
+        0 => PathEl::MoveTo(p),
+        _ => PathEl::LineTo(p),
+    });
+    let mut path: BezPath = moves.collect();
+    if path.elements().len() == 1 && !span.is_ring() {
+        path.extend(points.first().map(|&p| PathEl::LineTo(p)));
+    }
+    if span.is_ring() {
+        path.close_path();
+    }
+    Fitted {
+        path,
+        verdict: Verdict::Degenerate,
+        parameters: 2 * points.len(),
+    }
+}
+
+/// Joined cubics as a path from the first to the last; straight ones become lines.
+pub(super) fn path_of(cubics: &[CubicBez], span: Span<'_>) -> BezPath {
+    let mut path: BezPath = cubics
+        .first()
+        .map(|c| PathEl::MoveTo(c.p0))
+        .into_iter()
+        .collect();
+    for c in cubics {
+        if c.p1 == c.p0 && c.p2 == c.p3 {
+            path.line_to(c.p3);
+        } else {
+            path.curve_to(c.p1, c.p2, c.p3);
+        }
+    }
+    if span.is_ring() {
+        path.close_path();
+    }
+    path
+}
+
+/// Between points that lie far apart a curve may swing out unseen by any residual. Farther from the span
+/// than this many times what it misses of the points, it is no answer.
+const SWING: f64 = 4.0;
+
+/// The path with the verdict of the judge, both ways; `None` when it swings out between the points.
+pub(super) fn judged(
+    span: Span<'_>,
+    path: BezPath,
+    (tolerance, parameters): (f64, usize),
+) -> Option<Fitted> {
+    let j = judge(span, &path);
+    let steady = j.curve.max_px <= SWING * j.points.max_px.max(tolerance);
+    let verdict = if j.max_px() <= tolerance {
+        Verdict::Met
+    } else {
+        Verdict::Exhausted
+    };
+    steady.then_some(Fitted {
+        path,
+        verdict,
+        parameters,
+    })
+}
+
+/// A straight piece, as [`path_of`] knows it.
+pub(super) fn line(a: Point, b: Point) -> CubicBez {
+    CubicBez::new(a, a, b, b)
+}
+
+/// Whether the span runs its second way: so that a method which looks at one direction only gives the
+/// same curve for the reversed span. The way is told by what turning and scaling leave alone: the sign of
+/// the enclosed area, and for balanced spans the distances from the middle.
+fn runs_backward(points: &[Point]) -> bool {
+    let (Some(&first), Some(&last)) = (points.first(), points.last()) else {
+        return false;
+    };
+    let pairs = points.windows(2);
+    let area: f64 = pairs.map(|w| (w[0] - first).cross(w[1] - first)).sum();
+    let size = points
+        .iter()
+        .map(|p| p.distance_squared(first))
+        .fold(0.0, f64::max);
+    if area.abs() > 1e-9 * size {
+        return area < 0.0;
+    }
+    let middle = first.midpoint(last);
+    let n = points.len() as f64;
+    let lever = |(i, p): (usize, &Point)| (2.0 * i as f64 + 1.0 - n) * p.distance(middle);
+    points.iter().enumerate().map(lever).sum::<f64>() < 0.0
+}
+
+/// Fits the span in the way that does not depend on how it was handed over, and turns the path back.
+/// A ring keeps its first point.
+pub(super) fn both_ways<E>(
+    span: Span<'_>,
+    fit: impl FnOnce(Span<'_>) -> Result<Fitted, E>,
+) -> Result<Fitted, E> {
+    if !runs_backward(span.points()) {
+        return fit(span);
+    }
+    let mut points = span.points().to_vec();
+    points.reverse();
+    let fitted = if span.is_ring() {
+        points.rotate_right(1);
+        fit(Span::Ring(&points))
+    } else {
+        fit(Span::Open(&points))
+    }?;
+    Ok(Fitted {
+        path: fitted.path.reverse_subpaths(),
+        ..fitted
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn both_ways_meet() {
+        let there: Vec<Point> = [(0.0, 0.0), (3.0, 1.0), (5.0, 0.0), (6.0, 2.0)]
+            .map(Point::from)
+            .into();
+        let mut back = there.clone();
+        back.reverse();
+        let start = |points: &[Point]| {
+            let mut seen = Point::ORIGIN;
+            let fitted = both_ways(Span::Open(points), |s| {
+                seen = s.points()[0];
+                Ok::<_, ()>(polygon(s))
+            });
+            (seen, fitted.unwrap().path)
+        };
+        let (a, b) = (start(&there), start(&back));
+        assert_eq!(a.0, b.0, "the method sees one way only");
+        assert_eq!(a.1.elements()[0], PathEl::MoveTo(there[0]));
+        assert_eq!(
+            b.1.elements()[0],
+            PathEl::MoveTo(there[3]),
+            "the caller gets his own"
+        );
+    }
+}

@@ -1,0 +1,193 @@
+//! What the papers claim, on shapes drawn here. The tables with real silhouettes: `make bench`.
+
+use crate::common::shapes::{Dice, Shape, open, polygon, ring};
+use khatt::corner::angle::Angle;
+use khatt::fit::judge::points_to_curve;
+use khatt::fit::wls::{Joint, Wls};
+use khatt::fit::{FitError, Fitter, Method};
+use khatt::types::Contour;
+use kurbo::{Point, Shape as _, Vec2};
+use std::f64::consts::TAU;
+
+/// Noise across a known shape's outline, px; the shape's own points stay the truth.
+fn rough(shape: &Shape, sigma: f64, seed: u64) -> Shape {
+    let mut dice = Dice(seed);
+    let mut moved = shape.clone();
+    let n = shape.points.len();
+    for (i, p) in moved.points.iter_mut().enumerate() {
+        let across = shape.points[(i + 1) % n] - shape.points[(i + n - 1) % n];
+        *p += Vec2::new(across.y, -across.x).normalize() * sigma * dice.normal();
+    }
+    moved
+}
+
+fn bean() -> Shape {
+    ring("bean", 400, |t| {
+        let r = 50.0 + 9.0 * (2.0 * TAU * t).cos() + 4.0 * (3.0 * TAU * t).sin();
+        (r * (TAU * t).cos(), r * (TAU * t).sin())
+    })
+}
+
+// ---- samavati98
+
+/// [samavati98 sec. 5.2, fig. 7]: weight removes noise, and too much of it the shape; the best lies between.
+#[test]
+fn samavati98_error_to_the_true_shape_has_its_least_inside() {
+    let truth = bean();
+    for sigma in [0.3, 0.6, 1.0] {
+        let noisy = rough(&truth, sigma, 5);
+        let error = |mu: f64| {
+            let wls = Wls {
+                m: Some(60),
+                mu_x: mu,
+                mu_y: mu,
+                straight_deg: 0.0,
+                ..Wls::default()
+            };
+            let fitted = wls.fit(noisy.span(), 1.0).expect("legal options");
+            points_to_curve(&truth.points, &fitted.path).rms_px
+        };
+        let errors: Vec<f64> = [0.0, 1e-3, 1e-2, 1e-1, 1.0, 10.0, 100.0]
+            .map(error)
+            .to_vec();
+        let least = errors.iter().copied().fold(f64::INFINITY, f64::min);
+        assert!(
+            least < 0.85 * errors[0],
+            "σ {sigma}: smoothing helps: {errors:?}"
+        );
+        assert!(
+            least < 0.5 * errors[6],
+            "σ {sigma}: too much of it harms: {errors:?}"
+        );
+        assert!(
+            least < 0.5 * sigma,
+            "σ {sigma}: most of the noise is gone: {errors:?}"
+        );
+    }
+}
+
+/// [samavati98 eq. 39]: about 12 points a vertex.
+#[test]
+fn samavati98_compression_is_one_vertex_in_twelve_points() {
+    let shape = bean();
+    let wls = Wls {
+        straight_deg: 0.0,
+        ..Wls::default()
+    };
+    let fitted = wls.fit(shape.span(), 1.0).expect("legal options");
+    let vertices = fitted.parameters / 2;
+    assert_eq!(
+        vertices,
+        399 / 12 + 6,
+        "m = n div 12 + 5, and m + 1 vertices"
+    );
+}
+
+/// [samavati98 sec. 3]: straight stems are lines, and only what is between them is modelled.
+#[test]
+fn samavati98_finds_the_straight_parts_of_a_stroke() {
+    let h = polygon(
+        "stem with a serif",
+        &[(0.0, 0.0), (14.0, 0.0), (14.0, 90.0), (0.0, 90.0)],
+    );
+    let contour = Contour::new(rough(&h, 0.1, 3).points).expect("a contour");
+    let features = Angle::default().features(&contour);
+    assert_eq!(features.corners.len(), 4, "{:?}", features.corners);
+    assert_eq!(
+        features.lines.len(),
+        2,
+        "the two long sides: {:?}",
+        features.lines
+    );
+    // a side, half a round, a side: the joints are smooth, and the spline takes in what is between
+    let u = open("arch", 300, |t| {
+        let s = 260.0 * t;
+        let (r, side) = (20.0, 98.6);
+        match s {
+            s if s < side => (0.0, s),
+            s if s > 260.0 - side => (2.0 * r, 260.0 - s),
+            s => {
+                let a = (s - side) / r;
+                (r - r * a.cos(), side + r * a.sin())
+            }
+        }
+    });
+    for joint in [Joint::Include, Joint::Average] {
+        let wls = Wls {
+            joint,
+            ..Wls::default()
+        };
+        let fitted = wls.fit(u.span(), 0.5).expect("legal options");
+        let is_line = |s: &kurbo::PathSeg| matches!(s, kurbo::PathSeg::Line(_));
+        assert_eq!(
+            fitted.path.segments().filter(is_line).count(),
+            2,
+            "{joint:?}"
+        );
+        assert!(
+            points_to_curve(&u.points, &fitted.path).max_px < 0.5,
+            "{joint:?}"
+        );
+    }
+}
+
+/// The order is free; up to cubics the Bézier form is exact, above it is close.
+#[test]
+fn samavati98_works_at_any_order() {
+    let shape = bean();
+    for order in 2..=8 {
+        let wls = Wls {
+            order,
+            ..Wls::default()
+        };
+        let fitted = wls.fit(shape.span(), 0.3).expect("legal options");
+        assert!(
+            points_to_curve(&shape.points, &fitted.path).max_px <= 0.3,
+            "order {order}"
+        );
+        assert!(
+            (fitted.path.area() / polygon_area(&shape.points) - 1.0).abs() < 0.01,
+            "order {order}"
+        );
+    }
+}
+
+fn polygon_area(points: &[Point]) -> f64 {
+    Contour::new(points.to_vec()).expect("a contour").area()
+}
+
+// ---- options
+
+/// A wrong option is an error that names method and option.
+#[test]
+fn bad_options_are_clear_errors() {
+    let cases = [
+        ("wls", "order = 1"),
+        ("wls", "order = 40"),
+        ("wls", "m = 2"),
+        ("wls", "mu_x = -0.5"),
+        ("wls", "mu_y = nan"),
+        ("wls", "straight_deg = 120.0"),
+    ];
+    let shape = bean();
+    for (key, line) in cases {
+        let text = format!("method = \"{key}\"\n{line}");
+        let method: Method = toml::from_str(&text).expect("the option exists");
+        let error = method.fitter().fit(shape.span(), 0.5).expect_err(&text);
+        let FitError::Option {
+            method,
+            option,
+            range,
+            ..
+        } = &error
+        else {
+            unreachable!("{text}: {error}");
+        };
+        assert_eq!(*method, key);
+        assert!(line.starts_with(option), "{line}: {error}");
+        assert!(
+            !range.is_empty() && error.to_string().contains(range),
+            "{error}"
+        );
+    }
+}
