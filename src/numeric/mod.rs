@@ -1,6 +1,8 @@
 //! Mathematics without pictures; imports nothing of ours.
 
 pub mod bspline;
+pub mod chain;
 pub mod distance;
+pub mod refit;
 pub mod skyline;
 pub mod turns;

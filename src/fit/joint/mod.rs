@@ -1,33 +1,178 @@
 //! One global choice of nodes, then one refinement of all of them.
+//! Solves   min ½ Σ (distance / σ)² + what the nodes and segments cost, over nodes, kinds, tangents and handles
+//! Takes    a span of n >= 2 points, px, y up; a tolerance, px
+//! Gives    lines and cubics, px; ends exact, smooth joins collinear, extrema upright
+//! Departs  own method: candidates, dynamic programme, joint least squares
+//! Cost     O(n)      Fails  never; a span shorter than a few pixels gives its own polygon
 
+mod candidate;
+mod choose;
+mod cost;
+mod piece;
+mod samples;
+
+use super::judge::points_to_curve;
 use super::{FitError, Fitter};
+use crate::numeric::chain::{Chain, Join, Kind};
+use crate::numeric::refit::{Refit, Sample, Scale};
 use crate::types::{Fitted, Span, Verdict};
-use kurbo::BezPath;
+use kurbo::{BezPath, Point};
+use samples::Samples;
 use serde::{Deserialize, Serialize};
 
 /// Options of the default fitter.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
-pub struct Joint {}
+pub struct Joint {
+    /// Least standard deviation of the contour's points that is believed, as a part of the tolerance.
+    pub least_noise: f64,
+}
+
+impl Default for Joint {
+    fn default() -> Self {
+        Self { least_noise: 0.05 }
+    }
+}
+
+/// Searches with half the noise each, when the tolerance is missed.
+const TIGHTER: usize = 2;
+/// Distance, in sigmas, from which a point counts as an outlier.
+const ROBUST: f64 = 4.0;
+/// With so few points their own polygon is better than curves that miss the tolerance.
+const FEW: usize = 16;
+/// A line so near to an axis is meant to be parallel to it, radians.
+const UPRIGHT: f64 = 0.006;
 
 impl Fitter for Joint {
-    fn fit(&self, span: Span<'_>, _tolerance_px: f64) -> Result<Fitted, FitError> {
-        let points = span.points();
-        let mut path = BezPath::new();
-        for (i, &p) in points.iter().enumerate() {
-            if i == 0 {
-                path.move_to(p);
-            } else {
-                path.line_to(p);
+    fn fit(&self, span: Span<'_>, tolerance_px: f64) -> Result<Fitted, FitError> {
+        let (points, turned) = canonical(span);
+        let length: f64 = points.windows(2).map(|w| w[0].distance(w[1])).sum();
+        if points.len() < 3 || length <= 0.0 {
+            return Ok(polygon(span));
+        }
+        let span = match span {
+            Span::Open(_) => Span::Open(&points),
+            Span::Ring(_) => Span::Ring(&points),
+        };
+        let s = Samples::new(span);
+        let mut least = self.least_noise * tolerance_px;
+        let mut best = self.once(&s, &points, s.sigma.max(least));
+        for _ in 0..TIGHTER {
+            if best.1 <= tolerance_px || least < s.sigma {
+                break;
+            }
+            least *= 0.5;
+            let next = self.once(&s, &points, s.sigma.max(least));
+            if next.1 < best.1 {
+                best = next;
             }
         }
-        if span.is_ring() {
-            path.close_path();
+        let (chain, worst) = best;
+        let path = chain.to_path();
+        let hopeless = worst > tolerance_px && points.len() <= FEW;
+        if !worst.is_finite() || !path.is_finite() || hopeless {
+            return Ok(polygon(span));
         }
         Ok(Fitted {
-            path,
-            verdict: Verdict::Met,
-            parameters: 2 * points.len(),
+            path: if turned {
+                path.reverse_subpaths()
+            } else {
+                path
+            },
+            verdict: if worst <= tolerance_px {
+                Verdict::Met
+            } else {
+                Verdict::Exhausted
+            },
+            parameters: Refit::default().free(&chain),
         })
     }
 }
+
+impl Joint {
+    /// The chain for points of deviation `sigma`, and the largest distance of a point from it, px.
+    #[expect(clippy::unused_self, reason = "options of the search will live here")]
+    fn once(&self, s: &Samples, points: &[Point], sigma: f64) -> (Chain, f64) {
+        let marks = candidate::candidates(s);
+        let (mut chain, mut feet) = choose::choose(s, &marks, sigma);
+        if chain.nodes.len() < 2 {
+            return (chain, f64::INFINITY);
+        }
+        upright(&mut chain);
+        let weight = 1.0 / cost::CORRELATION;
+        let samples: Vec<Sample> = s.at.iter().map(|&at| Sample { at, weight }).collect();
+        let scale = Scale {
+            sigma,
+            robust: ROBUST,
+        };
+        Refit::default().run(&mut chain, (&samples, &mut feet), scale, 40);
+        let worst = points_to_curve(points, &chain.to_path()).max_px;
+        (chain, worst)
+    }
+}
+
+/// The span's points in an order that does not depend on where and which way it was walked, and whether that
+/// is the other way.
+fn canonical(span: Span<'_>) -> (Vec<Point>, bool) {
+    let mut p = span.points().to_vec();
+    let before = |a: &Point, b: &Point| (a.x, a.y) < (b.x, b.y);
+    if span.is_ring() {
+        let least = (0..p.len()).reduce(|i, j| if before(&p[j], &p[i]) { j } else { i });
+        p.rotate_left(least.unwrap_or(0));
+        let turned = p.len() > 2 && before(&p[p.len() - 1], &p[1]);
+        if turned {
+            p[1..].reverse();
+        }
+        return (p, turned);
+    }
+    let unlike = p.iter().zip(p.iter().rev()).find(|(a, b)| a != b);
+    let turned = unlike.is_some_and(|(a, b)| before(b, a));
+    if turned {
+        p.reverse();
+    }
+    (p, turned)
+}
+
+/// Lines that are all but upright or level become so, where their ends are free.
+fn upright(chain: &mut Chain) {
+    for i in 0..chain.kinds.len() {
+        let (a, b) = chain.ends(i);
+        let d = chain.direction(i);
+        let axis = if d.y.abs() < UPRIGHT {
+            Join::Horizontal
+        } else {
+            Join::Vertical
+        };
+        if chain.kinds[i] == Kind::Line && d.x.abs().min(d.y.abs()) < UPRIGHT {
+            for n in [a, b] {
+                if chain.nodes[n].join == Join::Smooth {
+                    chain.nodes[n].join = axis;
+                }
+            }
+        }
+    }
+}
+
+/// The points themselves, joined by lines.
+fn polygon(span: Span<'_>) -> Fitted {
+    let mut path = BezPath::new();
+    let mut last: Option<Point> = None;
+    for &p in span.points() {
+        match last {
+            None => path.move_to(p),
+            Some(_) => path.line_to(p),
+        }
+        last = Some(p);
+    }
+    if span.is_ring() {
+        path.close_path();
+    }
+    Fitted {
+        path,
+        verdict: Verdict::Degenerate,
+        parameters: 2 * span.points().len(),
+    }
+}
+
+#[cfg(test)]
+mod tests;

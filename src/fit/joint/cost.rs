@@ -1,0 +1,36 @@
+//! What a structure costs, in nats: the prior of one who draws letters.
+
+use crate::numeric::chain::{Join, Kind};
+
+/// Steps of contour that count as one measurement: neighbouring points share pixels.
+pub(super) const CORRELATION: f64 = 2.0;
+/// An extremum with an upright or level direction: where drawings have nodes anyway.
+const EXTREMUM: f64 = 3.0;
+/// A join of a line and a curve.
+const BESIDE_LINE: f64 = 6.0;
+/// A node in the middle of a curve: place, direction and two handles, and unusual.
+const SMOOTH: f64 = 14.0;
+/// A change of direction that is no corner of the contour.
+const CORNER: f64 = 18.0;
+/// A cubic's two handles.
+const CUBIC: f64 = 4.0;
+
+/// Cost of a node of the given join between two kinds.
+pub(super) fn node(join: Join, before: Option<Kind>, after: Option<Kind>) -> f64 {
+    let line = before == Some(Kind::Line) || after == Some(Kind::Line);
+    match join {
+        Join::End | Join::Clamped => 0.0,
+        Join::Horizontal | Join::Vertical => EXTREMUM,
+        Join::Smooth if line => BESIDE_LINE,
+        Join::Smooth => SMOOTH,
+        Join::Corner => CORNER,
+    }
+}
+
+/// Cost of a segment's kind.
+pub(super) const fn kind(kind: Kind) -> f64 {
+    match kind {
+        Kind::Line => 0.0,
+        Kind::Cubic => CUBIC,
+    }
+}

@@ -1,0 +1,303 @@
+//! One segment between two candidates: how well could a line or a cubic do?
+
+use super::candidate::Candidate;
+use super::samples::Samples;
+use crate::numeric::chain::Join;
+use kurbo::{Point, Vec2};
+
+/// Samples looked at, at most: enough to see where a cubic fails.
+const LOOKS: usize = 16;
+/// Deviation of a candidate's direction, radians: that of a parabola through a dozen noisy points.
+const TURN: f64 = 0.03;
+/// Deviation of the direction at a given end, radians, where the parabola is one-sided.
+const TURN_END: f64 = 0.3;
+/// Steps of Gauss–Newton.
+const ROUNDS: usize = 4;
+/// Usual length of a handle, chords, and its spread.
+const HANDLE: (f64, f64) = (0.37, 0.4);
+/// Distances from which the cost grows linearly only, sigmas.
+const ROBUST: f64 = 4.0;
+
+/// Power sums over the samples, so that a line's cost is found without looking at them.
+#[derive(Debug)]
+pub(super) struct Lines {
+    sums: Vec<[f64; 5]>,
+    origin: Point,
+}
+
+impl Lines {
+    /// Sums of a span once around, and twice for a ring.
+    pub(super) fn new(s: &Samples) -> Self {
+        let turns = if s.ring { 2 } else { 1 };
+        let origin = s.at[0];
+        let mut sums = Vec::with_capacity(turns * s.len() + 1);
+        let mut sum = [0.0; 5];
+        sums.push(sum);
+        for k in 0..turns * s.len() {
+            let p = s.point(k) - origin;
+            for (a, b) in sum
+                .iter_mut()
+                .zip([p.x, p.y, p.x * p.x, p.x * p.y, p.y * p.y])
+            {
+                *a += b;
+            }
+            sums.push(sum);
+        }
+        Self { sums, origin }
+    }
+
+    /// Sum of squared distances of samples `i..=j` to their best line, and that line's direction.
+    fn best(&self, i: usize, j: usize) -> (f64, Vec2) {
+        let m = (j - i + 1) as f64;
+        let mut d = [0.0; 5];
+        for (k, d) in d.iter_mut().enumerate() {
+            *d = self.sums[j + 1][k] - self.sums[i][k];
+        }
+        let [x, y, xx, xy, yy] = d;
+        let (xx, xy, yy) = (xx - x * x / m, xy - x * y / m, yy - y * y / m);
+        let half = (0.25 * (xx - yy) * (xx - yy) + xy * xy).sqrt();
+        let turn = 0.5 * (2.0 * xy).atan2(xx - yy);
+        ((0.5 * (xx + yy) - half).max(0.0), Vec2::from_angle(turn))
+    }
+
+    /// Cost of a line from `a` to `b`: what the samples and the directions of both candidates say against it.
+    pub(super) fn cost(&self, s: &Samples, sigma: f64, a: &Candidate, b: &Candidate) -> f64 {
+        let (i, j) = (a.index, b.index);
+        let chord = s.point(j) - s.point(i);
+        let (squares, direction, m) = if a.join == Join::End && b.join == Join::End {
+            let u = chord / chord.hypot().max(1e-12);
+            let off = |k| (s.point(k) - s.point(i)).cross(u);
+            ((i..=j).map(|k| off(k) * off(k)).sum(), u, 0.0)
+        } else {
+            let (q, u) = self.best(i, j);
+            (q, if u.dot(chord) < 0.0 { -u } else { u }, 1.0)
+        };
+        debug_assert!(self.origin.is_finite(), "samples are finite");
+        let turn: f64 = [a, b]
+            .iter()
+            .map(|c| {
+                let off = direction.cross(c.heading).atan2(direction.dot(c.heading))
+                    / slack(c.join).max(0.5 * TURN);
+                0.5 * off * off
+            })
+            .sum();
+        0.5 * squares / (sigma * sigma * super::cost::CORRELATION) + m * turn
+    }
+}
+
+/// Deviation of a candidate's direction, radians.
+const fn slack(join: Join) -> f64 {
+    match join {
+        Join::Smooth | Join::Corner => TURN,
+        Join::End => TURN_END,
+        _ => 0.0,
+    }
+}
+
+/// A cubic between two candidates whose places and directions may give way as far as they are uncertain.
+struct Trial<'a> {
+    ends: [&'a Candidate; 2],
+    places: [Point; 2],
+    /// Offset and turn of the start, of the end, then both handles.
+    v: [f64; 6],
+    /// Deviations of the first four.
+    slacks: [f64; 4],
+    chord: f64,
+    /// Points to pass, and their parameters.
+    looks: [(Point, f64); LOOKS],
+    count: usize,
+    sigma: f64,
+    /// Measurements that a point stands for.
+    weight: f64,
+}
+
+/// Gauss–Newton's sums over the six numbers of a [`Trial`].
+#[derive(Default)]
+struct Sums {
+    cost: f64,
+    h: [[f64; 6]; 6],
+    g: [f64; 6],
+}
+
+/// Cost of the best cubic from `a` to `b`. Both may give way as far as they are uncertain, so that no node
+/// is bought to mend an estimate.
+pub(super) fn cubic_cost(s: &Samples, sigma: f64, a: &Candidate, b: &Candidate) -> f64 {
+    let mut trial = Trial::new(s, sigma, a, b);
+    let mut best = f64::INFINITY;
+    for round in 0..=ROUNDS {
+        let mut sums = Sums::default();
+        trial.look(&mut sums);
+        trial.weigh_priors(&mut sums);
+        best = best.min(sums.cost);
+        if round == ROUNDS || !solve6(&mut sums.h, &mut sums.g) {
+            break;
+        }
+        trial.step(&sums.g);
+    }
+    best
+}
+
+impl<'a> Trial<'a> {
+    fn new(s: &Samples, sigma: f64, a: &'a Candidate, b: &'a Candidate) -> Self {
+        let (i, j) = (a.index, b.index);
+        let places = [s.point(i), s.point(j)];
+        let count = (j - i).clamp(1, LOOKS);
+        let length = (j - i) as f64 * s.step;
+        let mut looks = [(Point::ORIGIN, 0.0); LOOKS];
+        for (m, look) in looks.iter_mut().take(count).enumerate() {
+            // The middle of part m of `count`, in halves of a part.
+            let (k, rest) = (
+                (2 * m + 1) * (j - i) / (2 * count),
+                (2 * m + 1) * (j - i) % (2 * count),
+            );
+            let at = s
+                .point(i + k)
+                .lerp(s.point(i + k + 1), rest as f64 / (2 * count) as f64);
+            *look = (at, (m as f64 + 0.5) / count as f64);
+        }
+        Self {
+            ends: [a, b],
+            places,
+            v: [0.0, 0.0, 0.0, 0.0, length / 3.0, length / 3.0],
+            slacks: [
+                place(a.join, sigma),
+                slack(a.join),
+                place(b.join, sigma),
+                slack(b.join),
+            ],
+            chord: places[0].distance(places[1]).max(1e-9),
+            looks,
+            count,
+            sigma,
+            weight: (j - i) as f64 / (count as f64 * super::cost::CORRELATION),
+        }
+    }
+
+    fn look(&mut self, sums: &mut Sums) {
+        let turned = |d: Vec2, by: f64| {
+            let (sin, cos) = by.sin_cos();
+            Vec2::new(cos * d.x - sin * d.y, sin * d.x + cos * d.y)
+        };
+        let v = self.v;
+        let (u, w) = (
+            turned(self.ends[0].heading, v[1]),
+            turned(self.ends[1].heading, v[3]),
+        );
+        let (nu, nw) = (perp(self.ends[0].heading), perp(self.ends[1].heading));
+        let (p0, p3) = (self.places[0] + v[0] * nu, self.places[1] + v[2] * nw);
+        let curve = [p0, p0 + v[4] * u, p3 - v[5] * w, p3];
+        for (point, t) in self.looks.iter_mut().take(self.count) {
+            let (offset, along) = foot(curve, *point, t);
+            let n = perp(along);
+            let d = offset.dot(n);
+            let r = d.abs() / self.sigma;
+            let (rho, pull) = if r > ROBUST {
+                (ROBUST * (r - 0.5 * ROBUST), ROBUST / r)
+            } else {
+                (0.5 * r * r, 1.0)
+            };
+            sums.cost += self.weight * rho;
+            let (t, o) = (*t, 1.0 - *t);
+            let (b1, b2) = (3.0 * o * o * t, 3.0 * o * t * t);
+            let (start, end) = (o * o * o + b1, t * t * t + b2);
+            let row = [
+                start * nu.dot(n),
+                b1 * v[4] * perp(u).dot(n),
+                end * nw.dot(n),
+                -b2 * v[5] * perp(w).dot(n),
+                b1 * u.dot(n),
+                -b2 * w.dot(n),
+            ];
+            let weight = self.weight * pull / (self.sigma * self.sigma);
+            for (k, rk) in row.iter().enumerate() {
+                sums.g[k] += weight * rk * d;
+                for (h, rl) in sums.h[k].iter_mut().zip(&row) {
+                    *h += weight * rk * rl;
+                }
+            }
+        }
+    }
+
+    fn weigh_priors(&self, sums: &mut Sums) {
+        let handles = [(self.chord * HANDLE.0, self.chord * HANDLE.1); 2];
+        let ends = self.slacks.map(|slack| (0.0, slack));
+        for (k, (mean, spread)) in ends.into_iter().chain(handles).enumerate() {
+            let off = self.v[k] - mean;
+            let tight = 1.0 / (spread * spread).max(1e-8);
+            sums.cost += 0.5 * off * off * tight;
+            sums.g[k] += off * tight;
+            sums.h[k][k] += tight;
+        }
+    }
+
+    fn step(&mut self, by: &[f64; 6]) {
+        for (k, v) in self.v.iter_mut().enumerate() {
+            *v = match self.slacks.get(k) {
+                Some(slack) => (*v - by[k]).clamp(-3.0 * slack, 3.0 * slack),
+                // A handle keeps its side.
+                None => (*v - by[k])
+                    .clamp(0.3 * *v, 2.0 * *v)
+                    .max(0.02 * self.chord),
+            };
+        }
+    }
+}
+
+/// How far a node may lie beside its sample, px.
+const fn place(join: Join, sigma: f64) -> f64 {
+    match join {
+        Join::End | Join::Clamped => 0.0,
+        _ => sigma,
+    }
+}
+
+fn perp(v: Vec2) -> Vec2 {
+    Vec2::new(-v.y, v.x)
+}
+
+/// Moves `t` towards the foot of `at`; returns curve − point there and the unit direction.
+fn foot(c: [Point; 4], at: Point, t: &mut f64) -> (Vec2, Vec2) {
+    let [p0, p1, p2, p3] = c.map(Point::to_vec2);
+    let (b, c, d) = (
+        3.0 * (p1 - p0),
+        3.0 * (p0 - 2.0 * p1 + p2),
+        p3 - p0 + 3.0 * (p1 - p2),
+    );
+    let value = |t: f64| ((d * t + c) * t + b) * t + p0 - at.to_vec2();
+    let slope = |t: f64| (3.0 * t * d + 2.0 * c) * t + b;
+    for _ in 0..2 {
+        let (f, s) = (value(*t), slope(*t));
+        let speed = s.hypot2();
+        let bend = speed + f.dot(6.0 * *t * d + 2.0 * c);
+        *t = (*t - f.dot(s) / bend.max(0.25 * speed).max(1e-12)).clamp(0.0, 1.0);
+    }
+    let s = slope(*t);
+    (value(*t), s / s.hypot().max(1e-12))
+}
+
+/// Cholesky of a 6 × 6; the solution replaces `g`.
+fn solve6(h: &mut [[f64; 6]; 6], g: &mut [f64; 6]) -> bool {
+    for i in 0..6 {
+        for j in 0..=i {
+            let dot: f64 = (0..j).map(|k| h[i][k] * h[j][k]).sum();
+            let rest = h[i][j] - dot;
+            if i == j {
+                if rest <= 0.0 {
+                    return false;
+                }
+                h[i][i] = rest.sqrt();
+            } else {
+                h[i][j] = rest / h[j][j];
+            }
+        }
+    }
+    for i in 0..6 {
+        let dot: f64 = (0..i).map(|k| h[i][k] * g[k]).sum();
+        g[i] = (g[i] - dot) / h[i][i];
+    }
+    for i in (0..6).rev() {
+        let dot: f64 = (i + 1..6).map(|k| h[k][i] * g[k]).sum();
+        g[i] = (g[i] - dot) / h[i][i];
+    }
+    true
+}

@@ -1,0 +1,167 @@
+//! A span at even steps: directions, bends, and how much noise there is.
+
+use crate::types::Span;
+use kurbo::{Point, Vec2};
+
+/// A span has at least so many steps.
+const STEPS: usize = 4;
+/// Samples on each side of a local parabola, in a span without noise.
+const REACH: usize = 4;
+/// And at most.
+const REACH_MOST: usize = 9;
+
+/// A span at even steps of arc length, with local parabolas.
+#[derive(Debug, Clone)]
+pub(super) struct Samples {
+    /// Points; of an open span both ends are among them, of a ring the first is not repeated.
+    pub(super) at: Vec<Point>,
+    /// Whether it closes.
+    pub(super) ring: bool,
+    /// Arc length from one to the next, px.
+    pub(super) step: f64,
+    /// Standard deviation of the points along their normals, px.
+    pub(super) sigma: f64,
+    /// Samples on each side of a local parabola.
+    pub(super) reach: usize,
+    /// Unit direction at each.
+    pub(super) heading: Vec<Vec2>,
+    /// Curvature at each, 1/px.
+    pub(super) bend: Vec<f64>,
+}
+
+impl Samples {
+    /// Resamples a span of different points.
+    pub(super) fn new(span: Span<'_>) -> Self {
+        let (at, step) = resample(span);
+        let mut s = Self {
+            at,
+            ring: span.is_ring(),
+            step,
+            sigma: 0.0,
+            reach: REACH,
+            heading: Vec::new(),
+            bend: Vec::new(),
+        };
+        s.sigma = s.noise();
+        // The variance of a parabola's bend falls with the fifth power of its reach.
+        let wider = (s.sigma / (0.02 * s.step)).max(1.0).powf(0.4) * REACH as f64;
+        s.reach = (REACH..=REACH_MOST)
+            .find(|&r| r as f64 >= wider)
+            .unwrap_or(REACH_MOST);
+        for k in 0..s.at.len() {
+            let [_, d, dd] = s.parabola(k, s.reach, s.reach);
+            let speed = d.hypot().max(1e-12);
+            s.heading.push(d / speed);
+            s.bend.push(d.cross(dd) / (speed * speed * speed));
+        }
+        s
+    }
+
+    /// Number of samples.
+    pub(super) const fn len(&self) -> usize {
+        self.at.len()
+    }
+
+    /// Sample `k`, counted around a ring.
+    pub(super) fn point(&self, k: usize) -> Point {
+        self.at[k % self.at.len()]
+    }
+
+    /// Value, first and second derivative by arc length at sample `k` of the parabola through `behind`
+    /// samples before it and `ahead` after it, as far as the span goes, by least squares.
+    pub(super) fn parabola(&self, k: usize, behind: usize, ahead: usize) -> [Vec2; 3] {
+        let n = self.at.len();
+        let (lo, hi) = if self.ring {
+            let most = (n - 1) / 2;
+            (behind.min(most), ahead.min(most))
+        } else {
+            (behind.min(k), ahead.min(n - 1 - k))
+        };
+        let origin = self.at[k].to_vec2();
+        let mut s = [0.0; 5];
+        let mut m = [Vec2::ZERO; 3];
+        for i in 0..=lo + hi {
+            let x = i as f64 - lo as f64;
+            let q = self.point(k + n + i - lo).to_vec2() - origin;
+            let (x2, qx) = (x * x, q * x);
+            s[0] += 1.0;
+            s[1] += x;
+            s[2] += x2;
+            s[3] += x2 * x;
+            s[4] += x2 * x2;
+            m[0] += q;
+            m[1] += qx;
+            m[2] += qx * x;
+        }
+        let [a, b, c] = solve3(&s, m).unwrap_or_else(|| {
+            let d = self.point(k + n + hi) - self.point(k + n - lo);
+            [Vec2::ZERO, d / (lo + hi).max(1) as f64, Vec2::ZERO]
+        });
+        [origin + a, b / self.step, 2.0 * c / (self.step * self.step)]
+    }
+
+    /// Robust deviation of the points from parabolas through their neighbours, along the normal.
+    fn noise(&self) -> f64 {
+        let r = REACH + 1;
+        let n = self.at.len();
+        let inner = if self.ring {
+            0..n
+        } else {
+            r..n.saturating_sub(r)
+        };
+        let mut off: Vec<f64> = inner
+            .map(|k| {
+                let [p, d, _] = self.parabola(k, r, r);
+                let normal = Vec2::new(-d.y, d.x) / d.hypot().max(1e-12);
+                (p - self.at[k].to_vec2()).dot(normal).abs()
+            })
+            .collect();
+        if off.is_empty() {
+            return 0.0;
+        }
+        let mid = off.len() / 2;
+        let median = *off.select_nth_unstable_by(mid, f64::total_cmp).1;
+        // 1.4826: median to standard deviation; 1.13: a parabola through 11 points follows its middle one.
+        median * 1.4826 * 1.13
+    }
+}
+
+/// A parabola's coefficients from the power sums `s` and moments `m`.
+fn solve3(s: &[f64; 5], m: [Vec2; 3]) -> Option<[Vec2; 3]> {
+    let (a, b, c, d, e, f) = (s[0], s[1], s[2], s[2], s[3], s[4]);
+    // Cofactors of the symmetric matrix [a b c; b d e; c e f].
+    let (ca, cb, cc) = (d * f - e * e, c * e - b * f, b * e - c * d);
+    let (cd, ce, cf) = (a * f - c * c, b * c - a * e, a * d - b * b);
+    let det = a * ca + b * cb + c * cc;
+    (s[0] >= 3.0 && det.abs() > 1e-9).then(|| {
+        [
+            (m[0] * ca + m[1] * cb + m[2] * cc) / det,
+            (m[0] * cb + m[1] * cd + m[2] * ce) / det,
+            (m[0] * cc + m[1] * ce + m[2] * cf) / det,
+        ]
+    })
+}
+
+fn resample(span: Span<'_>) -> (Vec<Point>, f64) {
+    let p = span.points();
+    let close = if span.is_ring() { p.first() } else { None };
+    let ring: Vec<Point> = p.iter().chain(close).copied().collect();
+    let total: f64 = ring.windows(2).map(|w| w[0].distance(w[1])).sum();
+    // As many steps as the span has: lengths are then measured in the contour's own resolution.
+    let count = (ring.len() - 1).max(STEPS);
+    let step = total / count as f64;
+    let mut out = Vec::with_capacity(count + 1);
+    let mut before = 0.0;
+    for w in ring.windows(2) {
+        let d = w[0].distance(w[1]);
+        while out.len() < count && (out.len() as f64) * step <= before + d {
+            let t = ((out.len() as f64 * step - before) / d.max(1e-12)).clamp(0.0, 1.0);
+            out.push(w[0].lerp(w[1], t));
+        }
+        before += d;
+    }
+    if !span.is_ring() {
+        out.extend(p.last());
+    }
+    (out, step)
+}

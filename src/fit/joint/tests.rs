@@ -1,0 +1,129 @@
+use super::*;
+use kurbo::{Arc, ParamCurve, PathEl, PathSeg, Shape, Vec2};
+
+/// Points about a pixel apart along a path.
+fn points(path: &BezPath) -> Vec<Point> {
+    let mut out: Vec<Point> = Vec::new();
+    for seg in path.segments() {
+        let n = (seg.perimeter_estimate() / 0.7).ceil();
+        let m = (0..).take_while(|&i| f64::from(i) < n);
+        out.extend(m.map(|i| seg.eval(f64::from(i) / n)));
+    }
+    out.extend(path.segments().last().map(|s| s.eval(1.0)));
+    out
+}
+
+trait Length {
+    fn perimeter_estimate(&self) -> f64;
+}
+
+impl Length for PathSeg {
+    fn perimeter_estimate(&self) -> f64 {
+        kurbo::ParamCurveArclen::arclen(self, 1e-3)
+    }
+}
+
+fn fit(span: Span<'_>) -> Fitted {
+    Joint::default().fit(span, 0.5).unwrap()
+}
+
+fn circle(radius: f64) -> Vec<Point> {
+    let arc = Arc::new(
+        (50.0, 50.0),
+        (radius, radius),
+        0.1,
+        std::f64::consts::TAU,
+        0.0,
+    );
+    let mut p = points(&arc.path_elements(1e-6).collect());
+    p.pop();
+    p
+}
+
+#[test]
+fn a_circle_has_four_nodes_at_its_extrema() {
+    let p = circle(30.0);
+    let got = fit(Span::Ring(&p)).path;
+    assert_eq!(got.segments().count(), 4, "{got:?}");
+    for seg in got.segments() {
+        let d = seg.start() - Point::new(50.0, 50.0);
+        assert!(d.x.abs().min(d.y.abs()) < 0.2, "{d:?}");
+        assert!((d.hypot() - 30.0).abs() < 0.05);
+    }
+}
+
+#[test]
+fn a_straight_span_is_one_line() {
+    let p: Vec<Point> = (0..80)
+        .map(|i| Point::new(f64::from(i), 0.3 * f64::from(i)))
+        .collect();
+    let got = fit(Span::Open(&p)).path;
+    assert_eq!(
+        got.elements(),
+        [PathEl::MoveTo(p[0]), PathEl::LineTo(p[79])]
+    );
+}
+
+#[test]
+fn a_line_runs_into_a_curve_without_a_kink() {
+    let path = BezPath::from_svg("M0 0L0 60C0 90 20 110 50 110L100 110").unwrap();
+    let got = fit(Span::Open(&points(&path))).path;
+    let els = got.elements();
+    assert!(
+        matches!(
+            els,
+            [
+                PathEl::MoveTo(_),
+                PathEl::LineTo(_),
+                PathEl::CurveTo(..),
+                PathEl::LineTo(_)
+            ]
+        ),
+        "{got:?}"
+    );
+    let (PathEl::LineTo(a), PathEl::CurveTo(b, c, d)) = (els[1], els[2]) else {
+        panic!("{got:?}");
+    };
+    assert!((a - Point::new(0.0, 60.0)).hypot() < 1.5 && a.x.abs() < 1e-9 && b.x.abs() < 1e-9);
+    assert!((d - Point::new(50.0, 110.0)).hypot() < 1.5 && (c.y - d.y).abs() < 1e-9);
+}
+
+#[test]
+fn ends_are_exact_and_the_shortest_spans_are_their_own_polygon() {
+    let zigzag: Vec<Point> = (0..40)
+        .map(|i| Point::new(f64::from(i), f64::from(i % 3)))
+        .collect();
+    let repeated = [Point::new(1.0, 1.0); 5];
+    for p in [
+        &zigzag[..],
+        &zigzag[..2],
+        &zigzag[..3],
+        &zigzag[..7],
+        &repeated[..],
+    ] {
+        let got = fit(Span::Open(p)).path;
+        assert_eq!(got.elements().first(), Some(&PathEl::MoveTo(p[0])));
+        assert_eq!(
+            got.segments().last().map(|s| s.eval(1.0)),
+            p.last().copied()
+        );
+        assert!(got.is_finite());
+    }
+    assert_eq!(fit(Span::Open(&repeated)).verdict, Verdict::Degenerate);
+}
+
+#[test]
+fn smooth_joins_are_exactly_smooth() {
+    let path = BezPath::from_svg("M0 0C30 60 60 60 90 20S140 -40 200 10").unwrap();
+    let p: Vec<Point> = points(&path)
+        .iter()
+        .enumerate()
+        .map(|(i, q)| *q + Vec2::new(0.0, 0.05 * (i as f64 * 1.7).sin()))
+        .collect();
+    let got = fit(Span::Open(&p)).path;
+    let segs: Vec<_> = got.segments().map(|s| s.to_cubic()).collect();
+    for w in segs.windows(2) {
+        let (a, b) = (w[0].p3 - w[0].p2, w[1].p1 - w[1].p0);
+        assert!(a.cross(b).abs() < 1e-9 * a.hypot() * b.hypot());
+    }
+}

@@ -1,0 +1,490 @@
+//! Least squares of all nodes, directions and handles of a chain at once.
+//!
+//! Solves   min Σ wᵢ ρ(dᵢ / σ) + ½ Σ ((handle / chord − ⅓) / spread)², dᵢ the distance of sample i to the chain
+//! along its normal, ρ Huber's. Gauss–Newton with Levenberg's damping; the feet of the samples slide
+//! along the chain between steps (variable projection), over nodes where they must.
+//!
+//! A row of the Jacobian touches eight numbers of one segment only: x, y, direction and handle of both ends.
+//! Rows are summed over these eight, and the 8 × 8 block of a segment is carried over to the free numbers once.
+
+use super::chain::{Chain, Join, Kind};
+use super::skyline::Skyline;
+use kurbo::{CubicBez, Point, Vec2};
+
+/// A point that the chain should pass.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sample {
+    /// Where it lies.
+    pub at: Point,
+    /// How many independent measurements it stands for.
+    pub weight: f64,
+}
+
+/// Where on a chain a sample's foot lies.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Foot {
+    /// Index of the segment.
+    pub segment: usize,
+    /// Parameter there, 0…1.
+    pub t: f64,
+}
+
+/// What the distances are measured by.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Scale {
+    /// Standard deviation of a sample along the normal, in units of the samples.
+    pub sigma: f64,
+    /// Distance, in sigmas, from which the cost grows linearly only.
+    pub robust: f64,
+}
+
+/// Handles of drawn curves are about this part of the chord; a quarter of a circle has 0.39.
+const HANDLE: f64 = 0.37;
+/// How far handles stray from [`HANDLE`], in chords. Wide: it only decides what the samples leave open.
+const HANDLE_SPREAD: f64 = 0.4;
+
+/// How far a node may go from where it was, in shorter sides: only what the samples leave open is held by it.
+const FREEDOM: f64 = 0.5;
+/// How far in one step, in shorter sides.
+const STRIDE: f64 = 0.35;
+
+/// Sums over the rows of one segment. Order of the eight: x, y, direction, handle of the start;
+/// handle, direction, x, y of the end.
+#[derive(Debug, Clone, Copy, Default)]
+struct Block {
+    hessian: [[f64; 8]; 8],
+    gradient: [f64; 8],
+}
+
+/// A number of a node that an optimiser may or may not move.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Slot {
+    Fixed,
+    Free(usize),
+    /// Direction of this line.
+    Along(usize),
+}
+
+#[derive(Debug, Clone, Copy)]
+struct Slots {
+    x: Slot,
+    y: Slot,
+    arrive: Slot,
+    leave: Slot,
+    back: Slot,
+    ahead: Slot,
+}
+
+/// A cubic by powers of t.
+#[derive(Debug, Clone, Copy)]
+struct Powers([Vec2; 4]);
+
+impl Powers {
+    fn new(c: &CubicBez) -> Self {
+        let [p0, p1, p2, p3] = [c.p0, c.p1, c.p2, c.p3].map(Point::to_vec2);
+        Self([
+            p0,
+            3.0 * (p1 - p0),
+            3.0 * (p0 - 2.0 * p1 + p2),
+            p3 - p0 + 3.0 * (p1 - p2),
+        ])
+    }
+
+    fn at(&self, t: f64) -> (Point, Vec2, Vec2) {
+        let [a, b, c, d] = self.0;
+        let p = ((d * t + c) * t + b) * t + a;
+        (
+            p.to_point(),
+            (3.0 * t * d + 2.0 * c) * t + b,
+            6.0 * t * d + 2.0 * c,
+        )
+    }
+}
+
+/// Working memory of [`Refit::run`], used again from call to call.
+#[derive(Debug, Clone, Default)]
+pub struct Refit {
+    ring: bool,
+    slots: Vec<Slots>,
+    powers: Vec<Powers>,
+    blocks: Vec<Block>,
+    saved: Vec<Block>,
+    matrix: Skyline,
+    first: Vec<usize>,
+    step: Vec<f64>,
+    trial: Chain,
+    feet: Vec<Foot>,
+    /// Where each node came from, and one over the square of how far it may go.
+    anchors: Vec<(Point, f64)>,
+}
+
+impl Refit {
+    /// Moves what is free of `chain` to the least cost in at most `rounds` steps, and returns that cost.
+    /// `feet` starts with a guess for each sample and ends on the chain.
+    pub fn run(
+        &mut self,
+        chain: &mut Chain,
+        (samples, feet): (&[Sample], &mut Vec<Foot>),
+        scale: Scale,
+        rounds: usize,
+    ) -> f64 {
+        chain.settle();
+        let free = self.lay_out(chain);
+        self.drop_anchors(chain);
+        let mut cost = self.evaluate(chain, samples, feet, scale);
+        let mut lambda = 1e-3;
+        for _ in 0..rounds {
+            if free == 0 || !self.solve(chain, free, lambda) {
+                break;
+            }
+            let mut trial = std::mem::take(&mut self.trial);
+            trial.clone_from(chain);
+            self.apply(&mut trial);
+            let mut slid = std::mem::take(&mut self.feet);
+            slid.clone_from(feet);
+            std::mem::swap(&mut self.saved, &mut self.blocks);
+            let new = self.evaluate(&trial, samples, &mut slid, scale);
+            let gain = cost - new;
+            if gain > 0.0 {
+                std::mem::swap(chain, &mut trial);
+                std::mem::swap(feet, &mut slid);
+                cost = new;
+                lambda = (lambda * 0.2_f64).max(1e-6);
+            } else {
+                std::mem::swap(&mut self.saved, &mut self.blocks);
+                lambda *= 10.0;
+            }
+            self.trial = trial;
+            self.feet = slid;
+            if gain.abs() < 1e-4 + 1e-5 * cost || lambda > 1e4 {
+                break;
+            }
+        }
+        cost
+    }
+
+    /// How many numbers of `chain` are free.
+    pub fn free(&mut self, chain: &Chain) -> usize {
+        self.lay_out(chain)
+    }
+
+    fn lay_out(&mut self, chain: &Chain) -> usize {
+        let mut count = 0;
+        let mut free = || {
+            count += 1;
+            Slot::Free(count - 1)
+        };
+        self.slots.clear();
+        for (i, node) in chain.nodes.iter().enumerate() {
+            let fixed = node.join.is_fixed();
+            let (before, after) = (chain.before(i), chain.after(i));
+            let cubic = |s| chain.kind(s) == Some(Kind::Cubic);
+            let [x, y] =
+                [Join::Vertical, Join::Horizontal].map(|axis| match self.tied(chain, i, axis) {
+                    Some(slot) => slot,
+                    None if fixed => Slot::Fixed,
+                    None => free(),
+                });
+            let turning = |join: Join| matches!(join, Join::End | Join::Corner);
+            let (arrive, leave) = match node.join {
+                Join::Smooth => {
+                    let one = chain.line_beside(i).map_or_else(&mut free, Slot::Along);
+                    (one, one)
+                }
+                j if turning(j) => (
+                    if cubic(before) { free() } else { Slot::Fixed },
+                    if cubic(after) { free() } else { Slot::Fixed },
+                ),
+                _ => (Slot::Fixed, Slot::Fixed),
+            };
+            let back = if cubic(before) { free() } else { Slot::Fixed };
+            let ahead = if cubic(after) { free() } else { Slot::Fixed };
+            self.slots.push(Slots {
+                x,
+                y,
+                arrive,
+                leave,
+                back,
+                ahead,
+            });
+        }
+        count
+    }
+
+    /// The slot that an upright or level line before or after node `i` forces upon its x (`Vertical`) or y.
+    fn tied(&self, chain: &Chain, i: usize, axis: Join) -> Option<Slot> {
+        let runs = |line: usize| {
+            let (a, b) = chain.ends(line);
+            chain.kinds[line] == Kind::Line
+                && (chain.nodes[a].join == axis || chain.nodes[b].join == axis)
+        };
+        let pick = |s: &Slots| if axis == Join::Vertical { s.x } else { s.y };
+        let before = chain
+            .before(i)
+            .filter(|l| runs(*l))
+            .map(|l| chain.ends(l).0);
+        let after = chain.after(i).filter(|l| runs(*l)).map(|l| chain.ends(l).1);
+        let mut neighbours = before.into_iter().chain(after);
+        neighbours.find_map(|other| {
+            if chain.nodes[other].join.is_fixed() {
+                return Some(Slot::Fixed);
+            }
+            (other < i).then(|| pick(&self.slots[other]))
+        })
+    }
+
+    /// Slides the feet, sums the rows of each segment, and returns the cost.
+    fn evaluate(
+        &mut self,
+        chain: &Chain,
+        samples: &[Sample],
+        feet: &mut [Foot],
+        scale: Scale,
+    ) -> f64 {
+        self.ring = chain.is_ring();
+        self.powers.clear();
+        self.blocks.clear();
+        let mut cost = 0.0;
+        for i in 0..chain.kinds.len() {
+            self.powers.push(Powers::new(&chain.cubic(i)));
+            let mut block = Block::default();
+            cost += handle_prior(chain, i, &mut block);
+            cost += anchor_prior(chain.nodes[i].point, self.anchors[i], &mut block);
+            self.blocks.push(block);
+        }
+        for (sample, foot) in samples.iter().zip(feet) {
+            let (offset, normal) = self.slide(sample.at, foot);
+            let distance = offset.dot(normal);
+            let u = distance.abs() / scale.sigma;
+            let (rho, pull) = if u < scale.robust {
+                (0.5 * u * u, 1.0)
+            } else {
+                (scale.robust * (u - 0.5 * scale.robust), scale.robust / u)
+            };
+            cost += sample.weight * rho;
+            let weight = sample.weight * pull / (scale.sigma * scale.sigma);
+            let row = row(chain, *foot, normal);
+            let block = &mut self.blocks[foot.segment];
+            for (k, rk) in row.iter().enumerate() {
+                let w = weight * rk;
+                block.gradient[k] += w * distance;
+                for (h, rl) in block.hessian[k].iter_mut().zip(&row) {
+                    *h += w * rl;
+                }
+            }
+        }
+        cost
+    }
+
+    /// Moves a foot to the nearest place near by; returns the offset curve − sample and the unit normal there.
+    fn slide(&self, at: Point, foot: &mut Foot) -> (Vec2, Vec2) {
+        let n = self.powers.len();
+        foot.segment = foot.segment.min(n - 1);
+        let mut came = 0i8;
+        for _ in 0..4 {
+            for _ in 0..2 {
+                let (p, d, dd) = self.powers[foot.segment].at(foot.t);
+                let speed = d.hypot2();
+                let bend = speed + (p - at).dot(dd);
+                let step = (p - at).dot(d) / bend.max(0.25 * speed).max(1e-12);
+                foot.t = (foot.t - step.clamp(-0.3, 0.3)).clamp(-0.2, 1.2);
+            }
+            let over = foot.t > 1.0;
+            if !over && foot.t >= 0.0 {
+                break;
+            }
+            let turned = if over { came < 0 } else { came > 0 };
+            let open = !self.ring && foot.segment == if over { n - 1 } else { 0 };
+            foot.t = f64::from(u8::from(over));
+            if turned || open {
+                break;
+            }
+            foot.segment = if over {
+                (foot.segment + 1) % n
+            } else {
+                (foot.segment + n - 1) % n
+            };
+            foot.t = 1.0 - foot.t;
+            came = if over { 1 } else { -1 };
+        }
+        foot.t = foot.t.clamp(0.0, 1.0);
+        let (p, d, dd) = self.powers[foot.segment].at(foot.t);
+        let along = if d.hypot2() > 1e-12 { d } else { dd };
+        let length = along.hypot().max(1e-12);
+        (p - at, Vec2::new(-along.y, along.x) / length)
+    }
+
+    /// Carries the blocks over to the free numbers and leaves the step in `self.step`.
+    fn solve(&mut self, chain: &Chain, free: usize, lambda: f64) -> bool {
+        self.first.clear();
+        self.first.extend(0..free);
+        for i in 0..chain.kinds.len() {
+            let spread = self.spread(chain, i);
+            let vars = || spread.iter().flat_map(|s| s.iter().flatten());
+            let least = vars().map(|v| v.0).min().unwrap_or(0);
+            for (v, _) in vars() {
+                self.first[*v] = self.first[*v].min(least);
+            }
+        }
+        self.matrix.reset(&self.first);
+        self.step.clear();
+        self.step.resize(free, 0.0);
+        for (i, block) in self.blocks.iter().enumerate() {
+            let spread = self.spread(chain, i);
+            for (k, to) in spread.iter().enumerate() {
+                for &(v, c) in to.iter().flatten() {
+                    self.step[v] -= c * block.gradient[k];
+                    for (l, other) in spread.iter().enumerate() {
+                        for &(u, d) in other.iter().flatten() {
+                            if u <= v {
+                                self.matrix.add(v, u, c * d * block.hessian[k][l]);
+                            }
+                        }
+                    }
+                }
+            }
+        }
+        for v in 0..free {
+            // So that a number on which nothing depends stays where it is.
+            self.matrix.add(v, v, 1e-9);
+        }
+        self.matrix.solve_damped(lambda, &mut self.step)
+    }
+
+    /// How each of a segment's eight numbers depends on the free ones.
+    fn spread(&self, chain: &Chain, segment: usize) -> [[Option<(usize, f64)>; 4]; 8] {
+        let (a, b) = chain.ends(segment);
+        let (p, q) = (&self.slots[a], &self.slots[b]);
+        let slots = [p.x, p.y, p.leave, p.ahead, q.back, q.arrive, q.x, q.y];
+        slots.map(|slot| match slot {
+            Slot::Fixed => [None; 4],
+            Slot::Free(v) => [Some((v, 1.0)), None, None, None],
+            Slot::Along(line) => {
+                let (a, b) = chain.ends(line);
+                let d = chain.nodes[b].point - chain.nodes[a].point;
+                let d = d / d.hypot2().max(1e-12);
+                let (s, e) = (&self.slots[a], &self.slots[b]);
+                let of = |slot: Slot, c: f64| match slot {
+                    Slot::Free(v) => Some((v, c)),
+                    _ => None,
+                };
+                [of(s.x, d.y), of(s.y, -d.x), of(e.x, -d.y), of(e.y, d.x)]
+            }
+        })
+    }
+
+    fn drop_anchors(&mut self, chain: &Chain) {
+        self.anchors.clear();
+        for (i, node) in chain.nodes.iter().enumerate() {
+            let reach = FREEDOM * shorter_side(chain, i);
+            self.anchors
+                .push((node.point, 1.0 / (reach * reach).max(1e-6)));
+        }
+    }
+
+    /// The part of the step that moves no node by more than [`STRIDE`] of its shorter side.
+    fn stride(&self, chain: &Chain) -> f64 {
+        let nodes = chain.nodes.iter().zip(&self.slots).enumerate();
+        nodes.fold(1.0, |part: f64, (i, (_, s))| {
+            let moved = Vec2::new(self.stepped(s.x), self.stepped(s.y)).hypot();
+            let most = STRIDE * shorter_side(chain, i);
+            if moved * part > most {
+                most / moved
+            } else {
+                part
+            }
+        })
+    }
+
+    fn stepped(&self, slot: Slot) -> f64 {
+        match slot {
+            Slot::Free(v) => self.step[v],
+            _ => 0.0,
+        }
+    }
+
+    fn apply(&self, chain: &mut Chain) {
+        let part = self.stride(chain);
+        let step = |slot: Slot| part * self.stepped(slot);
+        let turn = |d: Vec2, by: f64| {
+            let (s, c) = by.clamp(-0.5, 0.5).sin_cos();
+            Vec2::new(c * d.x - s * d.y, s * d.x + c * d.y)
+        };
+        // A handle may shrink or grow only by a factor a step: it must not change sides.
+        let grow = |handle: f64, by: f64| (handle + by).clamp(0.3 * handle, 3.0 * handle + 1e-9);
+        for (node, s) in chain.nodes.iter_mut().zip(&self.slots) {
+            node.point += Vec2::new(step(s.x), step(s.y));
+            node.arrive = turn(node.arrive, step(s.arrive));
+            node.leave = turn(node.leave, step(s.leave));
+            node.back = grow(node.back, step(s.back));
+            node.ahead = grow(node.ahead, step(s.ahead));
+        }
+        chain.align();
+    }
+}
+
+/// Length of the shorter chord beside a node.
+fn shorter_side(chain: &Chain, i: usize) -> f64 {
+    let length = |s: usize| {
+        let (a, b) = chain.ends(s);
+        chain.nodes[a].point.distance(chain.nodes[b].point)
+    };
+    let sides = [chain.before(i), chain.after(i)]
+        .into_iter()
+        .flatten()
+        .map(length);
+    sides.fold(f64::INFINITY, f64::min)
+}
+
+/// Cost of a node's way from where it was.
+fn anchor_prior(at: Point, (anchor, tight): (Point, f64), block: &mut Block) -> f64 {
+    let d = at - anchor;
+    block.gradient[0] += d.x * tight;
+    block.gradient[1] += d.y * tight;
+    block.hessian[0][0] += tight;
+    block.hessian[1][1] += tight;
+    0.5 * tight * d.hypot2()
+}
+
+/// Cost of a cubic's handles by themselves, and its rows.
+fn handle_prior(chain: &Chain, segment: usize, block: &mut Block) -> f64 {
+    if chain.kinds[segment] == Kind::Line {
+        return 0.0;
+    }
+    let (a, b) = chain.ends(segment);
+    let (a, b) = (&chain.nodes[a], &chain.nodes[b]);
+    let chord = a.point.distance(b.point).max(1e-9);
+    let mut cost = 0.0;
+    for (k, handle) in [(3, a.ahead), (4, b.back)] {
+        let off = (handle / chord - HANDLE) / HANDLE_SPREAD;
+        let slope = 1.0 / (chord * HANDLE_SPREAD);
+        cost += 0.5 * off * off;
+        block.gradient[k] += off * slope;
+        block.hessian[k][k] += slope * slope;
+    }
+    cost
+}
+
+/// How the distance at a foot changes with the eight numbers of its segment.
+fn row(chain: &Chain, foot: Foot, n: Vec2) -> [f64; 8] {
+    let (a, b) = chain.ends(foot.segment);
+    let (a, b) = (&chain.nodes[a], &chain.nodes[b]);
+    let (t, s) = (foot.t, 1.0 - foot.t);
+    if chain.kinds[foot.segment] == Kind::Line {
+        return [n.x * s, n.y * s, 0.0, 0.0, 0.0, 0.0, n.x * t, n.y * t];
+    }
+    let (b1, b2) = (3.0 * s * s * t, 3.0 * s * t * t);
+    let (start, end) = (s * s * s + b1, t * t * t + b2);
+    // n · (direction turned by a right angle) = direction × … : d/dθ of a unit vector.
+    let (turn0, turn1) = (a.leave.cross(n), b.arrive.cross(n));
+    [
+        n.x * start,
+        n.y * start,
+        b1 * a.ahead * turn0,
+        b1 * a.leave.dot(n),
+        -b2 * b.arrive.dot(n),
+        -b2 * b.back * turn1,
+        n.x * end,
+        n.y * end,
+    ]
+}
