@@ -24,6 +24,7 @@ pub mod read;
 pub mod recognise;
 pub mod refine;
 pub mod scan;
+pub mod template;
 pub mod trace;
 pub mod types;
 pub mod write;

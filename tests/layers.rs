@@ -19,6 +19,7 @@ const MAY_NAME: &[(&str, &[&str])] = &[
     ("assemble", &["types", "numeric"]),
     ("write", &["types", "numeric"]),
     ("read", &["types", "numeric"]),
+    ("template", &["types", "numeric"]),
 ];
 
 /// Every Rust file below `src/`, sorted, with its text.

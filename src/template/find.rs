@@ -1,0 +1,346 @@
+//! Picture of a page → which page it is and where it lies.
+
+use super::TemplateError;
+use super::draw::RING;
+use super::layout::{Code, Layout};
+use super::view::View;
+use crate::types::{Gray, Sheet};
+use image::{GrayImage, Luma};
+use imageproc::region_labelling::{Connectivity, connected_components};
+use kurbo::{Point, Rect, Vec2};
+use rqrr::SimpleGrid;
+
+/// A page recognised.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Found {
+    /// What its code says.
+    pub code: Code,
+    /// Where it lies in the picture.
+    pub view: View,
+}
+
+/// Longest side of the reduced picture in which marks are looked for: a mark is then 40 px wide on a page that
+/// fills the picture, and the search costs nothing beside decoding. px
+const SEARCH: usize = 1600;
+/// Radius of the local mean that ink must exceed, share of the reduced picture's longest side.
+const NEARBY: usize = 20;
+/// By how much it must exceed it: above a scanner's noise, below a faded photograph's contrast.
+const CONTRAST: f64 = 0.12;
+/// Marks tried when drawings look like marks too.
+const MOST_MARKS: usize = 9;
+/// Modules of a code of up to 29 signs at level Q, and of the next sizes.
+const MODULES: [usize; 3] = [25, 29, 33];
+
+/// Finds the four ring marks and reads the code beside them, whichever way the page was turned.
+///
+/// # Errors
+/// Fewer than four marks, or no readable code of ours.
+pub fn find(sheet: &Sheet, layout: &Layout) -> Result<Found, TemplateError> {
+    let source_name = || sheet.source.clone();
+    let (small, factor) = reduce(&sheet.gray);
+    let marks = rings(&small);
+    let Some(corners) = outermost(&marks) else {
+        return Err(TemplateError::Marks {
+            source_name: source_name(),
+            found: marks.len().min(3),
+        });
+    };
+    #[expect(clippy::cast_precision_loss, reason = "a small factor")]
+    let corners = corners.map(|p| (p.to_vec2() * factor as f64).to_point());
+    let mut foreign = None;
+    for turn in 0..4 {
+        let mut turned = corners;
+        turned.rotate_left(turn);
+        let Some(view) = View::through(layout.marks(), turned) else {
+            continue;
+        };
+        let view = refine(&sheet.gray, layout, view).unwrap_or(view);
+        for text in MODULES
+            .iter()
+            .filter_map(|&n| read_code(&sheet.gray, layout.code(), &view, n))
+        {
+            match Code::parse(&text) {
+                Some(code) => return Ok(Found { code, view }),
+                None => foreign = Some(text),
+            }
+        }
+    }
+    Err(match foreign {
+        Some(text) => TemplateError::ForeignCode {
+            source_name: source_name(),
+            text,
+        },
+        None => TemplateError::NoCode {
+            source_name: source_name(),
+        },
+    })
+}
+
+/// The picture at a whole-number reduction, each sample the mean of its block, and the factor.
+fn reduce(gray: &Gray) -> (Gray, usize) {
+    let factor = gray.width().max(gray.height()).div_ceil(SEARCH).max(1);
+    let (w, h) = (gray.width() / factor, gray.height() / factor);
+    #[expect(clippy::cast_precision_loss, reason = "a block has few samples")]
+    let share = 1.0 / (factor * factor) as f32;
+    let small = Gray::from_fn(w, h, |x, y| {
+        let rows = (y * factor..(y + 1) * factor).map(|r| gray.row(r));
+        rows.flat_map(|r| &r[x * factor..(x + 1) * factor])
+            .sum::<f32>()
+            * share
+    });
+    (small, factor)
+}
+
+/// Pixels darker than their neighbourhood.
+fn dark(gray: &Gray) -> GrayImage {
+    let (w, h) = (gray.width(), gray.height());
+    let stride = w + 1;
+    let mut sums = vec![0.0f64; stride * (h + 1)];
+    for y in 0..h {
+        let mut row = 0.0;
+        for (x, &v) in gray.row(y).iter().enumerate() {
+            row += f64::from(v);
+            sums[(y + 1) * stride + x + 1] = sums[y * stride + x + 1] + row;
+        }
+    }
+    let r = (w.max(h) / NEARBY).max(2);
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "the reduced picture is small"
+    )]
+    GrayImage::from_fn(w as u32, h as u32, |x, y| {
+        let (x, y) = (x as usize, y as usize);
+        let (x0, x1) = (x.saturating_sub(r), (x + r + 1).min(w));
+        let (y0, y1) = (y.saturating_sub(r), (y + r + 1).min(h));
+        let sum = sums[y1 * stride + x1] - sums[y0 * stride + x1] - sums[y1 * stride + x0]
+            + sums[y0 * stride + x0];
+        #[expect(clippy::cast_precision_loss, reason = "a window has few samples")]
+        let mean = sum / ((x1 - x0) * (y1 - y0)) as f64;
+        Luma([u8::from(f64::from(gray.at(x, y)) > mean + CONTRAST) * 255])
+    })
+}
+
+/// A blot of the reduced picture.
+#[derive(Debug, Clone, Copy)]
+struct Blot {
+    bounds: Rect,
+    area: f64,
+}
+
+impl Blot {
+    fn fill(&self) -> f64 {
+        self.area / self.bounds.area()
+    }
+
+    fn width(&self) -> f64 {
+        self.bounds.area().sqrt()
+    }
+}
+
+fn blots(gray: &Gray) -> Vec<Blot> {
+    let labels = connected_components(&dark(gray), Connectivity::Eight, Luma([0]));
+    let mut blots: Vec<Blot> = Vec::new();
+    for (x, y, Luma([label])) in labels.enumerate_pixels() {
+        let Some(i) = (*label as usize).checked_sub(1) else {
+            continue;
+        };
+        let pixel = Rect::from_origin_size((f64::from(x), f64::from(y)), (1.0, 1.0));
+        if i >= blots.len() {
+            blots.resize(
+                i + 1,
+                Blot {
+                    bounds: pixel,
+                    area: 0.0,
+                },
+            );
+            blots[i].bounds = pixel;
+        }
+        let blot = &mut blots[i];
+        blot.bounds = if blot.area > 0.0 {
+            blot.bounds.union(pixel)
+        } else {
+            pixel
+        };
+        blot.area += 1.0;
+    }
+    blots
+}
+
+/// Centres of discs with a ring around them: a disc fills π/4 of its box, the ring a third of its own.
+fn rings(gray: &Gray) -> Vec<Point> {
+    let round = |b: &&Blot| {
+        let (w, h) = (b.bounds.width(), b.bounds.height());
+        w >= 3.0 && h >= 3.0 && (0.55..1.8).contains(&(w / h))
+    };
+    let all = blots(gray);
+    let discs: Vec<&Blot> = all
+        .iter()
+        .filter(round)
+        .filter(|b| (0.55..0.97).contains(&b.fill()))
+        .collect();
+    let hoops = all
+        .iter()
+        .filter(round)
+        .filter(|b| (0.15..0.55).contains(&b.fill()));
+    let mut found: Vec<(Point, f64)> = Vec::new();
+    for hoop in hoops {
+        let inside = discs.iter().find(|d| {
+            let off = d.bounds.center().distance(hoop.bounds.center());
+            off < 0.15 * hoop.width() && (1.6..3.2).contains(&(hoop.width() / d.width()))
+        });
+        if let Some(d) = inside {
+            found.push((d.bounds.center(), hoop.width()));
+        }
+    }
+    // marks of one page are of one size; drawings that look like marks seldom are
+    found.sort_by(|a, b| b.1.total_cmp(&a.1));
+    let middle = found.get(found.len().min(4) / 2).map_or(0.0, |f| f.1);
+    found.retain(|f| (0.5..2.0).contains(&(f.1 / middle)));
+    found.truncate(MOST_MARKS);
+    found.into_iter().map(|f| f.0).collect()
+}
+
+/// The four of `points` with the largest area between them, clockwise as seen.
+fn outermost(points: &[Point]) -> Option<[Point; 4]> {
+    let n = points.len();
+    let mut best: Option<(f64, [Point; 4])> = None;
+    for a in 0..n {
+        for b in a + 1..n {
+            for c in b + 1..n {
+                for d in c + 1..n {
+                    let ring = clockwise([points[a], points[b], points[c], points[d]]);
+                    let area = (ring[2] - ring[0]).cross(ring[3] - ring[1]).abs() / 2.0;
+                    if best.as_ref().is_none_or(|(most, _)| area > *most) {
+                        best = Some((area, ring));
+                    }
+                }
+            }
+        }
+    }
+    best.map(|(_, ring)| ring)
+}
+
+fn clockwise(mut ring: [Point; 4]) -> [Point; 4] {
+    let centre = ring.iter().fold(Vec2::ZERO, |s, p| s + p.to_vec2()) / 4.0;
+    ring.sort_by(|a, b| {
+        let angle = |p: &Point| (p.to_vec2() - centre).atan2();
+        angle(a).total_cmp(&angle(b))
+    });
+    ring
+}
+
+/// The view through the marks' centres of gravity, found at full resolution.
+fn refine(gray: &Gray, layout: &Layout, rough: View) -> Option<View> {
+    let mut view = rough;
+    for _ in 0..3 {
+        let marks = layout.marks();
+        let mut centres = marks;
+        for (centre, &mark) in centres.iter_mut().zip(&marks) {
+            *centre = disc_centre(gray, &view, mark)?;
+        }
+        view = View::through(marks, centres)?;
+    }
+    Some(view)
+}
+
+/// Centre of gravity of the disc printed at `mark`, px, with the levels of its own black and white.
+fn disc_centre(gray: &Gray, view: &View, mark: Point) -> Option<Point> {
+    let near = view.near(mark);
+    let back = near.inverse();
+    let reach = (RING[1] + RING[2]) / 2.0;
+    let px = near.transform_rect_bbox(Rect::from_center_size(mark, (2.0 * reach, 2.0 * reach)));
+    let inside = px.intersect(Rect::new(
+        0.0,
+        0.0,
+        as_f64(gray.width()),
+        as_f64(gray.height()),
+    ));
+    if inside.area() < 9.0 {
+        return None;
+    }
+    let samples: Vec<(Point, f64, f64)> = (floor(inside.y0)..floor(inside.y1))
+        .flat_map(|y| (floor(inside.x0)..floor(inside.x1)).map(move |x| (x, y)))
+        .map(|(x, y)| {
+            let p = Point::new(as_f64(x) + 0.5, as_f64(y) + 0.5);
+            (p, (back * p).distance(mark), f64::from(gray.at(x, y)))
+        })
+        .filter(|(_, r, _)| *r < reach)
+        .collect();
+    let mean = |range: std::ops::Range<f64>| {
+        let hits = samples.iter().filter(|(_, r, _)| range.contains(r));
+        let (n, sum) = hits.fold((0.0, 0.0), |(n, s), (_, _, v)| (n + 1.0, s + v));
+        (n > 0.0).then_some(sum / n)
+    };
+    let (ink, paper) = (mean(0.0..0.6 * RING[2])?, mean(reach * 0.93..reach)?);
+    if ink - paper < CONTRAST / 2.0 {
+        return None;
+    }
+    let weigh = |v: f64| ((v - paper) / (ink - paper)).clamp(0.0, 1.0);
+    let (mass, moment) = samples.iter().fold((0.0, Vec2::ZERO), |(m, s), (p, _, v)| {
+        let w = weigh(*v);
+        (m + w, s + p.to_vec2() * w)
+    });
+    Some((moment / mass).to_point())
+}
+
+/// What the QR code in `square` says, its modules read where the view puts them.
+fn read_code(gray: &Gray, square: Rect, view: &View, modules: usize) -> Option<String> {
+    let module = square.width() / as_f64(modules);
+    let value = |x: usize, y: usize| {
+        let offsets = [-0.2, 0.0, 0.2];
+        let at = |dx: f64, dy: f64| {
+            let p = Vec2::new(as_f64(x) + 0.5 + dx, as_f64(y) + 0.5 + dy) * module;
+            sample(gray, view.at(square.origin() + p))
+        };
+        offsets
+            .iter()
+            .flat_map(|&dy| offsets.iter().map(move |&dx| at(dx, dy)))
+            .sum::<f64>()
+            / 9.0
+    };
+    let values: Vec<f64> = (0..modules * modules)
+        .map(|i| value(i % modules, i / modules))
+        .collect();
+    let (low, high) = values
+        .iter()
+        .fold((f64::MAX, f64::MIN), |(l, h), &v| (l.min(v), h.max(v)));
+    let level = (low + high) / 2.0;
+    let grid = SimpleGrid::from_func(modules, |x, y| values[y * modules + x] > level);
+    rqrr::Grid::new(grid).decode().ok().map(|(_, text)| text)
+}
+
+/// Bilinear coverage at a point, px; paper outside the picture.
+pub(super) fn sample(gray: &Gray, p: Point) -> f64 {
+    let q = p - Vec2::new(0.5, 0.5);
+    if !(q.x > -1.0 && q.y > -1.0 && q.x < as_f64(gray.width()) && q.y < as_f64(gray.height())) {
+        return 0.0;
+    }
+    let (x, y) = (q.x.max(0.0).floor(), q.y.max(0.0).floor());
+    let (fx, fy) = ((q.x - x).max(0.0), (q.y - y).max(0.0));
+    let (x, y) = (floor(x), floor(y));
+    let (x1, y1) = (
+        (x + 1).min(gray.width() - 1),
+        (y + 1).min(gray.height() - 1),
+    );
+    let v = |x, y| f64::from(gray.at(x, y));
+    let top = v(x, y) * (1.0 - fx) + v(x1, y) * fx;
+    let bottom = v(x, y1) * (1.0 - fx) + v(x1, y1) * fx;
+    top * (1.0 - fy) + bottom * fy
+}
+
+#[expect(
+    clippy::cast_precision_loss,
+    reason = "pictures have fewer pixels a side than 2^52"
+)]
+pub(super) const fn as_f64(n: usize) -> f64 {
+    n as f64
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "the cast saturates; callers stay inside the picture"
+)]
+pub(super) fn floor(v: f64) -> usize {
+    v.floor() as usize
+}

@@ -1,0 +1,148 @@
+//! Ink gain: how printer, paper and scanner blur and spread what is black, from the strip at the page's foot.
+
+use super::draw::{LADDER, SQUARE, strip};
+use super::find::{Found, as_f64, floor, sample};
+use super::layout::Layout;
+use crate::types::Sheet;
+use kurbo::{Affine, Point, Rect, Vec2};
+
+/// What the strip says.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Gain {
+    /// Standard deviation of the edges' blur, mm.
+    pub blur_mm: f64,
+    /// How far black reaches beyond its true edge at half coverage, mm; negative where it shrank.
+    pub spread_mm: f64,
+    /// Printed width of the ladder's lines and the width that the scan shows, mm.
+    pub ladder_mm: Vec<[f64; 2]>,
+    /// Coverage that the scan shows where 10, 20 … 90 % is printed.
+    pub tone: Vec<f64>,
+}
+
+/// How far from an edge its profile is taken. mm
+const REACH: f64 = 0.6;
+/// Width of a profile's bin. mm
+const BIN: f64 = 0.02;
+/// The contour's level stays within this of a half: further off, thin strokes break or fill.
+const MOST_SHIFT: f64 = 0.2;
+
+impl Gain {
+    /// The coverage at which a blurred edge crosses its true place: a half without spread.
+    #[must_use]
+    pub fn level(&self) -> f64 {
+        let level = normal_cdf(self.spread_mm / self.blur_mm.max(1e-6));
+        level.clamp(0.5 - MOST_SHIFT, 0.5 + MOST_SHIFT)
+    }
+}
+
+/// Measures the strip of a recognised page; `None` where it is hidden or too faint.
+#[must_use]
+pub fn gain(sheet: &Sheet, layout: &Layout, found: &Found) -> Option<Gain> {
+    let at = |p: Point| sample(&sheet.gray, found.view.at(p));
+    let step = 0.5 / found.view.scale(layout.gain_strip().center());
+    let strip = strip(layout);
+    let edges: Option<Vec<[f64; 2]>> = strip
+        .squares
+        .iter()
+        .flat_map(|&c| (0..4).map(move |k| (c, f64::from(k) * std::f64::consts::FRAC_PI_2)))
+        .map(|(centre, turn)| edge(&at, centre, turn + SQUARE.1, step))
+        .collect();
+    let edges = edges?;
+    let mean = |i: usize| edges.iter().map(|e| e[i]).sum::<f64>() / as_f64(edges.len());
+    let (spread_mm, variance) = (mean(0), mean(1));
+    let (paper, ink) = levels(&at, strip.squares[0]);
+    let shade = |p: Point| (at(p) - paper) / (ink - paper);
+    let ladder = strip
+        .ladder
+        .iter()
+        .zip(LADDER)
+        .map(|(r, w)| [w, width(&shade, *r, step)]);
+    let tone = strip.wedge.iter().map(|r| patch(&shade, r.inset(-0.8)));
+    Some(Gain {
+        blur_mm: variance.max(0.0).sqrt(),
+        spread_mm,
+        ladder_mm: ladder.collect(),
+        tone: tone.collect(),
+    })
+}
+
+/// Paper beside and ink inside a square.
+fn levels(at: &impl Fn(Point) -> f64, centre: Point) -> (f64, f64) {
+    let frame = Affine::translate(centre.to_vec2()) * Affine::rotate(SQUARE.1);
+    let ink = patch(&at, Rect::from_center_size(centre, (2.0, 2.0)));
+    let sides = [(0.0, 4.1), (4.1, 0.0), (0.0, -4.1), (-4.1, 0.0)];
+    let paper = sides.map(|s| {
+        patch(
+            &at,
+            Rect::from_center_size(frame * Point::from(s), (0.4, 0.4)),
+        )
+    });
+    (paper.iter().sum::<f64>() / 4.0, ink)
+}
+
+/// Place and variance of the edge of a square on the side that `turn` points to, mm and mm².
+fn edge(at: &impl Fn(Point) -> f64, centre: Point, turn: f64, step: f64) -> Option<[f64; 2]> {
+    let (out, along) = (Vec2::from_angle(turn), Vec2::from_angle(turn).turn_90());
+    let bins = floor(2.0 * REACH / BIN);
+    let mut sums = vec![[0.0f64; 2]; bins];
+    let half = 0.35 * SQUARE.0;
+    for i in 0..floor(2.0 * half / step) {
+        for k in 0..floor(2.0 * REACH / step) {
+            let d = (as_f64(k) + 0.5) * step - REACH;
+            let t = (as_f64(i) + 0.5) * step - half;
+            let bin = &mut sums[floor((d + REACH) / BIN).min(bins - 1)];
+            bin[0] += at(centre + out * (SQUARE.0 / 2.0 + d) + along * t);
+            bin[1] += 1.0;
+        }
+    }
+    let filled = sums.iter().enumerate().filter(|(_, s)| s[1] > 0.0);
+    let profile: Vec<[f64; 2]> = filled
+        .map(|(i, s)| [(as_f64(i) + 0.5) * BIN - REACH, s[0] / s[1]])
+        .collect();
+    let end = (profile.len() / 8).max(1);
+    let mean = |p: &[[f64; 2]]| p.iter().map(|v| v[1]).sum::<f64>() / as_f64(p.len());
+    let (ink, paper) = (mean(&profile[..end]), mean(&profile[profile.len() - end..]));
+    if profile.len() < 8 || ink - paper < 0.1 {
+        return None;
+    }
+    let fall = profile.windows(2).map(|p| {
+        [
+            f64::midpoint(p[0][0], p[1][0]),
+            (p[0][1] - p[1][1]) / (ink - paper),
+        ]
+    });
+    let (mass, first, second) = fall.fold((0.0, 0.0, 0.0), |(m, a, b), [d, w]| {
+        (m + w, a + w * d, b + w * d * d)
+    });
+    let place = first / mass;
+    Some([place, second / mass - place * place])
+}
+
+/// Mean over a rectangle of the page.
+fn patch(value: &impl Fn(Point) -> f64, r: Rect) -> f64 {
+    let n = 12;
+    let at = |i: usize| {
+        let (u, v) = (as_f64(i % n) + 0.5, as_f64(i / n) + 0.5);
+        value(r.origin() + Vec2::new(u * r.width(), v * r.height()) / as_f64(n))
+    };
+    (0..n * n).map(at).sum::<f64>() / as_f64(n * n)
+}
+
+/// Width of an upright line: its coverage added up across it, mm.
+fn width(shade: &impl Fn(Point) -> f64, line: Rect, step: f64) -> f64 {
+    let (from, to) = (line.x0 - 0.8, line.x1 + 0.8);
+    let count = floor((to - from) / step).max(1);
+    let across = |k: usize| {
+        let x = from + (as_f64(k) + 0.5) * (to - from) / as_f64(count);
+        (0..20)
+            .map(|i| shade(Point::new(x, line.y0 + 1.0 + 0.2 * f64::from(i))))
+            .sum::<f64>()
+            / 20.0
+    };
+    (0..count).map(across).sum::<f64>() * (to - from) / as_f64(count)
+}
+
+/// Φ, by the logistic curve that fits it to 1.5e-4.
+fn normal_cdf(z: f64) -> f64 {
+    1.0 / (1.0 + (-(0.070_56 * z * z * z + 1.597_6 * z)).exp())
+}

@@ -1,0 +1,422 @@
+//! Where things lie on a page, in mm, y down, origin at the paper's top left corner.
+
+use super::TemplateError;
+use kurbo::{Point, Rect, Size};
+use serde::{Deserialize, Serialize};
+use sha2::{Digest, Sha256};
+use std::fmt;
+
+/// Paper to print on.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Paper {
+    /// 210 × 297 mm.
+    #[default]
+    A4,
+    /// 215.9 × 279.4 mm.
+    Letter,
+    /// Width and height, mm.
+    Size(f64, f64),
+}
+
+/// How a page is divided; everything a user may set.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Layout {
+    /// Paper to print on.
+    pub paper: Paper,
+    /// Cells in a row, 1…40.
+    pub columns: usize,
+    /// Rows of cells, 1…40.
+    pub rows: usize,
+    /// Size of the em on paper, mm; left out, the largest that fits the cell.
+    pub em_mm: Option<f64>,
+    /// Guide above the baseline, em.
+    pub ascender: f64,
+    /// Guide of the capitals, em.
+    pub cap_height: f64,
+    /// Guide of x, em.
+    pub x_height: f64,
+    /// Guide below the baseline, em, at most 0.
+    pub descender: f64,
+    /// Lower and upper edge of the joining stroke of Arabic letters, em.
+    pub joining: [f64; 2],
+}
+
+impl Default for Layout {
+    fn default() -> Self {
+        Self {
+            paper: Paper::A4,
+            columns: 8,
+            rows: 9,
+            em_mm: None,
+            ascender: 0.80,
+            cap_height: 0.70,
+            x_height: 0.50,
+            descender: -0.35,
+            joining: [0.0, 0.07],
+        }
+    }
+}
+
+/// Centre of a ring mark from the paper's edges: outside every printer's blind border. mm
+const MARK_INSET: f64 = 11.0;
+/// Above the cells: marks, code and title. mm
+const HEAD: f64 = 25.0;
+/// Below the cells: marks and the gain strip. mm
+const FOOT: f64 = 21.0;
+/// Beside the cells: inside the marks' clear zone. mm
+const SIDE: f64 = 10.0;
+/// Height of the caption above a cell's drawing field. mm
+const CAPTION: f64 = 3.6;
+/// Between two drawing fields. mm
+const GAP: f64 = 0.8;
+/// Left free above the ascender and below the descender, share of the field's height.
+const AIR: f64 = 0.06;
+/// Edge of the QR code, quiet zone not counted. mm
+const CODE_SIZE: f64 = 15.0;
+
+/// One cell's place on its page.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Place {
+    /// What is to be drawn in it.
+    pub label: String,
+    /// Where it stands in the glyph list, from 0.
+    pub index: usize,
+    /// The field to draw in.
+    pub field: Rect,
+    /// Top left corner of the caption.
+    pub caption: Point,
+    /// The baseline's height on the page.
+    pub baseline: f64,
+}
+
+/// What a page's QR code says: which printing it belongs to and its number.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Code {
+    /// Eight hexadecimal digits from the project's name, the layout and the glyph list.
+    pub id: String,
+    /// Page number, from 1.
+    pub page: usize,
+    /// Pages of the printing.
+    pub pages: usize,
+}
+
+impl Code {
+    /// Reads what [`fmt::Display`] writes.
+    #[must_use]
+    pub fn parse(text: &str) -> Option<Self> {
+        let mut words = text.strip_prefix("KHATT1 ")?.split(' ');
+        let id = words.next().filter(|w| w.len() == 8)?.to_owned();
+        let (page, pages) = words.next()?.split_once('/')?;
+        let (page, pages) = (page.parse().ok()?, pages.parse().ok()?);
+        let fine = words.next().is_none() && (1..=pages).contains(&page);
+        fine.then_some(Self { id, page, pages })
+    }
+}
+
+impl fmt::Display for Code {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "KHATT1 {} {}/{}", self.id, self.page, self.pages)
+    }
+}
+
+impl Layout {
+    /// Checks every option.
+    ///
+    /// # Errors
+    /// The first one that is out of range, or an em that does not fit the cell.
+    pub fn check(&self) -> Result<(), TemplateError> {
+        let bad = |option, value: String, range| {
+            Err(TemplateError::Option {
+                option,
+                value,
+                range,
+            })
+        };
+        let size = self.paper_mm();
+        if !(100.0..=1200.0).contains(&size.width) || !(100.0..=1700.0).contains(&size.height) {
+            return bad(
+                "paper",
+                format!("{size}"),
+                "it must be 100 × 100 mm to 1200 × 1700 mm",
+            );
+        }
+        for (option, n) in [("columns", self.columns), ("rows", self.rows)] {
+            if !(1..=40).contains(&n) {
+                return bad(option, n.to_string(), "it must be 1 to 40");
+            }
+        }
+        let heights = [
+            self.descender,
+            0.0,
+            self.x_height,
+            self.cap_height,
+            self.ascender,
+        ];
+        let names = ["descender", "x_height", "cap_height", "ascender"];
+        for (pair, option) in heights.windows(2).zip(names) {
+            if !(pair[1] >= pair[0] && pair.iter().all(|h| h.abs() <= 2.0)) {
+                let range = "the guides must rise from descender (at most 0) over x_height and cap_height to ascender, within 2 em";
+                return bad(option, format!("{}", self.height(option)), range);
+            }
+        }
+        if !(self.joining[0] < self.joining[1] && self.joining.iter().all(|h| h.abs() <= 2.0)) {
+            return bad(
+                "joining",
+                format!("{:?}", self.joining),
+                "the lower edge must come first",
+            );
+        }
+        let largest = self.largest_em();
+        if self.em().is_nan() || !(2.0..=largest + 1e-9).contains(&self.em()) {
+            let range = "it must be 2 mm to what a cell holds; use fewer rows or columns, or a smaller em_mm";
+            return bad("em_mm", format!("{:.1}", self.em()), range);
+        }
+        Ok(())
+    }
+
+    fn height(&self, option: &str) -> f64 {
+        match option {
+            "descender" => self.descender,
+            "x_height" => self.x_height,
+            "cap_height" => self.cap_height,
+            _ => self.ascender,
+        }
+    }
+
+    /// Size of the paper.
+    #[must_use]
+    pub const fn paper_mm(&self) -> Size {
+        match self.paper {
+            Paper::A4 => Size::new(210.0, 297.0),
+            Paper::Letter => Size::new(215.9, 279.4),
+            Paper::Size(w, h) => Size::new(w, h),
+        }
+    }
+
+    fn pitch(&self) -> Size {
+        let paper = self.paper_mm();
+        #[expect(clippy::cast_precision_loss, reason = "at most 40")]
+        let (columns, rows) = (self.columns as f64, self.rows as f64);
+        Size::new(
+            (paper.width - 2.0 * SIDE) / columns,
+            (paper.height - HEAD - FOOT) / rows,
+        )
+    }
+
+    fn field(&self) -> Size {
+        let pitch = self.pitch();
+        Size::new(pitch.width - GAP, pitch.height - CAPTION - GAP)
+    }
+
+    fn largest_em(&self) -> f64 {
+        self.field().height * (1.0 - 2.0 * AIR) / (self.ascender - self.descender)
+    }
+
+    /// Size of the em on paper, mm.
+    #[must_use]
+    pub fn em(&self) -> f64 {
+        self.em_mm.unwrap_or_else(|| self.largest_em())
+    }
+
+    /// Cells a page.
+    #[must_use]
+    pub const fn per_page(&self) -> usize {
+        self.columns * self.rows
+    }
+
+    /// Centres of the four ring marks: top left, top right, bottom right, bottom left.
+    #[must_use]
+    pub fn marks(&self) -> [Point; 4] {
+        let s = self.paper_mm();
+        let (x, y) = (s.width - MARK_INSET, s.height - MARK_INSET);
+        [
+            (MARK_INSET, MARK_INSET),
+            (x, MARK_INSET),
+            (x, y),
+            (MARK_INSET, y),
+        ]
+        .map(Point::from)
+    }
+
+    /// The QR code's square, beside the top left mark.
+    #[must_use]
+    pub fn code(&self) -> Rect {
+        let top_left = Point::new(MARK_INSET + 9.0, 5.0);
+        Rect::from_origin_size(top_left, (CODE_SIZE, CODE_SIZE))
+    }
+
+    /// The strip at the foot that holds the patterns from which ink gain is measured.
+    #[must_use]
+    pub fn gain_strip(&self) -> Rect {
+        let s = self.paper_mm();
+        Rect::new(
+            MARK_INSET + 9.0,
+            s.height - 16.0,
+            s.width - MARK_INSET - 9.0,
+            s.height - 7.0,
+        )
+    }
+
+    /// The cells of every page, in reading order; `"_"` leaves a cell out.
+    #[must_use]
+    pub fn places(&self, labels: &[String], direction: Direction) -> Vec<Vec<Place>> {
+        let chunks = labels.chunks(self.per_page().max(1)).enumerate();
+        chunks
+            .map(|(page, chunk)| {
+                let cells = chunk.iter().enumerate().filter(|(_, l)| l.as_str() != "_");
+                cells
+                    .map(|(i, label)| self.place(page, i, label, direction))
+                    .collect()
+            })
+            .collect()
+    }
+
+    fn place(&self, page: usize, i: usize, label: &str, direction: Direction) -> Place {
+        let (row, column) = (i / self.columns, i % self.columns);
+        let column = match direction {
+            Direction::LeftToRight => column,
+            Direction::RightToLeft => self.columns - 1 - column,
+        };
+        let (pitch, size) = (self.pitch(), self.field());
+        #[expect(clippy::cast_precision_loss, reason = "at most 40")]
+        let corner = Point::new(
+            SIDE + column as f64 * pitch.width,
+            HEAD + row as f64 * pitch.height,
+        );
+        let field = Rect::from_origin_size(corner + (GAP / 2.0, CAPTION + GAP / 2.0), size);
+        // what the em leaves of the field lies half above and half below
+        let spare = size.height - (self.ascender - self.descender) * self.em();
+        let baseline = field.y0 + spare / 2.0 + self.ascender * self.em();
+        Place {
+            label: label.to_owned(),
+            index: page * self.per_page() + i,
+            field,
+            caption: corner + (GAP / 2.0, 0.6),
+            baseline,
+        }
+    }
+
+    /// The identity that every page of a printing carries.
+    #[must_use]
+    pub fn id(&self, project: &str, labels: &[String]) -> String {
+        let mut hash = Sha256::new();
+        hash.update(format!("{project}\n{self:?}\n"));
+        for label in labels {
+            hash.update(label);
+            hash.update([0]);
+        }
+        hash.finalize()
+            .iter()
+            .take(4)
+            .map(|b| format!("{b:02X}"))
+            .collect()
+    }
+}
+
+/// The order in which the cells of a row are read.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Direction {
+    /// Left to right.
+    #[default]
+    #[serde(rename = "ltr")]
+    LeftToRight,
+    /// Right to left.
+    #[serde(rename = "rtl")]
+    RightToLeft,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn codes_read_back() {
+        let code = Code {
+            id: "0123ABCD".into(),
+            page: 3,
+            pages: 12,
+        };
+        assert_eq!(Code::parse(&code.to_string()), Some(code));
+        for bad in [
+            "",
+            "KHATT1 12 1/1",
+            "KHATT1 0123ABCD 0/2",
+            "KHATT1 0123ABCD 3/2",
+            "http://x",
+        ] {
+            assert_eq!(Code::parse(bad), None, "{bad}");
+        }
+    }
+
+    #[test]
+    fn fields_neither_overlap_nor_leave_the_paper() {
+        let labels: Vec<String> = (0..100).map(|i| format!("g{i}")).collect();
+        for paper in [Paper::A4, Paper::Letter, Paper::Size(148.0, 210.0)] {
+            let layout = Layout {
+                paper,
+                ..Layout::default()
+            };
+            layout.check().unwrap();
+            let pages = layout.places(&labels, Direction::RightToLeft);
+            assert_eq!(pages.len(), 2);
+            for (i, a) in pages[0].iter().enumerate() {
+                assert!(layout.paper_mm().to_rect().contains_rect(a.field));
+                for b in &pages[0][..i] {
+                    assert!(
+                        a.field.intersect(b.field).area() <= 0.0,
+                        "{} {}",
+                        a.label,
+                        b.label
+                    );
+                }
+            }
+            assert!(
+                pages[0][0].field.x0 > pages[0][1].field.x0,
+                "read from the right"
+            );
+            assert_eq!(pages[1][0].index, layout.per_page());
+        }
+    }
+
+    #[test]
+    fn bad_layouts_are_named() {
+        let bad = [
+            Layout {
+                rows: 0,
+                ..Layout::default()
+            },
+            Layout {
+                columns: 41,
+                ..Layout::default()
+            },
+            Layout {
+                em_mm: Some(60.0),
+                ..Layout::default()
+            },
+            Layout {
+                em_mm: Some(f64::NAN),
+                ..Layout::default()
+            },
+            Layout {
+                descender: 0.2,
+                ..Layout::default()
+            },
+            Layout {
+                paper: Paper::Size(1e9, 3.0),
+                ..Layout::default()
+            },
+            Layout {
+                joining: [0.1, 0.1],
+                ..Layout::default()
+            },
+        ];
+        for layout in bad {
+            assert!(
+                matches!(layout.check(), Err(TemplateError::Option { .. })),
+                "{layout:?}"
+            );
+        }
+    }
+}

@@ -1,0 +1,153 @@
+//! A page as SVG, as a page of a PDF, as a picture.
+
+use super::TemplateError;
+use super::draw::Page;
+use kurbo::PathEl;
+use pdf_writer::{Content, Finish, Pdf, Rect, Ref};
+use resvg::tiny_skia::{Color, Pixmap};
+use std::fmt::Write;
+use usvg::{Options, Transform, Tree};
+
+/// Millimetres an inch.
+const INCH: f64 = 25.4;
+/// PDF units a millimetre.
+const POINTS: f64 = 72.0 / INCH;
+
+/// The page as an SVG file whose units are mm.
+#[must_use]
+pub fn svg(page: &Page) -> String {
+    let (w, h) = (page.size.width, page.size.height);
+    let mut out = format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{w}mm\" height=\"{h}mm\" viewBox=\"0 0 {w} {h}\">\n\
+         <rect width=\"{w}\" height=\"{h}\" fill=\"#fff\"/>\n"
+    );
+    for paint in &page.paints {
+        let [r, g, b] = paint.ink.rgb();
+        // a String takes all that is written to it
+        let _ = write!(out, "<path fill=\"#{r:02x}{g:02x}{b:02x}\" d=\"");
+        for el in paint.path.elements() {
+            let _ = match *el {
+                PathEl::MoveTo(p) => write!(out, "M{:.3} {:.3}", p.x, p.y),
+                PathEl::LineTo(p) => write!(out, "L{:.3} {:.3}", p.x, p.y),
+                PathEl::QuadTo(a, p) => write!(out, "Q{:.3} {:.3} {:.3} {:.3}", a.x, a.y, p.x, p.y),
+                PathEl::CurveTo(a, b, p) => write!(
+                    out,
+                    "C{:.3} {:.3} {:.3} {:.3} {:.3} {:.3}",
+                    a.x, a.y, b.x, b.y, p.x, p.y
+                ),
+                PathEl::ClosePath => write!(out, "Z"),
+            };
+        }
+        out.push_str("\"/>\n");
+    }
+    out.push_str("</svg>\n");
+    out
+}
+
+/// All pages as one PDF file.
+#[must_use]
+pub fn pdf(pages: &[Page]) -> Vec<u8> {
+    let mut pdf = Pdf::new();
+    let (catalog, tree) = (Ref::new(1), Ref::new(2));
+    let number = |i: usize| i32::try_from(i).unwrap_or(i32::MAX / 4);
+    let refs: Vec<(Ref, Ref)> = (0..pages.len())
+        .map(|i| (Ref::new(3 + 2 * number(i)), Ref::new(4 + 2 * number(i))))
+        .collect();
+    pdf.catalog(catalog).pages(tree);
+    pdf.pages(tree)
+        .kids(refs.iter().map(|r| r.0))
+        .count(number(pages.len()));
+    for (page, &(id, content)) in pages.iter().zip(&refs) {
+        let mut p = pdf.page(id);
+        let size = (points(page.size.width), points(page.size.height));
+        p.parent(tree)
+            .media_box(Rect::new(0.0, 0.0, size.0, size.1))
+            .contents(content);
+        p.resources();
+        p.finish();
+        pdf.stream(content, &drawing(page));
+    }
+    pdf.finish()
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "PDF numbers are single precision"
+)]
+fn points(mm: f64) -> f32 {
+    (mm * POINTS) as f32
+}
+
+fn drawing(page: &Page) -> Vec<u8> {
+    let mut c = Content::new();
+    let y = |v: f64| points(page.size.height - v);
+    for paint in &page.paints {
+        let [r, g, b] = paint.ink.rgb().map(|v| f32::from(v) / 255.0);
+        c.set_fill_rgb(r, g, b);
+        let mut last = kurbo::Point::ORIGIN;
+        for el in paint.path.elements() {
+            match *el {
+                PathEl::MoveTo(p) => drop(c.move_to(points(p.x), y(p.y))),
+                PathEl::LineTo(p) => drop(c.line_to(points(p.x), y(p.y))),
+                PathEl::QuadTo(a, p) => {
+                    let (a1, a2) = (last.lerp(a, 2.0 / 3.0), p.lerp(a, 2.0 / 3.0));
+                    c.cubic_to(
+                        points(a1.x),
+                        y(a1.y),
+                        points(a2.x),
+                        y(a2.y),
+                        points(p.x),
+                        y(p.y),
+                    );
+                }
+                PathEl::CurveTo(a, b, p) => {
+                    c.cubic_to(
+                        points(a.x),
+                        y(a.y),
+                        points(b.x),
+                        y(b.y),
+                        points(p.x),
+                        y(p.y),
+                    );
+                }
+                PathEl::ClosePath => drop(c.close_path()),
+            }
+            last = el.end_point().unwrap_or(last);
+        }
+        c.fill_nonzero();
+    }
+    c.finish().to_vec()
+}
+
+/// The page as a picture of `dpi` dots an inch: RGB bytes row by row with their width and height.
+///
+/// # Errors
+/// The picture would be empty or larger than memory allows.
+pub fn png(page: &Page, dpi: f64) -> Result<Vec<u8>, TemplateError> {
+    let fail = |e: String| TemplateError::Drawing(e);
+    let tree = Tree::from_str(&svg(page), &Options::default()).map_err(|e| fail(e.to_string()))?;
+    let scale = dpi / INCH;
+    let (w, h) = (
+        pixels(page.size.width * scale),
+        pixels(page.size.height * scale),
+    );
+    let mut map = Pixmap::new(w, h).ok_or_else(|| fail(format!("{w} × {h} px")))?;
+    map.fill(Color::WHITE);
+    let fit = points_of(f64::from(w) / f64::from(tree.size().width()));
+    resvg::render(&tree, Transform::from_scale(fit, fit), &mut map.as_mut());
+    map.encode_png().map_err(|e| fail(e.to_string()))
+}
+
+#[expect(clippy::cast_possible_truncation, reason = "a drawing's scale")]
+const fn points_of(v: f64) -> f32 {
+    v as f32
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "the cast saturates; an impossible size is refused by the picture"
+)]
+fn pixels(v: f64) -> u32 {
+    v.round() as u32
+}
