@@ -7,3 +7,4 @@ mod fitters;
 mod layers;
 mod papers;
 mod published;
+mod template;

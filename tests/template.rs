@@ -2,14 +2,25 @@
 
 use crate::common::camera::Camera;
 use khatt::scan::{self, Polarity};
-use khatt::template::{self, Direction, Layout, Page, Place, TemplateError};
-use khatt::types::{Cell, Sheet};
-use kurbo::{Affine, BezPath, Circle, Point, Rect, Shape};
+use khatt::template::{self, Direction, Layout, Page, Paper, Place, TemplateError};
+use khatt::trace;
+use khatt::types::{Cell, Contour, Sheet};
+use kurbo::{Affine, BezPath, Circle, PathEl, Point, Rect, Shape, Vec2};
 
 fn labels(n: usize) -> Vec<(String, String)> {
     let forms = ["", ".init", ".medi", ".fina"];
     let name = |i: usize| format!("g{i:03}{}", forms[i % 4]);
     (0..n).map(|i| (name(i), name(i))).collect()
+}
+
+/// A small sheet of 4 × 4 cells, quick to draw and photograph.
+fn small() -> Layout {
+    Layout {
+        paper: Paper::Size(124.0, 160.0),
+        columns: 4,
+        rows: 4,
+        ..Layout::default()
+    }
 }
 
 fn pages(layout: &Layout, n: usize) -> Vec<Page> {
@@ -23,7 +34,11 @@ fn letter(i: usize) -> BezPath {
     let r = 0.12 + 0.02 * ((i % 3) as f64);
     let mut path = Rect::new(0.0, 0.0, 0.08, h).to_path(1e-3);
     path.extend(Circle::new((0.1 + r, 0.5), r).to_path(1e-3));
-    path.extend(Circle::new((0.1 + r, 0.5), r * 0.5).to_path(1e-3).reverse_subpaths());
+    path.extend(
+        Circle::new((0.1 + r, 0.5), r * 0.5)
+            .to_path(1e-3)
+            .reverse_subpaths(),
+    );
     path
 }
 
@@ -38,119 +53,209 @@ fn load(bytes: &[u8]) -> Sheet {
     sheets.into_iter().next().expect("one page")
 }
 
-/// Ink area in em² and centre of gravity in em from the baseline, y up.
+/// Ink area in em² and centre of gravity in em from the baseline, y up, of a cell's contours.
 fn weigh(cell: &Cell) -> (f64, Point) {
-    let (mut area, mut x0, mut y0) = (0.0, 0.0, 0.0);
-    for y in 0..cell.gray.height() {
-        for (x, &v) in cell.gray.row(y).iter().enumerate() {
-            let v = f64::from(v).clamp(0.0, 1.0);
-            if v > 0.15 {
-                area += v;
-                x0 += v * (x as f64 + 0.5);
-                y0 += v * (y as f64 + 0.5);
-            }
-        }
-    }
+    let contours = trace::trace(&cell.gray, &trace::Options::default());
+    let ring = |c: &Contour| {
+        let mut path = BezPath::from_vec(vec![PathEl::MoveTo(c.points()[0])]);
+        path.extend(c.points().iter().skip(1).map(|&p| PathEl::LineTo(p)));
+        path.close_path();
+        path
+    };
+    let all: BezPath = contours.iter().flat_map(|c| ring(c).into_iter()).collect();
     let em = cell.guides.px_per_em;
-    let centre = Point::new(x0 / area / em, (cell.guides.baseline_px - y0 / area) / em);
-    (area / em / em, centre)
+    let below = cell.gray.height() as f64 - cell.guides.baseline_px;
+    let place = Affine::scale(1.0 / em) * Affine::translate((0.0, -below));
+    let shape = place * all;
+    (shape.area(), centroid(&shape))
 }
 
 fn check(layout: &Layout, page: &Page, camera: Camera) {
-    let drawn: Vec<BezPath> =
-        page.places.iter().map(|p| onto_page(layout, p) * letter(p.index)).collect();
+    let drawn: Vec<BezPath> = page
+        .places
+        .iter()
+        .map(|p| onto_page(layout, p) * letter(p.index))
+        .collect();
     let (bytes, truth) = camera.take(page, &drawn);
     let sheet = load(&bytes);
     let found = template::find(&sheet, layout).expect("the page is recognised");
-    assert_eq!(found.code, page.code);
+    assert_eq!(found.code, page.code, "{camera:?}: another page was read");
     for mark in layout.marks() {
         let off = found.view.at(mark).distance(truth.at(mark));
         assert!(off < 0.06, "{camera:?}: a mark is {off:.3} px off");
     }
     let cells = template::cells(&sheet, layout, &found, &page.places);
-    assert_eq!(cells.len(), page.places.len());
+    assert_eq!(
+        cells.len(),
+        page.places.len(),
+        "{camera:?}: cells are missing"
+    );
     for (cell, place) in cells.iter().zip(&page.places) {
-        assert_eq!((cell.label.0.as_str(), cell.index), (place.label.as_str(), place.index));
+        let (label, index) = (cell.label.0.as_str(), cell.index);
+        let expected = (place.label.as_str(), place.index);
+        assert_eq!(
+            (label, index),
+            expected,
+            "{camera:?}: cells are out of order"
+        );
         let (area, centre) = weigh(cell);
         let truth = letter(place.index);
         let gain = area / truth.area() - 1.0;
-        assert!(gain.abs() < 0.02, "{camera:?}: {} weighs {:.1} % more", place.label, 100.0 * gain);
+        assert!(
+            gain.abs() < 0.02,
+            "{camera:?}: {} weighs {:.1} % more",
+            place.label,
+            100.0 * gain
+        );
         let up = (centre.y - centroid(&truth).y).abs();
-        assert!(up < 0.005, "{camera:?}: {} stands {up:.4} em off", place.label);
-        assert!((cell.to_sheet * Point::ZERO).distance(cell.in_sheet.origin()) < 0.2 * cell.in_sheet.width());
+        assert!(
+            up < 0.005,
+            "{camera:?}: {} stands {up:.4} em off",
+            place.label
+        );
+        let size = Rect::new(
+            0.0,
+            0.0,
+            cell.gray.width() as f64,
+            cell.gray.height() as f64,
+        );
+        let seen = cell.to_sheet.transform_rect_bbox(size);
+        let box_px = cell.in_sheet.inset(3.0);
+        assert!(
+            box_px.contains_rect(seen),
+            "{camera:?}: {seen:?} lies outside {box_px:?}"
+        );
     }
 }
 
+/// Centre of gravity of what a path fills, by its polygon.
 fn centroid(path: &BezPath) -> Point {
-    let m = kurbo::ParamCurveMoments::moments;
-    let _ = m::<kurbo::CubicBez>;
-    let (mut area, mut x, mut y) = (0.0, 0.0, 0.0);
-    for s in path.segments() {
-        let s = s.to_cubic();
-        let q = s.moments();
-        area += kurbo::ParamCurveArea::signed_area(&s);
-        x += q.moment_x;
-        y += q.moment_y;
-    }
-    Point::new(x / area, y / area)
+    let (mut area, mut moment) = (0.0, Vec2::ZERO);
+    let mut last = Vec2::ZERO;
+    kurbo::flatten(path.iter(), 1e-5, |el| {
+        let p = el.end_point().map_or(last, Point::to_vec2);
+        if !matches!(el, PathEl::MoveTo(_)) {
+            let twice = last.cross(p);
+            area += twice / 2.0;
+            moment += (last + p) * twice / 6.0;
+        }
+        last = p;
+    });
+    (moment / area).to_point()
 }
 
 #[test]
 fn pages_are_read_from_any_side() {
-    let layout = Layout { columns: 6, rows: 6, ..Layout::default() };
-    let pages = pages(&layout, 60);
+    let layout = small();
+    let pages = pages(&layout, 32);
     assert_eq!(pages.len(), 2);
     let flat = Camera::FLATBED;
-    check(&layout, &pages[0], Camera { dpi: 200.0, quarters: 2, skew_deg: -3.0, jpeg: Some(70), ..flat });
-    let photo = Camera { dpi: 240.0, quarters: 1, skew_deg: 6.0, tilt: [0.06, -0.04], ..flat };
-    check(&layout, &pages[1], Camera { shade: 0.3, jpeg: Some(70), ..photo });
+    check(
+        &layout,
+        &pages[0],
+        Camera {
+            dpi: 200.0,
+            quarters: 2,
+            skew_deg: -3.0,
+            jpeg: Some(70),
+            ..flat
+        },
+    );
+    let photo = Camera {
+        dpi: 240.0,
+        quarters: 1,
+        skew_deg: 6.0,
+        tilt: [0.06, -0.04],
+        ..flat
+    };
+    check(
+        &layout,
+        &pages[1],
+        Camera {
+            shade: 0.3,
+            jpeg: Some(70),
+            ..photo
+        },
+    );
 }
 
 #[test]
 fn guides_are_not_ink() {
-    let layout = Layout { columns: 4, rows: 4, ..Layout::default() };
+    let layout = small();
     let page = &pages(&layout, 16)[0];
-    let (bytes, _) = Camera { dpi: 200.0, ..Camera::FLATBED }.take(page, &[]);
+    let (bytes, _) = Camera {
+        dpi: 200.0,
+        ..Camera::FLATBED
+    }
+    .take(page, &[]);
     let sheet = load(&bytes);
     let found = template::find(&sheet, &layout).expect("the page is recognised");
     for cell in template::cells(&sheet, &layout, &found, &page.places) {
         let most = cell.gray.samples().iter().fold(0.0f32, |m, &v| m.max(v));
-        assert!(most < 0.5, "an empty field of {:?} has ink {most}", cell.label);
+        assert!(
+            most < 0.5,
+            "an empty field of {:?} has ink {most}",
+            cell.label
+        );
     }
 }
 
 #[test]
 fn wrong_pages_are_named() {
-    let layout = Layout { columns: 4, rows: 4, ..Layout::default() };
+    let layout = small();
     let page = &pages(&layout, 16)[0];
     let mut half = page.clone();
     half.size.height *= 0.5;
-    let (bytes, _) = Camera { dpi: 150.0, ..Camera::FLATBED }.take(&half, &[]);
+    let (bytes, _) = Camera {
+        dpi: 150.0,
+        ..Camera::FLATBED
+    }
+    .take(&half, &[]);
     let found = template::find(&load(&bytes), &layout);
-    assert!(matches!(found, Err(TemplateError::Marks { .. })), "half a page: {found:?}");
+    assert!(
+        matches!(found, Err(TemplateError::Marks { .. })),
+        "half a page: {found:?}"
+    );
     let mut blank = page.clone();
     blank.paints.clear();
-    let (bytes, _) = Camera { dpi: 100.0, ..Camera::FLATBED }.take(&blank, &[]);
+    let (bytes, _) = Camera {
+        dpi: 100.0,
+        ..Camera::FLATBED
+    }
+    .take(&blank, &[]);
     let found = template::find(&load(&bytes), &layout);
-    assert!(matches!(found, Err(TemplateError::Marks { found: 0, .. })), "no marks: {found:?}");
+    assert!(
+        matches!(found, Err(TemplateError::Marks { found: 0, .. })),
+        "no marks: {found:?}"
+    );
 }
 
 #[test]
 fn gain_is_measured() {
-    let layout = Layout { columns: 4, rows: 4, ..Layout::default() };
+    let layout = small();
     let page = &pages(&layout, 1)[0];
     for blur in [0.8, 1.6] {
-        let (bytes, _) = Camera { blur, ..Camera::FLATBED }.take(page, &[]);
+        let (bytes, _) = Camera {
+            blur,
+            ..Camera::FLATBED
+        }
+        .take(page, &[]);
         let sheet = load(&bytes);
         let found = template::find(&sheet, &layout).expect("the page is recognised");
         let gain = template::gain(&sheet, &layout, &found).expect("the strip is in view");
         let px = gain.blur_mm * 300.0 / 25.4;
         // the lens' blur, and that of drawing and sampling, about half a pixel
-        assert!(px > blur && px < blur + 0.35, "blur {blur} measured as {px:.2} px");
+        assert!(
+            px > blur && px < blur + 0.35,
+            "blur {blur} measured as {px:.2} px"
+        );
         assert!(gain.spread_mm.abs() < 0.01, "spread {}", gain.spread_mm);
         assert!((gain.level() - 0.5).abs() < 0.06);
         for [width, seen] in &gain.ladder_mm {
-            assert!((width - seen).abs() < 0.03, "a line of {width} mm seems {seen:.3} mm");
+            assert!(
+                (width - seen).abs() < 0.03,
+                "a line of {width} mm seems {seen:.3} mm"
+            );
         }
         assert!(gain.tone.windows(2).all(|t| t[0] < t[1]), "{:?}", gain.tone);
     }

@@ -28,6 +28,9 @@ const NEARBY: usize = 20;
 const CONTRAST: f64 = 0.12;
 /// Marks tried when drawings look like marks too.
 const MOST_MARKS: usize = 9;
+/// Marks of one page differ in size by less than this, in perspective; the finder patterns of the code,
+/// which are squares in square rings, are half as large. ratio
+const MOST_ALIKE: f64 = 1.7;
 /// Modules of a code of up to 29 signs at level Q, and of the next sizes.
 const MODULES: [usize; 3] = [25, 29, 33];
 
@@ -195,7 +198,7 @@ fn rings(gray: &Gray) -> Vec<Point> {
     // marks of one page are of one size; drawings that look like marks seldom are
     found.sort_by(|a, b| b.1.total_cmp(&a.1));
     let middle = found.get(found.len().min(4) / 2).map_or(0.0, |f| f.1);
-    found.retain(|f| (0.5..2.0).contains(&(f.1 / middle)));
+    found.retain(|f| (1.0 / MOST_ALIKE..MOST_ALIKE).contains(&(f.1 / middle)));
     found.truncate(MOST_MARKS);
     found.into_iter().map(|f| f.0).collect()
 }

@@ -135,11 +135,11 @@ impl Layout {
             })
         };
         let size = self.paper_mm();
-        if !(100.0..=1200.0).contains(&size.width) || !(100.0..=1700.0).contains(&size.height) {
+        if !(120.0..=1200.0).contains(&size.width) || !(120.0..=1700.0).contains(&size.height) {
             return bad(
                 "paper",
                 format!("{size}"),
-                "it must be 100 × 100 mm to 1200 × 1700 mm",
+                "it must be 120 × 120 mm to 1200 × 1700 mm",
             );
         }
         for (option, n) in [("columns", self.columns), ("rows", self.rows)] {

@@ -1,5 +1,11 @@
 //! A printer, a pen and a camera in software: a page with drawings on it becomes the bytes of a photograph.
+#![expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "sizes of pictures that the tests choose"
+)]
 
+use image::codecs::jpeg::JpegEncoder;
 use khatt::template::{self, Page, View};
 use kurbo::{Affine, BezPath, Point, Vec2};
 
@@ -40,10 +46,15 @@ impl Camera {
     /// The picture's bytes, and where every millimetre of the page went.
     pub(crate) fn take(&self, page: &Page, drawn: &[BezPath]) -> (Vec<u8>, View) {
         let mut page = page.clone();
-        let ink = |path: &BezPath| template::Paint { path: path.clone(), ink: template::Ink::Black };
+        let ink = |path: &BezPath| template::Paint {
+            path: path.clone(),
+            ink: template::Ink::Black,
+        };
         page.paints.extend(drawn.iter().map(ink));
         let png = template::png(&page, self.dpi * 1.25).expect("a page can be drawn");
-        let print = image::load_from_memory(&png).expect("a PNG reads back").to_luma8();
+        let print = image::load_from_memory(&png)
+            .expect("a PNG reads back")
+            .to_luma8();
         let (size, view) = self.aim(&page);
         let back = View::through(corners(size), corners(size).map(|p| unproject(&view, p)))
             .expect("a page is no line");
@@ -55,23 +66,31 @@ impl Camera {
             let (x, y) = ((i % size.x as usize) as f64, (i / size.x as usize) as f64);
             let taps = [(0.25, 0.25), (0.75, 0.25), (0.25, 0.75), (0.75, 0.75)];
             let seen = taps.iter().map(|(dx, dy)| {
-                bilinear(&print, back.at(Point::new(x + dx, y + dy)).to_vec2() * scale)
+                bilinear(
+                    &print,
+                    back.at(Point::new(x + dx, y + dy)).to_vec2() * scale,
+                )
             });
             *v = (seen.sum::<f64>() / 4.0) as f32;
         }
         let light = smooth(light, size.x as usize, self.blur);
         for (i, (pixel, v)) in out.pixels_mut().zip(light).enumerate() {
-            let (x, y) = ((i % size.x as usize) as f64 / size.x, (i / size.x as usize) as f64 / size.y);
+            let (x, y) = (
+                (i % size.x as usize) as f64 / size.x,
+                (i / size.x as usize) as f64 / size.y,
+            );
             let shade = 1.0 - self.shade * (x + y) / 2.0;
             let v = (30.0 + 0.82 * f64::from(v)) * shade + 3.0 * rng.normal();
             pixel.0 = [v.round().clamp(0.0, 255.0) as u8];
         }
         let mut bytes = std::io::Cursor::new(Vec::new());
         match self.jpeg {
-            Some(q) => image::codecs::jpeg::JpegEncoder::new_with_quality(&mut bytes, q)
+            Some(q) => JpegEncoder::new_with_quality(&mut bytes, q)
                 .encode_image(&out)
                 .expect("a JPEG in memory"),
-            None => out.write_to(&mut bytes, image::ImageFormat::Png).expect("a PNG in memory"),
+            None => out
+                .write_to(&mut bytes, image::ImageFormat::Png)
+                .expect("a PNG in memory"),
         }
         (bytes.into_inner(), view)
     }
@@ -79,15 +98,20 @@ impl Camera {
     /// Size of the picture and the view of the page in it: the whole page with a border of 4 %.
     fn aim(&self, page: &Page) -> (Vec2, View) {
         let px = self.dpi / 25.4;
-        let turn = self.skew_deg.to_radians() + f64::from(self.quarters) * std::f64::consts::FRAC_PI_2;
+        let turn =
+            self.skew_deg.to_radians() + f64::from(self.quarters) * std::f64::consts::FRAC_PI_2;
         let half = page.size.to_vec2() / 2.0;
         let around = Affine::scale(px) * Affine::rotate(turn) * Affine::translate(-half);
         let plane = corners(page.size.to_vec2()).map(|p| around * p);
-        let depth = |p: Point| 1.0 + (self.tilt[0] * p.x + self.tilt[1] * p.y) / (half.hypot() * px);
+        let depth =
+            |p: Point| 1.0 + (self.tilt[0] * p.x + self.tilt[1] * p.y) / (half.hypot() * px);
         let seen = plane.map(|p| (p.to_vec2() / depth(p)).to_point());
-        let low = seen.iter().fold(Vec2::new(1e9, 1e9), |m, p| Vec2::new(m.x.min(p.x), m.y.min(p.y)));
-        let high =
-            seen.iter().fold(Vec2::new(-1e9, -1e9), |m, p| Vec2::new(m.x.max(p.x), m.y.max(p.y)));
+        let low = seen.iter().fold(Vec2::new(1e9, 1e9), |m, p| {
+            Vec2::new(m.x.min(p.x), m.y.min(p.y))
+        });
+        let high = seen.iter().fold(Vec2::new(-1e9, -1e9), |m, p| {
+            Vec2::new(m.x.max(p.x), m.y.max(p.y))
+        });
         let border = (high - low) * 0.04;
         let size = (high - low) + border * 2.0;
         let placed = seen.map(|p| p - low + border);
@@ -118,7 +142,11 @@ fn bilinear(print: &image::GrayImage, p: Vec2) -> f64 {
         let inside =
             x >= 0.0 && y >= 0.0 && x < f64::from(print.width()) && y < f64::from(print.height());
         // the table beyond the paper
-        if inside { f64::from(print.get_pixel(x as u32, y as u32).0[0]) } else { 90.0 }
+        if inside {
+            f64::from(print.get_pixel(x as u32, y as u32).0[0])
+        } else {
+            90.0
+        }
     };
     (at(0.0, 0.0) * (1.0 - fx) + at(1.0, 0.0) * fx) * (1.0 - fy)
         + (at(0.0, 1.0) * (1.0 - fx) + at(1.0, 1.0) * fx) * fy
@@ -139,7 +167,9 @@ fn smooth(v: Vec<f32>, width: usize, sigma: f64) -> Vec<f32> {
                 let sum: f32 = kernel
                     .iter()
                     .enumerate()
-                    .map(|(k, w)| w * v[l * line_stride + (i + k).saturating_sub(reach).min(n - 1) * stride])
+                    .map(|(k, w)| {
+                        w * v[l * line_stride + (i + k).saturating_sub(reach).min(n - 1) * stride]
+                    })
                     .sum();
                 out[l * line_stride + i * stride] = sum / total;
             }

@@ -1,4 +1,5 @@
 //! What several integration tests share.
 
 pub(crate) mod approved;
+pub(crate) mod camera;
 pub(crate) mod shapes;
