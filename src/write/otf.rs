@@ -33,9 +33,13 @@ pub(super) fn bytes(font: &Font) -> Result<Vec<u8>, WriteError> {
     })
 }
 
+/// Less than this beyond a whole unit is the noise of sums, not ink.
+const NOISE: f64 = 1e-3;
+
 /// The whole units around a shape.
 fn extent(shape: &BezPath) -> Option<Rect> {
-    (!shape.elements().is_empty()).then(|| shape.bounding_box().expand())
+    let ink = shape.bounding_box().inset(-NOISE);
+    (!shape.elements().is_empty()).then(|| ink.expand())
 }
 
 /// Refuses coordinates so large that a difference of two would not fit the file.
