@@ -115,11 +115,11 @@ impl OutlinePen for Pen {
     }
 }
 
-/// A glyph's outline as skrifa reads it.
+/// A glyph's outline as skrifa reads it, an em of 1000 px: unscaled it drops the fractions of CFF.
 fn skrifa_outline(font: &FontRef<'_>, id: u32) -> BezPath {
     let mut pen = Pen::default();
     if let Some(glyph) = font.outline_glyphs().get(GlyphId::new(id)) {
-        let settings = DrawSettings::unhinted(Size::unscaled(), LocationRef::default());
+        let settings = DrawSettings::unhinted(Size::new(1000.0), LocationRef::default());
         glyph.draw(settings, &mut pen).expect("a readable outline");
     }
     pen.0
