@@ -5,7 +5,7 @@ use khatt::assemble::{self, Drawn};
 use khatt::quadratic::Method;
 use khatt::types::{Files, Font, Info, Label, Outline};
 use khatt::write::{self, Curves};
-use kurbo::{BezPath, Circle, Ellipse, Point, Rect, Shape};
+use kurbo::{Affine, BezPath, Circle, Ellipse, Point, Rect, Shape};
 use skrifa::outline::{DrawSettings, OutlinePen};
 use skrifa::prelude::{LocationRef, Size};
 use skrifa::{FontRef, GlyphId, MetadataProvider};
@@ -115,14 +115,15 @@ impl OutlinePen for Pen {
     }
 }
 
-/// A glyph's outline as skrifa reads it, an em of 1000 px: unscaled it drops the fractions of CFF.
+/// A glyph's outline as skrifa reads it, twice the size and back: unscaled it
+/// drops the fractions of CFF.
 fn skrifa_outline(font: &FontRef<'_>, id: u32) -> BezPath {
     let mut pen = Pen::default();
     if let Some(glyph) = font.outline_glyphs().get(GlyphId::new(id)) {
-        let settings = DrawSettings::unhinted(Size::new(1000.0), LocationRef::default());
+        let settings = DrawSettings::unhinted(Size::new(2000.0), LocationRef::default());
         glyph.draw(settings, &mut pen).expect("a readable outline");
     }
-    pen.0
+    Affine::scale(0.5) * pen.0
 }
 
 struct TtfPen(BezPath);
