@@ -4,7 +4,6 @@ mod cli;
 mod common;
 mod detectors;
 mod fitters;
-mod fonts;
 mod layers;
 mod papers;
 mod published;

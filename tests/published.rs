@@ -3,6 +3,7 @@
 use crate::common::shapes::{Dice, Shape, open, polygon, ring};
 use khatt::corner::angle::Angle;
 use khatt::fit::judge::points_to_curve;
+use khatt::fit::periodic::Periodic;
 use khatt::fit::wls::{Joint, Wls};
 use khatt::fit::{FitError, Fitter, Method};
 use khatt::types::Contour;
@@ -156,6 +157,74 @@ fn polygon_area(points: &[Point]) -> f64 {
     Contour::new(points.to_vec()).expect("a contour").area()
 }
 
+// ---- lumilios93
+
+/// A leaf on a pixel grid: about 370 boundary points, 100 px across.
+fn leaf() -> Shape {
+    let mut shape = ring("leaf", 900, |t| {
+        let a = TAU * t;
+        let r = 36.0 + 9.0 * (3.0 * a).cos() + 6.0 * (5.0 * a).sin() + 2.5 * (11.0 * a).cos();
+        ((r * a.cos()).round(), (r * a.sin()).round())
+    });
+    shape.points.dedup();
+    shape
+}
+
+fn error_of(shape: &Shape, options: &Periodic) -> (f64, f64, usize) {
+    let fitted = options.fit(shape.span(), 1.0).expect("legal options");
+    let d = points_to_curve(&shape.points, &fitted.path);
+    (d.max_px, d.rms_px, fitted.parameters / 2)
+}
+
+/// [lumilios93 table 2]: the first estimate is several pixels off; BFGS brings it near the noise of the
+/// grid, most of the way in the first steps.
+#[test]
+fn lumilios93_converges_from_its_first_estimate() {
+    let shape = leaf();
+    let rms: Vec<f64> = [0, 30, 75, 1000]
+        .map(|iterations| {
+            let options = Periodic {
+                control: Some(32),
+                iterations,
+                ..Periodic::default()
+            };
+            error_of(&shape, &options).1
+        })
+        .to_vec();
+    assert!(rms.windows(2).all(|w| w[1] <= w[0] * 1.02), "{rms:?}");
+    assert!(rms[3] < 0.55 * rms[0], "{rms:?}");
+    assert!(
+        rms[1] - rms[3] < 0.25 * (rms[0] - rms[3]),
+        "most of the way in 30 steps: {rms:?}"
+    );
+}
+
+/// [lumilios93 table 3]: a control point more where the error is largest lowers it, down to the tolerance.
+#[test]
+fn lumilios93_adds_control_points_until_the_tolerance_is_met() {
+    let shape = leaf();
+    let (few, _, n) = error_of(
+        &shape,
+        &Periodic {
+            control: Some(12),
+            ..Periodic::default()
+        },
+    );
+    assert!(n == 12 && few > 2.0, "{n} control points, {few} px");
+    let one_by_one = Periodic {
+        step: 0.0,
+        ..Periodic::default()
+    };
+    let (max, rms, n) = error_of(&shape, &one_by_one);
+    assert!(max <= 1.0 && rms < 0.5, "{max} {rms}");
+    assert!(n <= 43, "{n} control points");
+    let (max, _, several) = error_of(&shape, &Periodic::default());
+    assert!(
+        max <= 1.0 && several <= n + n / 3,
+        "{several} added in several places, {n} singly"
+    );
+}
+
 // ---- options
 
 /// A wrong option is an error that names method and option.
@@ -168,6 +237,14 @@ fn bad_options_are_clear_errors() {
         ("wls", "mu_x = -0.5"),
         ("wls", "mu_y = nan"),
         ("wls", "straight_deg = 120.0"),
+        ("wls", "m = 400"),
+        ("periodic", "control = 2"),
+        ("periodic", "control = 9999"),
+        ("periodic", "beta = 0.0"),
+        ("periodic", "alpha = -1.0"),
+        ("periodic", "power = 5"),
+        ("periodic", "weight_ratio = 0.5"),
+        ("periodic", "step = 2.0"),
     ];
     let shape = bean();
     for (key, line) in cases {

@@ -10,6 +10,7 @@
 pub mod joint;
 pub mod judge;
 mod path;
+pub mod periodic;
 pub mod wls;
 
 use crate::types::{Fitted, Span};
@@ -52,6 +53,8 @@ pub enum Method {
     Joint(joint::Joint),
     /// B-splines by weighted least squares.
     Wls(wls::Wls),
+    /// B-splines at the least orthogonal distance.
+    Periodic(periodic::Periodic),
 }
 
 impl Default for Method {
@@ -67,6 +70,7 @@ impl Method {
         vec![
             Self::Joint(joint::Joint::default()),
             Self::Wls(wls::Wls::default()),
+            Self::Periodic(periodic::Periodic::default()),
         ]
     }
 
@@ -76,6 +80,7 @@ impl Method {
         match self {
             Self::Joint(_) => "joint",
             Self::Wls(_) => "wls",
+            Self::Periodic(_) => "periodic",
         }
     }
 
@@ -87,6 +92,9 @@ impl Method {
             Self::Wls(_) => {
                 "B-spline by weighted least squares, smoothed by weight [samavati98 sec. 4]"
             }
+            Self::Periodic(_) => {
+                "B-spline at the least orthogonal distance, by BFGS [lumilios93 sec. 4]"
+            }
         }
     }
 
@@ -96,6 +104,7 @@ impl Method {
         match self {
             Self::Joint(f) => f,
             Self::Wls(f) => f,
+            Self::Periodic(f) => f,
         }
     }
 }

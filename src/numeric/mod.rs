@@ -3,6 +3,7 @@
 pub mod bspline;
 pub mod chain;
 pub mod distance;
+pub mod minimise;
 pub mod refit;
 pub mod skyline;
 pub mod turns;

@@ -96,20 +96,27 @@ impl Fitter for Wls {
     fn fit(&self, span: Span<'_>, tolerance_px: f64) -> Result<Fitted, FitError> {
         self.check()?;
         both_ways(span, |span| {
+            if let Some(m) = self.m.filter(|&m| m >= span.points().len().max(4)) {
+                let value = format!("{m} for {} points", span.points().len());
+                return Err(wrong("m", value, "it must be less than the span's points"));
+            }
             let fitted = self.curves(span, tolerance_px);
             Ok(fitted.unwrap_or_else(|| polygon(span)))
         })
     }
 }
 
+fn wrong(option: &'static str, value: String, range: &'static str) -> FitError {
+    FitError::Option {
+        method: "wls",
+        option,
+        value,
+        range,
+    }
+}
+
 impl Wls {
     fn check(&self) -> Result<(), FitError> {
-        let wrong = |option, value: String, range| FitError::Option {
-            method: "wls",
-            option,
-            value,
-            range,
-        };
         if !(2..=12).contains(&self.order) {
             return Err(wrong("order", self.order.to_string(), "it must be 2 to 12"));
         }
