@@ -43,4 +43,64 @@ pub enum ScanError {
         /// px
         height: u32,
     },
+    /// Nothing on the page is darker than its paper.
+    #[error("{source_name} is blank: no ink stands out of its paper")]
+    Blank {
+        /// the file
+        source_name: String,
+    },
+    /// More names than cells.
+    #[error(
+        "{source_name} has {cells} cells, but {names} names are given, the first too many being “{extra}”; \
+         take names away or correct the layout"
+    )]
+    TooManyNames {
+        /// the file
+        source_name: String,
+        /// cells found
+        cells: usize,
+        /// names given
+        names: usize,
+        /// the first name without a cell
+        extra: String,
+    },
+    /// A cell with ink in it has no name.
+    #[error(
+        "{source_name} has ink in row {row}, column {column}, which has no name: only {names} names are given; \
+         name it, or write _ to skip it"
+    )]
+    TooFewNames {
+        /// the file
+        source_name: String,
+        /// from 1
+        row: usize,
+        /// from 1, from the left
+        column: usize,
+        /// names given
+        names: usize,
+    },
+    /// The size of an em is to be measured in millimetres, and the file does not say its resolution.
+    #[error(
+        "{source_name} does not say its resolution, so em_mm means nothing; give pixels_per_em"
+    )]
+    NoResolution {
+        /// the file
+        source_name: String,
+    },
+    /// No letter on the page has the height that the size of an em is to be measured from.
+    #[error("{source_name} has no letter to measure {what} from; give pixels_per_em")]
+    NoHeight {
+        /// the file
+        source_name: String,
+        /// the height wanted
+        what: &'static str,
+    },
+    /// A layout without rows or columns.
+    #[error("a grid needs at least one row and one column, not {rows} × {columns}")]
+    NoGrid {
+        /// rows asked for
+        rows: usize,
+        /// columns asked for
+        columns: usize,
+    },
 }

@@ -1,12 +1,28 @@
 //! Image bytes → Cells: load, clean, deskew, cut.
 //!
-//! | type | unit, axes | guaranteed |
-//! |---|---|---|
-//! | bytes → [`Sheet`](crate::types::Sheet) | sheet px, y down | the file's own pixels, turned as it says, 1 = ink; nothing resampled |
+//! | step | from → to | unit, axes | guaranteed |
+//! |---|---|---|---|
+//! | [`load`] | bytes → [`Sheet`](crate::types::Sheet)s | sheet px, y down | the file's own pixels, turned as it says, 1 = ink; nothing resampled |
+//! | [`clean`] | `Sheet` → [`Page`] | sheet px | light evened out: paper 0, ink 1; noise and edges as scanned |
+//! | [`cut`] | `Page` → [`Cell`](crate::types::Cell)s | upright px | each piece of ink in one cell or in the list of what was rejected, with a reason |
+//!
+//! Letters of a skewed page come out upright: their pixels are interpolated once, the only resampling
+//! between the scanner and the contour.
 
+mod clean;
+mod components;
+mod cut;
+mod deskew;
 mod error;
+mod grid;
 mod header;
+mod letters;
 mod load;
+mod options;
+mod whole;
 
+pub use clean::{Page, clean};
+pub use cut::{Cut, Reason, Rejected, Warning, cut};
 pub use error::ScanError;
 pub use load::{Polarity, load};
+pub use options::{Direction, Layout, Options, Order, Scale};

@@ -105,6 +105,12 @@ impl Gray {
         &self.samples
     }
 
+    /// All samples, row-major, for a new picture to take over.
+    #[must_use]
+    pub fn into_samples(self) -> Vec<f32> {
+        self.samples
+    }
+
     /// The coverage of the pixel in column `x` of row `y`; paper outside the picture.
     #[must_use]
     pub fn at(&self, x: usize, y: usize) -> f32 {

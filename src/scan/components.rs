@@ -1,0 +1,187 @@
+//! Connected ink: runs along rows, joined where they touch, also at their corners.
+
+use crate::types::Gray;
+use kurbo::{Affine, Point, Rect};
+use rayon::prelude::*;
+
+/// Ink from column `start` to before `end` of row `y`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Run {
+    pub(super) y: usize,
+    pub(super) start: usize,
+    pub(super) end: usize,
+}
+
+/// One connected piece of ink.
+#[derive(Debug, Clone)]
+pub(super) struct Component {
+    /// In order of rows, then columns.
+    pub(super) runs: Vec<Run>,
+    /// px².
+    pub(super) area: usize,
+    /// Of them, those of at least half coverage.
+    full: usize,
+    /// Rectangle in the sheet's picture, px.
+    pub(super) bounds: Rect,
+    /// The rectangle around its half coverage in the upright page, px.
+    pub(super) upright: Rect,
+    /// Centre of gravity in the upright page, px.
+    pub(super) centre: Point,
+}
+
+impl Component {
+    fn new(runs: Vec<Run>, full: usize) -> Self {
+        let mut new = Self {
+            area: runs.iter().map(|r| r.end - r.start).sum(),
+            full,
+            bounds: Rect::ZERO,
+            upright: Rect::ZERO,
+            centre: Point::ORIGIN,
+            runs,
+        };
+        let rows = new.runs.iter().map(|r| r.y as f64);
+        let (top, bottom) = (rows.clone().reduce(f64::min), rows.reduce(f64::max));
+        let left = new.runs.iter().map(|r| r.start).min().unwrap_or(0);
+        let right = new.runs.iter().map(|r| r.end).max().unwrap_or(0);
+        let ends = (top.unwrap_or(0.0), bottom.unwrap_or(0.0) + 1.0);
+        new.bounds = Rect::new(left as f64, ends.0, right as f64, ends.1);
+        new.stand(Affine::IDENTITY);
+        new
+    }
+
+    /// How far its edge lies outside the line of half coverage, px.
+    fn rim(&self) -> f64 {
+        (1.0 - self.full as f64 / self.area.max(1) as f64) * self.stroke() / 2.0
+    }
+
+    /// Measures it on the upright page that `upright` maps the sheet's picture to.
+    pub(super) fn stand(&mut self, upright: Affine) {
+        // boxes around the pixels' centres, half a pixel wider: turned corners would widen every box
+        let ends = self
+            .runs
+            .iter()
+            .flat_map(|r| [(r.start, r.y), (r.end - 1, r.y)]);
+        let centres = ends.map(|(x, y)| upright * Point::new(x as f64 + 0.5, y as f64 + 0.5));
+        let boxes = centres.map(|p| Rect::from_points(p, p).inflate(0.5, 0.5));
+        let rim = self.rim();
+        let ink = boxes.reduce(|a, b| a.union(b)).unwrap_or(Rect::ZERO);
+        self.upright = if ink.width().min(ink.height()) > 4.0 * rim {
+            ink.inset(-rim)
+        } else {
+            ink
+        };
+        let weigh = |(sum, n): (Point, f64), r: &Run| {
+            let length = (r.end - r.start) as f64;
+            let middle = Point::new((r.start + r.end) as f64 / 2.0, r.y as f64 + 0.5);
+            (sum + middle.to_vec2() * length, n + length)
+        };
+        let (sum, n) = self.runs.iter().fold((Point::ORIGIN, 0.0), weigh);
+        self.centre = upright * (sum.to_vec2() / n.max(1.0)).to_point();
+    }
+
+    /// Rough width of its stroke, px: twice the area over the length of its edge.
+    pub(super) fn stroke(&self) -> f64 {
+        let sides = 2 * self.runs.len();
+        let covered: usize = pairs(&self.runs)
+            .map(|(a, b)| a.end.min(b.end) - a.start.max(b.start))
+            .sum();
+        let flats = 2 * (self.area - covered.min(self.area));
+        2.0 * self.area as f64 / ((sides.max(flats) + sides.min(flats) / 2) as f64).max(1.0)
+    }
+}
+
+/// Runs of one row and of the next that overlap by at least a pixel.
+fn pairs(runs: &[Run]) -> impl Iterator<Item = (Run, Run)> {
+    let mut from = 0;
+    runs.iter().flat_map(move |&a| {
+        while runs
+            .get(from)
+            .is_some_and(|b| b.y < a.y + 1 || (b.y == a.y + 1 && b.end <= a.start))
+        {
+            from += 1;
+        }
+        let below = runs.get(from..).unwrap_or(&[]).iter();
+        below
+            .take_while(move |b| b.y == a.y + 1 && b.start < a.end)
+            .map(move |&b| (a, b))
+    })
+}
+
+/// Connected ink of at least `low` coverage that reaches `seed` somewhere, in order of the first run.
+pub(super) fn components(gray: &Gray, low: f32, seed: f32) -> Vec<Component> {
+    let rows: Vec<Vec<(Run, Coverage)>> = (0..gray.height())
+        .into_par_iter()
+        .map(|y| runs(gray.row(y), y, low))
+        .collect();
+    let (runs, coverage): (Vec<Run>, Vec<Coverage>) = rows.into_iter().flatten().unzip();
+    let groups = group(&runs).into_iter();
+    groups
+        .filter(|g| g.iter().any(|&i| coverage[i].peak >= seed))
+        .map(|g| {
+            let full = g.iter().map(|&i| coverage[i].full).sum();
+            Component::new(g.into_iter().map(|i| runs[i]).collect(), full)
+        })
+        .collect()
+}
+
+/// What a run covers: its highest coverage, and how many of its pixels are at least half covered.
+#[derive(Debug, Clone, Copy)]
+struct Coverage {
+    peak: f32,
+    full: usize,
+}
+
+/// The runs of one row.
+fn runs(row: &[f32], y: usize, low: f32) -> Vec<(Run, Coverage)> {
+    let mut out = Vec::new();
+    let mut x = 0;
+    while let Some(skip) = row[x..].iter().position(|&v| v >= low) {
+        let start = x + skip;
+        let length = row[start..].iter().position(|&v| v < low);
+        let end = length.map_or(row.len(), |l| start + l);
+        let ink = &row[start..end];
+        let peak = ink.iter().copied().fold(0.0, f32::max);
+        let full = ink.iter().filter(|&&v| v >= 0.5).count();
+        out.push((Run { y, start, end }, Coverage { peak, full }));
+        x = end;
+    }
+    out
+}
+
+/// Indices of runs that touch, also at corners: union-find along neighbouring rows.
+fn group(runs: &[Run]) -> Vec<Vec<usize>> {
+    let mut parent: Vec<usize> = (0..runs.len()).collect();
+    fn root(parent: &mut [usize], mut i: usize) -> usize {
+        while parent[i] != i {
+            parent[i] = parent[parent[i]];
+            i = parent[i];
+        }
+        i
+    }
+    let mut above = 0;
+    for (i, run) in runs.iter().enumerate() {
+        while runs[above].y + 1 < run.y
+            || (runs[above].y + 1 == run.y && runs[above].end < run.start)
+        {
+            above += 1;
+        }
+        let touching = runs[above..i]
+            .iter()
+            .take_while(|a| a.y < run.y && a.start <= run.end);
+        for j in above..above + touching.count() {
+            let (a, b) = (root(&mut parent, i), root(&mut parent, j));
+            parent[a.max(b)] = a.min(b);
+        }
+    }
+    let mut groups: Vec<Vec<usize>> = Vec::new();
+    let mut place = vec![usize::MAX; runs.len()];
+    for i in 0..runs.len() {
+        let r = root(&mut parent, i);
+        if place[r] == usize::MAX {
+            place[r] = groups.len();
+            groups.push(Vec::new());
+        }
+        groups[place[r]].push(i);
+    }
+    groups
+}

@@ -1,0 +1,235 @@
+//! Equal cells in rows and columns.
+
+use super::{Layer, Reason, Slot, position};
+use crate::scan::clean::Page;
+use crate::scan::components::Component;
+use crate::scan::error::ScanError;
+use crate::scan::grid::Axis;
+use crate::scan::options::Options;
+use crate::types::Label;
+use std::ops::Range;
+
+/// A piece longer than this many cells is no letter if it is thin or hollow.
+const LINE_LENGTH: f64 = 1.4;
+/// Share of its box that a printed lattice covers at most.
+const LINE_COVER: f64 = 0.12;
+/// Thickness of a printed line at most, as a share of a cell.
+const LINE_WIDTH: f64 = 0.06;
+/// Small parts this near to a border of cells, as a share of the pitch, go to the nearer letter.
+const NEAR: f64 = 0.2;
+/// A part smaller than this share of the largest part of its cell is a dot or an accent.
+const SMALL: f64 = 0.4;
+/// Ink in a cell without a name counts from this share of a usual cell's ink.
+const COUNTS: f64 = 0.1;
+
+/// The grid that a user said.
+pub(super) struct Plan<'a> {
+    rows: usize,
+    columns: usize,
+    source: &'a str,
+    options: &'a Options,
+}
+
+impl<'a> Plan<'a> {
+    pub(super) fn new(
+        page: &'a Page,
+        options: &'a Options,
+        rows: usize,
+        columns: usize,
+    ) -> Result<Self, ScanError> {
+        let source = page.sheet.source.as_str();
+        let fine = rows > 0 && columns > 0;
+        fine.then_some(Self {
+            rows,
+            columns,
+            source,
+            options,
+        })
+        .ok_or(ScanError::NoGrid { rows, columns })
+    }
+
+    fn place(&self, index: usize) -> (usize, usize) {
+        position(index, (self.rows, self.columns), self.options)
+    }
+
+    fn index(&self, cell: (usize, usize)) -> Option<usize> {
+        (0..self.rows * self.columns).find(|&i| self.place(i) == cell)
+    }
+
+    fn too_many(&self, labels: &[Label]) -> Result<(), ScanError> {
+        let cells = self.rows * self.columns;
+        labels.get(cells).map_or(Ok(()), |extra| {
+            Err(ScanError::TooManyNames {
+                source_name: self.source.to_owned(),
+                cells,
+                names: labels.len(),
+                extra: extra.0.clone(),
+            })
+        })
+    }
+}
+
+/// Shares the ink out to the cells of a grid.
+pub(super) fn place(
+    all: &[Component],
+    labels: &[Label],
+    plan: &Plan<'_>,
+) -> Result<Layer, ScanError> {
+    plan.too_many(labels)?;
+    let lines = lines(all, plan);
+    let letters: Vec<usize> = (0..all.len()).filter(|i| !lines.contains(i)).collect();
+    let mut rejected: Vec<(usize, Reason)> = lines.iter().map(|&i| (i, Reason::Line)).collect();
+    let Some((x, y)) = axes(all, &letters, labels, plan) else {
+        return Err(ScanError::Blank {
+            source_name: plan.source.to_owned(),
+        });
+    };
+    let mut cells: Vec<Vec<usize>> = vec![Vec::new(); plan.rows * plan.columns];
+    for &i in &letters {
+        match y.cell(all[i].centre.y).zip(x.cell(all[i].centre.x)) {
+            Some((r, c)) => cells[r * plan.columns + c].push(i),
+            None => rejected.push((i, Reason::Outside)),
+        }
+    }
+    settle_small_parts(all, &mut cells, &x, &y);
+    let slots = name(all, cells, labels, plan, &mut rejected)?;
+    let rows = (0..plan.rows).map(|r| y.begin(r)).collect();
+    Ok(Layer {
+        slots,
+        rows,
+        rejected,
+    })
+}
+
+/// Pieces that are printed lines: longer than a cell, and thin or hollow.
+fn lines(all: &[Component], plan: &Plan<'_>) -> Vec<usize> {
+    let Some(page) = all.iter().map(|c| c.upright).reduce(|a, b| a.union(b)) else {
+        return Vec::new();
+    };
+    let (w, h) = (
+        page.width() / plan.columns as f64,
+        page.height() / plan.rows as f64,
+    );
+    let is_line = |c: &Component| {
+        let b = c.upright;
+        let long = b.width() > LINE_LENGTH * w || b.height() > LINE_LENGTH * h;
+        let thin = b.width() < LINE_WIDTH * w || b.height() < LINE_WIDTH * h;
+        long && (thin || (c.area as f64) < LINE_COVER * b.area())
+    };
+    (0..all.len()).filter(|&i| is_line(&all[i])).collect()
+}
+
+/// Columns and rows.
+fn axes(
+    all: &[Component],
+    letters: &[usize],
+    labels: &[Label],
+    plan: &Plan<'_>,
+) -> Option<(Axis, Axis)> {
+    let named = labels.iter().enumerate().filter(|(_, l)| l.0 != "_");
+    let places: Vec<(usize, usize)> = named.map(|(i, _)| plan.place(i)).collect();
+    let range = |of: fn(&(usize, usize)) -> usize| -> Option<Range<usize>> {
+        let all = || places.iter().map(of);
+        Some(all().min()?..all().max()? + 1)
+    };
+    let boxes = || letters.iter().map(|&i| all[i].upright);
+    let across: Vec<_> = boxes().map(|b| (b.x0, b.x1)).collect();
+    let down: Vec<_> = boxes().map(|b| (b.y0, b.y1)).collect();
+    let x = Axis::fit(&across, plan.columns, range(|p| p.1)?)?;
+    let y = Axis::fit(&down, plan.rows, range(|p| p.0)?)?;
+    Some((x, y))
+}
+
+/// Dots and accents near a border of cells go to the letter that is nearer.
+fn settle_small_parts(all: &[Component], cells: &mut [Vec<usize>], x: &Axis, y: &Axis) {
+    let columns = x.count;
+    let body = |cell: &[usize]| cell.iter().copied().max_by_key(|&i| all[i].area);
+    let bodies: Vec<Option<usize>> = cells.iter().map(|c| body(c)).collect();
+    let mut moves = Vec::new();
+    for (from, parts) in cells.iter().enumerate() {
+        for &part in parts {
+            let c = &all[part];
+            let near = y.clearance(c.centre.y) < NEAR || x.clearance(c.centre.x) < NEAR;
+            let main = bodies[from].map_or(0, |b| all[b].area);
+            // the only ink of its cell may be a letter that sits high or low, or a neighbour's dot
+            if !near || (bodies[from] != Some(part) && c.area as f64 > SMALL * main as f64) {
+                continue;
+            }
+            let around = neighbours(from, columns, cells.len() / columns);
+            let candidates =
+                around.filter_map(|to| bodies[to].filter(|&b| b != part).map(|b| (to, b)));
+            let nearest = candidates
+                .filter(|&(to, b)| to == from || (c.area as f64) < SMALL * all[b].area as f64)
+                .map(|(to, b)| (gap(c, &all[b]), to))
+                .min_by(|a, b| a.0.total_cmp(&b.0));
+            let alone = bodies[from] == Some(part);
+            let close = NEAR * y.pitch.min(x.pitch) / 2.0;
+            let nearest = nearest.filter(|n| n.1 != from && (!alone || n.0 < close));
+            moves.extend(nearest.map(|(_, to)| (part, from, to)));
+        }
+    }
+    for (part, from, to) in moves {
+        cells[from].retain(|&p| p != part);
+        cells[to].push(part);
+    }
+}
+
+/// A cell and those around it.
+fn neighbours(cell: usize, columns: usize, rows: usize) -> impl Iterator<Item = usize> {
+    let (r, c) = (cell / columns, cell % columns);
+    let near = |i: usize, n: usize| i.saturating_sub(1)..(i + 2).min(n);
+    near(r, rows).flat_map(move |r| near(c, columns).map(move |c| r * columns + c))
+}
+
+/// Distance of two boxes, px.
+fn gap(a: &Component, b: &Component) -> f64 {
+    let (a, b) = (a.upright, b.upright);
+    let dx = (a.x0 - b.x1).max(b.x0 - a.x1).max(0.0);
+    let dy = (a.y0 - b.y1).max(b.y0 - a.y1).max(0.0);
+    dx.hypot(dy)
+}
+
+/// Gives the cells their labels.
+fn name(
+    all: &[Component],
+    mut cells: Vec<Vec<usize>>,
+    labels: &[Label],
+    plan: &Plan<'_>,
+    rejected: &mut Vec<(usize, Reason)>,
+) -> Result<Vec<Slot>, ScanError> {
+    let ink = |cell: &[usize]| cell.iter().map(|&i| all[i].area).sum::<usize>();
+    let mut usual: Vec<usize> = cells.iter().map(|c| ink(c)).filter(|&a| a > 0).collect();
+    usual.sort_unstable();
+    let least = COUNTS * usual.get(usual.len() / 2).copied().unwrap_or(0) as f64;
+    let mut slots = Vec::new();
+    for row in 0..plan.rows {
+        for column in 0..plan.columns {
+            let parts = std::mem::take(&mut cells[row * plan.columns + column]);
+            let Some(index) = plan.index((row, column)) else {
+                continue;
+            };
+            match labels.get(index) {
+                Some(label) if label.0 == "_" => {
+                    rejected.extend(parts.iter().map(|&i| (i, Reason::Skipped)))
+                }
+                Some(label) => slots.push(Slot {
+                    label: label.clone(),
+                    index,
+                    row,
+                    parts,
+                }),
+                None if ink(&parts) as f64 > least => {
+                    return Err(ScanError::TooFewNames {
+                        source_name: plan.source.to_owned(),
+                        row: row + 1,
+                        column: column + 1,
+                        names: labels.len(),
+                    });
+                }
+                None => rejected.extend(parts.iter().map(|&i| (i, Reason::Unnamed))),
+            }
+        }
+    }
+    slots.sort_by_key(|s| s.index);
+    Ok(slots)
+}

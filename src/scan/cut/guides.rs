@@ -1,0 +1,252 @@
+//! Baseline and scale: from the many letters of the rows, never from one letter's own ink.
+
+use super::{Layer, Slot, Warning};
+use crate::scan::clean::Page;
+use crate::scan::components::Component;
+use crate::scan::error::ScanError;
+use crate::scan::letters::{Foot, Head, Shape};
+use crate::scan::options::{Options, Scale};
+use glyphs_reader::glyphdata::GlyphData;
+use kurbo::Rect;
+
+/// How far bows reach past a flat edge, as a share of the letter's height.
+const OVERSHOOT: f64 = 0.015;
+/// A row's own letters weigh against the whole page as this many letters of it do.
+const SHRINK: f64 = 2.0;
+/// How far a foot may lie off the page's common line and still be one, as a share of the usual letter's
+/// height: a hand's rows drift by less, a letter that hangs is farther off.
+const ASTRAY: f64 = 0.1;
+/// Millimetres an inch.
+const MM_PER_INCH: f64 = 25.4;
+/// Heights that letters usually have, as shares of the em, where a user gives no scale: H, x, and alef.
+const USUAL: [(Head, f64); 3] = [(Head::Cap, 0.7), (Head::X, 0.5), (Head::Alef, 0.65)];
+/// Where no letter of a known height is there: highest to lowest ink, as a share of the em.
+const USUAL_EXTENT: f64 = 1.0;
+
+/// What all cells of a page share.
+pub(super) struct Guides {
+    /// Upright px, for each row of the layer.
+    pub(super) baselines: Vec<f64>,
+    pub(super) px_per_em: f64,
+    pub(super) warnings: Vec<Warning>,
+}
+
+/// A letter as far as heights go.
+struct Letter {
+    row: usize,
+    shape: Shape,
+    /// The body's box: the largest part of letters that have dots, else the whole.
+    body: Rect,
+    /// The whole ink's box.
+    whole: Rect,
+}
+
+/// Measures baselines and scale.
+pub(super) fn measure(
+    layer: &Layer,
+    all: &[Component],
+    page: &Page,
+    options: &Options,
+) -> Result<Guides, ScanError> {
+    let names = GlyphData::default();
+    let letters: Vec<Letter> = layer
+        .slots
+        .iter()
+        .filter_map(|s| letter(s, all, &names))
+        .collect();
+    let baselines = baselines(&letters, &layer.rows);
+    let (px_per_em, warning) = scale(&letters, &baselines, page, options)?;
+    Ok(Guides {
+        baselines,
+        px_per_em,
+        warnings: warning.into_iter().collect(),
+    })
+}
+
+fn letter(slot: &Slot, all: &[Component], names: &GlyphData) -> Option<Letter> {
+    let shape = Shape::of(&slot.label, names);
+    let boxes = || slot.parts.iter().map(|&i| all[i].upright);
+    let whole = boxes().reduce(|a, b| a.union(b))?;
+    let largest = slot.parts.iter().max_by_key(|&&i| all[i].area)?;
+    let body = if shape.dotted {
+        all[*largest].upright
+    } else {
+        whole
+    };
+    Some(Letter {
+        row: slot.row,
+        shape,
+        body,
+        whole,
+    })
+}
+
+/// The baseline of each row, upright px. All rows share the distance from their nominal heights, up to a
+/// drift along the page; the letters of a row move its own baseline as far as their number justifies.
+fn baselines(letters: &[Letter], rows: &[f64]) -> Vec<f64> {
+    let standing: Vec<(usize, f64)> = feet(letters, Foot::Flat, 0.0);
+    let enough = standing.len() >= rows.len() && standing.len() >= 3;
+    let bowed = if enough {
+        Vec::new()
+    } else {
+        feet(letters, Foot::Round, OVERSHOOT)
+    };
+    let mut feet: Vec<(usize, f64)> = standing.into_iter().chain(bowed).collect();
+    if feet.is_empty() {
+        feet = letters.iter().map(|l| (l.row, l.body.y1)).collect();
+    }
+    let off: Vec<(usize, f64)> = feet.iter().map(|&(r, y)| (r, y - rows[r])).collect();
+    let height = median(&letters.iter().map(|l| l.body.height()).collect::<Vec<_>>());
+    let common = Line::through(&off);
+    let near = |&(r, o): &(usize, f64)| (o - common.at(r)).abs() <= ASTRAY * height.unwrap_or(0.0);
+    let steady: Vec<(usize, f64)> = off.iter().copied().filter(near).collect();
+    let common = if steady.is_empty() {
+        common
+    } else {
+        Line::through(&steady)
+    };
+    let row = |r: usize| {
+        let own: Vec<f64> = steady
+            .iter()
+            .filter(|o| o.0 == r)
+            .map(|o| o.1 - common.at(r))
+            .collect();
+        let n = own.len() as f64;
+        rows[r] + common.at(r) + median(&own).unwrap_or(0.0) * n / (n + SHRINK)
+    };
+    (0..rows.len()).map(row).collect()
+}
+
+/// A straight line through values of rows, by medians.
+#[derive(Clone, Copy)]
+struct Line {
+    level: f64,
+    slope: f64,
+}
+
+impl Line {
+    fn through(points: &[(usize, f64)]) -> Self {
+        let of =
+            |r: usize| -> Vec<f64> { points.iter().filter(|p| p.0 == r).map(|p| p.1).collect() };
+        let last = points.iter().map(|p| p.0).max().unwrap_or(0);
+        let rows = (0..=last).filter_map(|r| Some((r as f64, median(&of(r))?)));
+        let slope = slope(&rows.collect::<Vec<_>>());
+        let flat: Vec<f64> = points.iter().map(|p| p.1 - slope * p.0 as f64).collect();
+        Self {
+            level: median(&flat).unwrap_or(0.0),
+            slope,
+        }
+    }
+
+    fn at(self, row: usize) -> f64 {
+        self.level + self.slope * row as f64
+    }
+}
+
+/// Row and baseline of every letter that meets it so.
+fn feet(letters: &[Letter], foot: Foot, overshoot: f64) -> Vec<(usize, f64)> {
+    let such = letters.iter().filter(|l| l.shape.foot == foot);
+    such.map(|l| (l.row, l.body.y1 - overshoot * l.body.height()))
+        .collect()
+}
+
+fn median(values: &[f64]) -> Option<f64> {
+    let mut sorted = values.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let (low, high) = (
+        sorted.get(sorted.len().saturating_sub(1) / 2)?,
+        sorted.get(sorted.len() / 2)?,
+    );
+    Some(f64::midpoint(*low, *high))
+}
+
+/// The median slope through pairs of points; 0 for fewer than three.
+fn slope(points: &[(f64, f64)]) -> f64 {
+    if points.len() < 3 {
+        return 0.0;
+    }
+    let pairs = points
+        .iter()
+        .enumerate()
+        .flat_map(|(i, a)| points[i + 1..].iter().map(move |b| (a, b)));
+    let slopes: Vec<f64> = pairs.map(|(a, b)| (b.1 - a.1) / (b.0 - a.0)).collect();
+    median(&slopes).unwrap_or(0.0)
+}
+
+/// Pixels an em, and a word where nobody gave it.
+fn scale(
+    letters: &[Letter],
+    baselines: &[f64],
+    page: &Page,
+    options: &Options,
+) -> Result<(f64, Option<Warning>), ScanError> {
+    let source_name = || page.sheet.source.clone();
+    let height = |head, what| {
+        head_height(letters, baselines, head).ok_or_else(|| ScanError::NoHeight {
+            source_name: source_name(),
+            what,
+        })
+    };
+    let px = match options.scale {
+        Some(Scale::PixelsPerEm(px)) => px,
+        Some(Scale::EmMm(mm)) => {
+            let dpi = page.sheet.dpi.ok_or_else(|| ScanError::NoResolution {
+                source_name: source_name(),
+            })?;
+            mm / MM_PER_INCH * dpi
+        }
+        Some(Scale::XHeight(em)) => height(Head::X, "the height of x")? / em,
+        Some(Scale::CapHeight(em)) => height(Head::Cap, "the height of H")? / em,
+        Some(Scale::AscenderToDescender(em)) => extent(letters, baselines).unwrap_or(1.0) / em,
+        None => {
+            let known = USUAL
+                .iter()
+                .find_map(|(head, em)| Some(head_height(letters, baselines, *head)? / em));
+            let px = known
+                .or_else(|| Some(extent(letters, baselines)? / USUAL_EXTENT))
+                .unwrap_or(1.0);
+            let message = format!(
+                "no scale is given: {px:.1} pixels an em are taken from the letters' usual heights; \
+                 give pixels_per_em, em_mm, x_height, cap_height or ascender_to_descender"
+            );
+            return Ok((
+                px,
+                Some(Warning {
+                    index: None,
+                    label: None,
+                    message,
+                }),
+            ));
+        }
+    };
+    Ok((px, None))
+}
+
+/// The height above the baseline that letters share, px: of flat heads, else of bows.
+fn head_height(letters: &[Letter], baselines: &[f64], head: Head) -> Option<f64> {
+    let of = |head: Head| -> Vec<f64> {
+        let such = letters.iter().filter(|l| l.shape.head == head);
+        such.map(|l| baselines[l.row] - l.body.y0)
+            .filter(|h| *h > 0.0)
+            .collect()
+    };
+    let bows = match head {
+        Head::Cap => Head::CapBow,
+        Head::X => Head::XBow,
+        other => other,
+    };
+    median(&of(head)).or_else(|| Some(median(&of(bows))? / (1.0 + OVERSHOOT)))
+}
+
+/// From the highest ink to the lowest, about the baselines, px.
+fn extent(letters: &[Letter], baselines: &[f64]) -> Option<f64> {
+    let above = letters
+        .iter()
+        .map(|l| baselines[l.row] - l.whole.y0)
+        .reduce(f64::max)?;
+    let below = letters
+        .iter()
+        .map(|l| l.whole.y1 - baselines[l.row])
+        .reduce(f64::max)?;
+    Some((above + below).max(1.0))
+}

@@ -1,0 +1,236 @@
+//! A clean page → its [`Cell`]s: ink is joined to letters, letters to cells, cells get their guides.
+//!
+//! Nothing is lost: every piece of ink above the speckle limit is in a cell or in [`Cut::rejected`].
+
+mod grid;
+mod guides;
+mod window;
+
+use super::clean::Page;
+use super::components::{Component, components};
+use super::deskew::skew_deg;
+use super::error::ScanError;
+use super::options::{Direction, Layout, Options, Order};
+use crate::types::{Cell, Label};
+use kurbo::{Affine, Point, Rect};
+use rayon::prelude::*;
+
+/// Coverage from which connected ink counts: below the half level, so that thin strokes hold together,
+/// and above printed guides in a light colour.
+const LOW: f32 = 0.33;
+/// Coverage that a piece of ink must reach somewhere.
+const SEED: f32 = 0.5;
+/// Standard deviations of noise that both levels keep from the paper.
+const NOISE: f32 = 6.0;
+/// Ink smaller than a square of this many stroke widths is a speck: the dot of a letter is at least one
+/// stroke wide and high.
+const SPECK: f64 = 0.5;
+/// Skews below this, degrees, are left alone: over a page they move a letter by a hair.
+const LEAST_SKEW_DEG: f64 = 0.01;
+
+/// What a page was cut into.
+#[derive(Debug, Clone)]
+pub struct Cut {
+    /// The letters in reading order; a named cell without ink is left out and warned of.
+    pub cells: Vec<Cell>,
+    /// Ink that is in no cell.
+    pub rejected: Vec<Rejected>,
+    /// What a user should look at.
+    pub warnings: Vec<Warning>,
+    /// Degrees by which the page lay turned clockwise.
+    pub skew_deg: f64,
+    /// From px of the sheet's picture to px of the upright page.
+    pub upright: Affine,
+    /// Pieces of ink below the speckle limit, which are in no list.
+    pub specks: usize,
+}
+
+/// A piece of ink that is in no cell.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Rejected {
+    /// Its rectangle in the sheet's picture, px.
+    pub in_sheet: Rect,
+    /// px².
+    pub area_px: usize,
+    /// Why.
+    pub reason: Reason,
+}
+
+/// Why ink is in no cell.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[non_exhaustive]
+pub enum Reason {
+    /// A printed line.
+    Line,
+    /// It lies outside all cells.
+    Outside,
+    /// Its cell is marked to be skipped.
+    Skipped,
+    /// Its cell is beyond the last name.
+    Unnamed,
+    /// The edge of the scan: it touches the picture's border and is far larger than a letter.
+    Border,
+}
+
+/// Something a user should look at.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Warning {
+    /// Position in reading order, where it is about one cell.
+    pub index: Option<usize>,
+    /// What the cell is said to hold.
+    pub label: Option<Label>,
+    /// What is odd and what to do.
+    pub message: String,
+}
+
+impl Warning {
+    fn of(slot: &Slot, message: impl Into<String>) -> Self {
+        Self {
+            index: Some(slot.index),
+            label: Some(slot.label.clone()),
+            message: message.into(),
+        }
+    }
+}
+
+/// A cell while its ink is being gathered.
+#[derive(Debug, Clone)]
+struct Slot {
+    label: Label,
+    /// Position in reading order.
+    index: usize,
+    /// Row of letters that share a baseline.
+    row: usize,
+    /// Indices of its pieces of ink.
+    parts: Vec<usize>,
+}
+
+/// What a layout found: slots in reading order, the rows' nominal heights, and the rest.
+struct Layer {
+    slots: Vec<Slot>,
+    /// A height that lies alike in all rows, upright px.
+    rows: Vec<f64>,
+    /// Pieces of ink in no slot.
+    rejected: Vec<(usize, Reason)>,
+}
+
+/// Cuts a clean page into cells: `labels` in reading order, `_` for a cell to be skipped.
+///
+/// # Errors
+/// The layout does not hold the labels, ink has no label, or the em cannot be measured.
+pub fn cut(page: &Page, labels: &[Label], options: &Options) -> Result<Cut, ScanError> {
+    let gray = &page.sheet.gray;
+    let low = LOW.max(NOISE * page.noise);
+    let mut all = components(gray, low, SEED.max(low));
+    let specks = drop_specks(&mut all);
+    let borders = take_borders(&mut all, gray.width(), gray.height());
+    let skew_deg = skew_deg(&all.iter().collect::<Vec<_>>());
+    let skew_deg = if skew_deg.abs() < LEAST_SKEW_DEG {
+        0.0
+    } else {
+        skew_deg
+    };
+    let middle = Point::new(gray.width() as f64 / 2.0, gray.height() as f64 / 2.0);
+    let upright = Affine::rotate_about(-skew_deg.to_radians(), middle);
+    all.par_iter_mut().for_each(|c| c.stand(upright));
+
+    let layer = match options.layout {
+        Layout::Grid(rows, columns) => grid::place(
+            &all,
+            labels,
+            &grid::Plan::new(page, options, rows, columns)?,
+        )?,
+        Layout::Free | Layout::Boxes => {
+            return Err(ScanError::NoGrid {
+                rows: 0,
+                columns: 0,
+            });
+        }
+    };
+    let guides = guides::measure(&layer, &all, page, options)?;
+    let mut warnings = guides.warnings;
+    let inked: Vec<&Slot> = layer.slots.iter().filter(|s| !s.parts.is_empty()).collect();
+    let empty = layer.slots.iter().filter(|s| s.parts.is_empty());
+    warnings
+        .extend(empty.map(|s| Warning::of(s, "the cell is empty: draw the letter or name it _")));
+    let shutter = window::Shutter { page, low, upright };
+    let cells = inked.par_iter().map(|slot| {
+        let parts: Vec<&Component> = slot.parts.iter().map(|&i| &all[i]).collect();
+        shutter.cell(slot, &parts, (guides.baselines[slot.row], guides.px_per_em))
+    });
+    let cells: Vec<Cell> = cells.collect();
+    let rest = layer
+        .rejected
+        .iter()
+        .map(|&(i, reason)| rejected(&all[i], reason));
+    let rejected = rest
+        .chain(borders.iter().map(|c| rejected(c, Reason::Border)))
+        .collect();
+    warnings.sort_by_key(|w| w.index);
+    Ok(Cut {
+        cells,
+        rejected,
+        warnings,
+        skew_deg,
+        upright,
+        specks,
+    })
+}
+
+fn rejected(c: &Component, reason: Reason) -> Rejected {
+    Rejected {
+        in_sheet: c.bounds,
+        area_px: c.area,
+        reason,
+    }
+}
+
+/// Removes what is smaller than any dot; how many pieces that was.
+fn drop_specks(all: &mut Vec<Component>) -> usize {
+    let stroke = stroke_width(all);
+    let before = all.len();
+    all.retain(|c| c.area as f64 >= (SPECK * stroke).powi(2).max(2.0));
+    before - all.len()
+}
+
+/// The page's usual stroke width, px: the median over the ink, each piece by its area.
+fn stroke_width(all: &[Component]) -> f64 {
+    let mut widths: Vec<(f64, usize)> = all.iter().map(|c| (c.stroke(), c.area)).collect();
+    widths.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let half = widths.iter().map(|w| w.1).sum::<usize>() / 2;
+    let mut sum = 0;
+    let middle = widths.iter().find(|w| {
+        sum += w.1;
+        sum > half
+    });
+    middle.map_or(1.0, |w| w.0)
+}
+
+/// Takes out ink that touches the picture's border and reaches along half of a side.
+fn take_borders(all: &mut Vec<Component>, width: usize, height: usize) -> Vec<Component> {
+    let (w, h) = (width as f64, height as f64);
+    let at_edge = |c: &Component| {
+        c.bounds.x0 <= 0.0 || c.bounds.y0 <= 0.0 || c.bounds.x1 >= w || c.bounds.y1 >= h
+    };
+    let long = |c: &Component| c.bounds.width() > w / 2.0 || c.bounds.height() > h / 2.0;
+    let (out, kept) = std::mem::take(all)
+        .into_iter()
+        .partition(|c| at_edge(c) && long(c));
+    *all = kept;
+    out
+}
+
+/// Row and column of a cell from its position in reading order.
+fn position(index: usize, (rows, columns): (usize, usize), options: &Options) -> (usize, usize) {
+    let (row, column) = match options.order {
+        Order::Rows => (index / columns, index % columns),
+        Order::Columns => (index % rows, index / rows),
+    };
+    match options.direction {
+        Direction::Ltr => (row, column),
+        Direction::Rtl => (row, columns.saturating_sub(column + 1)),
+    }
+}
+
+#[cfg(test)]
+mod tests;

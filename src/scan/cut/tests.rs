@@ -1,0 +1,268 @@
+use super::super::clean::clean;
+use super::super::options::Scale;
+use super::super::whole::floor;
+use super::*;
+use crate::types::{Gray, Sheet};
+
+/// Paper on which letters are drawn as bars, turned, unevenly lit and noisy.
+struct Paper {
+    width: usize,
+    height: usize,
+    skew_deg: f64,
+    bars: Vec<(Rect, f32)>,
+}
+
+impl Paper {
+    fn new(width: usize, height: usize, skew_deg: f64) -> Self {
+        Self {
+            width,
+            height,
+            skew_deg,
+            bars: Vec::new(),
+        }
+    }
+
+    fn bar(&mut self, x: f64, y: f64, w: f64, h: f64) {
+        self.bars.push((Rect::new(x, y, x + w, y + h), 1.0));
+    }
+
+    /// A letter of x-height 30 and stroke 6 whose foot stands at (x, y).
+    fn letter(&mut self, c: char, x: f64, y: f64) {
+        match c {
+            'i' => {
+                self.bar(x, y - 30.0, 6.0, 30.0);
+                self.bar(x, y - 42.0, 6.0, 6.0);
+            }
+            'l' => self.bar(x, y - 45.0, 6.0, 45.0),
+            'p' => {
+                self.bar(x, y - 30.0, 6.0, 55.0);
+                self.bar(x + 6.0, y - 30.0, 20.0, 6.0);
+                self.bar(x + 20.0, y - 24.0, 6.0, 24.0);
+                self.bar(x + 6.0, y - 6.0, 14.0, 6.0);
+            }
+            _ => {
+                self.bar(x, y - 30.0, 6.0, 30.0);
+                self.bar(x + 22.0, y - 30.0, 6.0, 30.0);
+                self.bar(x + 6.0, y - 30.0, 16.0, 6.0);
+            }
+        }
+    }
+
+    fn turn(&self) -> Affine {
+        let middle = Point::new(self.width as f64 / 2.0, self.height as f64 / 2.0);
+        Affine::rotate_about(self.skew_deg.to_radians(), middle)
+    }
+
+    /// The picture: light falls off to the right, and every pixel has its own noise.
+    fn scan(&self) -> Sheet {
+        let back = self.turn().inverse();
+        let mut seed = 1u32;
+        let gray = Gray::from_fn(self.width, self.height, |x, y| {
+            seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            let noise = (seed >> 16) as f32 / 65_536.0 - 0.5;
+            let samples = [(0.25, 0.25), (0.75, 0.25), (0.25, 0.75), (0.75, 0.75)];
+            let ink = samples.iter().map(|(dx, dy)| {
+                let p = back * Point::new(x as f64 + dx, y as f64 + dy);
+                let here = self.bars.iter().filter(|b| b.0.contains(p)).map(|b| b.1);
+                here.fold(0.0, f32::max)
+            });
+            let ink = ink.sum::<f32>() / 4.0;
+            let light = 0.95 - 0.35 * x as f32 / self.width as f32;
+            1.0 - light * (1.0 - 0.8 * ink) + 0.02 * noise
+        });
+        Sheet {
+            gray,
+            dpi: Some(300.0),
+            source: "page.png".to_owned(),
+        }
+    }
+}
+
+fn labels(text: &str) -> Vec<Label> {
+    text.split_whitespace()
+        .map(|s| Label(s.to_owned()))
+        .collect()
+}
+
+fn options(layout: Layout) -> Options {
+    Options {
+        layout,
+        scale: Some(Scale::PixelsPerEm(60.0)),
+        ..Options::default()
+    }
+}
+
+fn cut_page(paper: &Paper, names: &str, options: &Options) -> Result<Cut, ScanError> {
+    cut(&clean(paper.scan())?, &labels(names), options)
+}
+
+/// Four by five cells of 120 × 100 px; the feet stand 70 px below the cells' tops.
+fn grid_page(skew_deg: f64) -> Paper {
+    let mut paper = Paper::new(700, 500, skew_deg);
+    for (i, c) in "nipnlnnpininlnnnpnin".chars().enumerate() {
+        let (x, y) = (
+            90.0 + 120.0 * (i % 5) as f64,
+            120.0 + 100.0 * (i / 5) as f64,
+        );
+        paper.letter(c, x, y);
+    }
+    paper
+}
+
+const NAMES: &str = "n i p n l n n p i n i n l n n n p n i n";
+
+#[test]
+fn a_grid_is_cut_into_its_letters() {
+    for skew in [0.0, 2.5, -6.0] {
+        let paper = grid_page(skew);
+        let cut = cut_page(&paper, NAMES, &options(Layout::Grid(4, 5))).unwrap();
+        assert_eq!(cut.cells.len(), 20);
+        assert!(
+            cut.rejected.is_empty() && cut.warnings.is_empty(),
+            "{:?}",
+            cut.warnings
+        );
+        assert!(
+            (cut.skew_deg - skew).abs() < 0.1,
+            "{} for {skew}",
+            cut.skew_deg
+        );
+        for (i, cell) in cut.cells.iter().enumerate() {
+            let (x, y) = (
+                90.0 + 120.0 * (i % 5) as f64,
+                120.0 + 100.0 * (i / 5) as f64,
+            );
+            let foot = paper.turn() * Point::new(x + 3.0, y);
+            let at = cell.to_sheet.inverse() * foot;
+            assert_eq!(cell.index, i);
+            assert!(
+                (at.y - cell.guides.baseline_px).abs() < 1.0,
+                "cell {i} at {skew}°: {at:?} {:?}",
+                cell.guides
+            );
+            assert!(
+                cell.gray.at(floor(at.x), floor(at.y) - 6) > 0.7,
+                "the stem stands there"
+            );
+            let ink: f32 = cell.gray.samples().iter().filter(|v| **v > 0.3).sum();
+            let want = match cell.label.0.as_str() {
+                "i" => 216.0,
+                "l" => 270.0,
+                "p" => 678.0,
+                _ => 456.0,
+            };
+            assert!(
+                (ink / want - 1.0).abs() < 0.06,
+                "{}: {ink} px of ink for {want}",
+                cell.label.0
+            );
+        }
+    }
+}
+
+#[test]
+fn reading_order_runs_from_either_side_and_down_columns() {
+    let paper = grid_page(0.0);
+    let rtl = Options {
+        direction: Direction::Rtl,
+        ..options(Layout::Grid(4, 5))
+    };
+    let cut = cut_page(&paper, "l n p i n  n i p n n  n n n l n  n i n p _", &rtl).unwrap();
+    assert_eq!(cut.cells.len(), 19);
+    assert!(
+        cut.cells[0].in_sheet.x0 > 500.0,
+        "the first letter stands on the right"
+    );
+    assert_eq!(cut.rejected.len(), 1, "the skipped letter is listed");
+    assert_eq!(cut.rejected[0].reason, Reason::Skipped);
+    let columns = Options {
+        order: Order::Columns,
+        ..options(Layout::Grid(4, 5))
+    };
+    let cut = cut_page(&paper, "n n i n i n n p p p l n n i n i l n n n", &columns).unwrap();
+    assert!(cut.cells[1].in_sheet.y0 > cut.cells[0].in_sheet.y1);
+    assert!(cut.cells[4].in_sheet.x0 > cut.cells[0].in_sheet.x1);
+}
+
+#[test]
+fn names_and_cells_must_agree() {
+    let paper = grid_page(0.0);
+    let grid = options(Layout::Grid(4, 5));
+    let many = cut_page(&paper, &format!("{NAMES} x"), &grid).unwrap_err();
+    assert!(
+        matches!(
+            many,
+            ScanError::TooManyNames {
+                cells: 20,
+                names: 21,
+                ..
+            }
+        ),
+        "{many}"
+    );
+    let few = cut_page(&paper, &NAMES[..NAMES.len() - 2], &grid).unwrap_err();
+    assert!(
+        matches!(
+            few,
+            ScanError::TooFewNames {
+                row: 4,
+                column: 5,
+                ..
+            }
+        ),
+        "{few}"
+    );
+    let blank = cut_page(&Paper::new(300, 300, 0.0), "a", &grid).unwrap_err();
+    assert!(matches!(blank, ScanError::Blank { .. }), "{blank}");
+    assert!(cut_page(&paper, NAMES, &options(Layout::Grid(0, 5))).is_err());
+    let mut holed = grid_page(0.0);
+    holed
+        .bars
+        .retain(|b| !(b.0.x0 > 190.0 && b.0.x0 < 300.0 && b.0.y0 < 130.0));
+    let cut = cut_page(&holed, NAMES, &grid).unwrap();
+    assert_eq!(cut.cells.len(), 19);
+    assert_eq!(cut.warnings.len(), 1, "the empty cell is warned of");
+    assert_eq!(cut.warnings[0].index, Some(1));
+}
+
+#[test]
+fn printed_lines_are_no_ink() {
+    for shade in [0.25, 1.0] {
+        let mut paper = grid_page(1.0);
+        for i in 0..=5 {
+            paper.bars.push((
+                Rect::new(
+                    48.0 + 120.0 * f64::from(i),
+                    50.0,
+                    51.0 + 120.0 * f64::from(i),
+                    450.0,
+                ),
+                shade,
+            ));
+        }
+        for i in 0..=4 {
+            paper.bars.push((
+                Rect::new(
+                    48.0,
+                    48.0 + 100.0 * f64::from(i),
+                    651.0,
+                    51.0 + 100.0 * f64::from(i),
+                ),
+                shade,
+            ));
+        }
+        let cut = cut_page(&paper, NAMES, &options(Layout::Grid(4, 5))).unwrap();
+        assert_eq!(cut.cells.len(), 20);
+        assert!(
+            cut.rejected.iter().all(|r| r.reason == Reason::Line),
+            "{:?}",
+            cut.rejected
+        );
+        let widest = cut
+            .cells
+            .iter()
+            .map(|c| c.in_sheet.width())
+            .fold(0.0, f64::max);
+        assert!(widest < 34.0, "letters only");
+    }
+}

@@ -1,0 +1,247 @@
+//! The picture of a cell: its own ink, nobody else's, upright.
+//!
+//! What lies nearer to other ink than to its own, and what stands out of the noise far from its own, becomes
+//! paper. On an upright page the pixels are the scan's own; else they are interpolated once, by a kernel that
+//! keeps what the scanner could resolve (Lanczos of three lobes).
+
+use super::Slot;
+use crate::scan::clean::Page;
+use crate::scan::components::{Component, Run};
+use crate::scan::whole::{floor, narrow};
+use crate::types::{Cell, Gray, Guides};
+use kurbo::{Affine, Point, Rect, Vec2};
+use std::f64::consts::PI;
+
+/// Paper around the ink of a cell, px: enough to see its level.
+const MARGIN: f64 = 12.0;
+/// How far a stroke's blurred edge reaches, px.
+const HALO: u16 = 8;
+/// Standard deviations of noise above which paper far from the cell's ink is somebody else's.
+const NOISE: f32 = 4.0;
+/// Lobes of the kernel.
+const LOBES: usize = 3;
+/// Positions between two pixels for which the kernel is tabled.
+const PHASES: usize = 512;
+
+/// Takes pictures of cells.
+pub(super) struct Shutter<'a> {
+    pub(super) page: &'a Page,
+    /// Coverage from which pixels are ink.
+    pub(super) low: f32,
+    /// From the sheet's picture to the upright page.
+    pub(super) upright: Affine,
+}
+
+impl Shutter<'_> {
+    pub(super) fn cell(
+        &self,
+        slot: &Slot,
+        parts: &[&Component],
+        (baseline, px_per_em): (f64, f64),
+    ) -> Cell {
+        let union =
+            |of: fn(&Component) -> Rect| parts.iter().map(|c| of(c)).reduce(|a, b| a.union(b));
+        let ink = union(|c| c.upright).unwrap_or(Rect::ZERO);
+        let window = ink.inflate(MARGIN, MARGIN).expand();
+        let to_sheet = self.upright.inverse() * Affine::translate(window.origin().to_vec2());
+        Cell {
+            label: slot.label.clone(),
+            index: slot.index,
+            gray: self.picture(parts, window, to_sheet),
+            in_sheet: union(|c| c.bounds).unwrap_or(Rect::ZERO),
+            to_sheet,
+            guides: Guides {
+                baseline_px: baseline - window.y0,
+                px_per_em,
+                advance_px: None,
+            },
+        }
+    }
+
+    fn picture(&self, parts: &[&Component], window: Rect, to_sheet: Affine) -> Gray {
+        let (w, h) = (floor(window.width()), floor(window.height()));
+        let needed = to_sheet.transform_rect_bbox(Rect::new(0.0, 0.0, w as f64, h as f64));
+        let patch = Patch::new(
+            self,
+            parts,
+            needed.inflate(LOBES as f64 + 1.0, LOBES as f64 + 1.0),
+        );
+        let [a, b, c, d, e, f] = to_sheet.as_coeffs();
+        let whole = |v: f64| (v - v.round()).abs() < 1e-9;
+        let upright = [a, d].iter().all(|v| (v - 1.0).abs() < 1e-12) && b.abs() + c.abs() < 1e-12;
+        if upright && whole(e) && whole(f) {
+            let shift = Vec2::new(e.round(), f.round()) - patch.origin.to_vec2();
+            let at = |x: usize, y: usize| patch.at(x as f64 + shift.x, y as f64 + shift.y);
+            return Gray::from_fn(w, h, at);
+        }
+        let kernel = Kernel::new();
+        let to_patch = Affine::translate(-patch.origin.to_vec2()) * to_sheet;
+        Gray::from_fn(w, h, |x, y| {
+            let p = to_patch * Point::new(x as f64 + 0.5, y as f64 + 0.5);
+            kernel.sample(&patch, p.x - 0.5, p.y - 0.5)
+        })
+    }
+}
+
+/// A piece of the sheet in which only one cell's ink is left.
+struct Patch {
+    width: usize,
+    height: usize,
+    /// Its corner in the sheet, px.
+    origin: Point,
+    samples: Vec<f32>,
+}
+
+impl Patch {
+    fn new(shutter: &Shutter<'_>, parts: &[&Component], area: Rect) -> Self {
+        let gray = &shutter.page.sheet.gray;
+        let area = area.expand().intersect(Rect::new(
+            0.0,
+            0.0,
+            gray.width() as f64,
+            gray.height() as f64,
+        ));
+        let (x0, y0) = (floor(area.x0), floor(area.y0));
+        let (width, height) = (floor(area.width().max(0.0)), floor(area.height().max(0.0)));
+        let rows = (y0..y0 + height).flat_map(|y| gray.row(y)[x0..x0 + width].iter().copied());
+        let mut new = Self {
+            width,
+            height,
+            origin: area.origin(),
+            samples: rows.collect(),
+        };
+        let mut own = vec![u16::MAX; width * height];
+        for r in parts.iter().flat_map(|c| &c.runs) {
+            new.mark(r, &mut own);
+        }
+        let ink = |(v, own): (&f32, &u16)| {
+            if *v >= shutter.low && *own > 0 {
+                0
+            } else {
+                u16::MAX
+            }
+        };
+        let mut other: Vec<u16> = new.samples.iter().zip(&own).map(ink).collect();
+        distances(&mut own, width);
+        distances(&mut other, width);
+        let loud = NOISE * shutter.page.noise;
+        let judged = new.samples.iter_mut().zip(own.iter().zip(&other));
+        for (v, (&own, &other)) in judged {
+            let near = own <= 3 * HALO;
+            if (near && other < own) || (!near && *v > loud) {
+                *v = 0.0;
+            }
+        }
+        new
+    }
+
+    fn mark(&self, r: &Run, mask: &mut [u16]) {
+        let place = |v: usize, origin: f64, size: usize| v.saturating_sub(floor(origin)).min(size);
+        let y = place(r.y, self.origin.y, self.height);
+        let (a, b) = (
+            place(r.start, self.origin.x, self.width),
+            place(r.end, self.origin.x, self.width),
+        );
+        if r.y >= floor(self.origin.y) && y < self.height {
+            mask[y * self.width + a..y * self.width + b].fill(0);
+        }
+    }
+
+    /// A pixel; paper outside.
+    fn at(&self, x: f64, y: f64) -> f32 {
+        let inside = x >= 0.0 && y >= 0.0 && x < self.width as f64 && y < self.height as f64;
+        if inside {
+            self.samples[floor(y) * self.width + floor(x)]
+        } else {
+            0.0
+        }
+    }
+}
+
+/// Distances to the pixels that are 0, in thirds of a pixel: two passes of a 3-4 chamfer.
+fn distances(field: &mut [u16], width: usize) {
+    let pass = |field: &mut [u16], at: &dyn Fn(usize) -> usize| {
+        let height = field.len() / width.max(1);
+        for y in 0..height {
+            for x in 0..width {
+                let here = at(y * width + x);
+                let mut best = field[here];
+                let mut from = |dx: isize, dy: usize, cost: u16| {
+                    let column = x.checked_add_signed(dx).filter(|&c| c < width);
+                    if let (Some(c), Some(r)) = (column, y.checked_sub(dy)) {
+                        best = best.min(field[at(r * width + c)].saturating_add(cost));
+                    }
+                };
+                from(-1, 0, 3);
+                from(0, 1, 3);
+                from(-1, 1, 4);
+                from(1, 1, 4);
+                field[here] = best;
+            }
+        }
+    };
+    pass(field, &|i| i);
+    let last = field.len().saturating_sub(1);
+    pass(field, &|i| last - i);
+}
+
+/// A Lanczos kernel at [`PHASES`] positions between two pixels.
+struct Kernel {
+    taps: Vec<[f32; 2 * LOBES]>,
+}
+
+impl Kernel {
+    fn new() -> Self {
+        let sinc = |x: f64| {
+            if x.abs() < 1e-9 {
+                1.0
+            } else {
+                (PI * x).sin() / (PI * x)
+            }
+        };
+        let weight = |x: f64| {
+            if x.abs() < LOBES as f64 {
+                sinc(x) * sinc(x / LOBES as f64)
+            } else {
+                0.0
+            }
+        };
+        let phase = |i: usize| {
+            let t = i as f64 / PHASES as f64;
+            let raw: [f64; 2 * LOBES] =
+                std::array::from_fn(|k| weight(k as f64 + 1.0 - LOBES as f64 - t));
+            let sum: f64 = raw.iter().sum();
+            raw.map(|w| narrow(w / sum))
+        };
+        Self {
+            taps: (0..=PHASES).map(phase).collect(),
+        }
+    }
+
+    /// The picture at a place between the centres of its pixels; paper outside.
+    fn sample(&self, patch: &Patch, x: f64, y: f64) -> f32 {
+        let split = |v: f64| {
+            (
+                v.floor(),
+                &self.taps[floor((v - v.floor()) * PHASES as f64 + 0.5)],
+            )
+        };
+        let ((x, across), (y, down)) = (split(x), split(y));
+        let first = 1.0 - LOBES as f64;
+        let (left, top) = (x + first, y + first);
+        let side = (2 * LOBES) as f64;
+        let inside = left >= 0.0
+            && top >= 0.0
+            && left + side <= patch.width as f64
+            && top + side <= patch.height as f64;
+        if !inside {
+            return patch.at(x, y);
+        }
+        let start = floor(top) * patch.width + floor(left);
+        let line = |(k, w): (usize, &f32)| {
+            let row = &patch.samples[start + k * patch.width..][..2 * LOBES];
+            w * row.iter().zip(across).map(|(v, w)| v * w).sum::<f32>()
+        };
+        down.iter().enumerate().map(line).sum()
+    }
+}

@@ -1,0 +1,136 @@
+//! What a label tells about where its letter stands and how high it is.
+
+use crate::types::Label;
+use glyphs_reader::glyphdata::GlyphData;
+use unicode_normalization::UnicodeNormalization;
+
+/// Letters with a flat foot on the baseline. Figures are in no list: in many hands they hang.
+const FLAT: &str = "ABDEFHIKLMNPRTXYZfhiklmnrxzΑΒΓΔΕΗΙΚΛΜΝΠΡΤΧАБВГЕЖИКЛМНПРТХЧШгикмнптхчш";
+/// Letters whose foot is a bow or a point that dips below the baseline a little.
+const ROUND: &str = "CGOSUVWabcdeostuvwΘΟΩОСЭЮасеов";
+/// Capitals with a flat head.
+const CAP_HEADS: &str = "BDEFHIKLMNPRTXYZ";
+/// Capitals with a bow above.
+const CAP_BOWS: &str = "COSGQ";
+/// Small letters with a flat head at x-height.
+const X_HEADS: &str = "xzvwu";
+/// Small letters with a bow at x-height.
+const X_BOWS: &str = "acemnors";
+/// Arabic letters whose body stands on the line when nothing follows.
+const ARABIC_STANDING: &str = "اأإآٱدذڈبتثپٹفكکگهةطظ";
+/// Arabic letters that do not stand on the line though something follows.
+const ARABIC_HANGING: &str = "جحخچم";
+
+/// How a letter meets the baseline.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Foot {
+    /// Ends on it.
+    Flat,
+    /// Passes it by an overshoot.
+    Round,
+    /// Ends somewhere else.
+    None,
+}
+
+/// A height that is the same for many letters.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Head {
+    Cap,
+    CapBow,
+    X,
+    XBow,
+    Alef,
+    None,
+}
+
+/// What is known about a letter from its label.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Shape {
+    pub(super) foot: Foot,
+    pub(super) head: Head,
+    /// Dots and marks stand off the body and may lie below it.
+    pub(super) dotted: bool,
+}
+
+impl Shape {
+    pub(super) fn of(label: &Label, names: &GlyphData) -> Self {
+        let (base, form) = label.0.split_once('.').unwrap_or((&label.0, ""));
+        let letter = character(base, names).or_else(|| character(&label.0, names));
+        let base = letter.and_then(|c| c.nfd().next());
+        let any = |c: Option<char>, set: &str| c.is_some_and(|c| set.contains(c));
+        let arabic = letter.is_some_and(|c| ('\u{600}'..'\u{700}').contains(&c));
+        if arabic {
+            let joined = matches!(form, "init" | "medi");
+            let stands = if joined {
+                !any(letter, ARABIC_HANGING)
+            } else {
+                any(letter, ARABIC_STANDING)
+            };
+            let alef = letter == Some('ا');
+            return Self {
+                foot: if stands { Foot::Flat } else { Foot::None },
+                head: if alef { Head::Alef } else { Head::None },
+                dotted: true,
+            };
+        }
+        let foot = match (any(base, FLAT), any(base, ROUND)) {
+            (true, _) => Foot::Flat,
+            (_, true) => Foot::Round,
+            _ => Foot::None,
+        };
+        let plain = base == letter;
+        let heads = [
+            (CAP_HEADS, Head::Cap),
+            (CAP_BOWS, Head::CapBow),
+            (X_HEADS, Head::X),
+            (X_BOWS, Head::XBow),
+        ];
+        let head = heads.iter().find(|(set, _)| plain && any(base, set));
+        Self {
+            foot,
+            head: head.map_or(Head::None, |h| h.1),
+            dotted: false,
+        }
+    }
+}
+
+/// The character of a label without its suffix: itself, `uniXXXX`, or the name's.
+fn character(base: &str, names: &GlyphData) -> Option<char> {
+    let mut chars = base.chars();
+    if let (Some(c), None) = (chars.next(), chars.next()) {
+        return Some(c);
+    }
+    let hex = base.strip_prefix("uni").filter(|h| h.len() == 4);
+    let code = hex.and_then(|h| u32::from_str_radix(h, 16).ok());
+    let named = || names.query(base, None).and_then(|r| r.codepoint);
+    code.or_else(named).and_then(char::from_u32)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn labels_tell_how_letters_stand() {
+        let names = GlyphData::default();
+        let of = |s: &str| Shape::of(&Label(s.to_owned()), &names);
+        for (label, foot, head) in [
+            ("H", Foot::Flat, Head::Cap),
+            ("É", Foot::Flat, Head::None),
+            ("one", Foot::None, Head::None),
+            ("g", Foot::None, Head::None),
+            ("x", Foot::Flat, Head::X),
+            ("uni0041", Foot::Flat, Head::None),
+            ("beh-ar.init", Foot::Flat, Head::None),
+            ("uni062C.medi", Foot::None, Head::None),
+            ("alef-ar", Foot::Flat, Head::Alef),
+            (".notdef", Foot::None, Head::None),
+        ] {
+            let shape = of(label);
+            assert_eq!(shape.foot, foot, "{label}");
+            if label != "uni0041" {
+                assert_eq!(shape.head, head, "{label}");
+            }
+        }
+    }
+}
