@@ -11,9 +11,6 @@ use crate::numeric::refit::Foot;
 const HOPELESS: f64 = 80.0;
 /// Consecutive hopeless lengthenings before giving up: noise may pass.
 const PATIENCE: usize = 3;
-/// A cubic that runs over an extremum: drawings put a node there.
-const OVER_EXTREMUM: f64 = 12.0;
-
 #[derive(Debug, Clone, Copy)]
 struct State {
     cost: f64,
@@ -58,7 +55,7 @@ pub(super) fn choose(s: &Samples, marks: &[Candidate], sigma: f64) -> (Chain, Ve
                 }
             }
             if matches!(b.join, Join::Horizontal | Join::Vertical) {
-                over += OVER_EXTREMUM;
+                over += cost::OVER_EXTREMUM;
             }
             hopeless = if line.min(cubic) > HOPELESS {
                 hopeless + 1

@@ -1,9 +1,11 @@
 //! What a structure costs, in nats: the prior of one who draws letters.
 
-use crate::numeric::chain::{Join, Kind};
+use crate::numeric::chain::{Chain, Join, Kind};
+use kurbo::CubicBez;
+use kurbo::common::solve_quadratic;
 
 /// Steps of contour that count as one measurement: neighbouring points share pixels.
-pub(super) const CORRELATION: f64 = 2.0;
+pub(super) const CORRELATION: f64 = 5.0;
 /// An extremum with an upright or level direction: where drawings have nodes anyway.
 const EXTREMUM: f64 = 3.0;
 /// A join of a line and a curve.
@@ -33,4 +35,63 @@ pub(super) const fn kind(kind: Kind) -> f64 {
         Kind::Line => 0.0,
         Kind::Cubic => CUBIC,
     }
+}
+
+/// A cubic that runs over an extremum: drawings put a node there.
+pub(super) const OVER_EXTREMUM: f64 = 12.0;
+
+/// Cost of all nodes and kinds of a chain; `before` and `after` are the kinds beyond its ends.
+pub(super) fn structure(chain: &Chain, before: Option<Kind>, after: Option<Kind>) -> f64 {
+    let last = chain.nodes.len() - 1;
+    let mut sum = 0.0;
+    for (i, n) in chain.nodes.iter().enumerate() {
+        let arrives = chain
+            .kind(chain.before(i))
+            .or(if i == 0 { before } else { None });
+        let leaves = chain
+            .kind(chain.after(i))
+            .or(if i == last { after } else { None });
+        sum += match n.join {
+            Join::Smooth | Join::Clamped
+                if arrives == Some(Kind::Line) && leaves == Some(Kind::Line) =>
+            {
+                CORNER
+            }
+            // Its own join is hidden; only the kinds beside it can differ.
+            Join::Clamped => node(Join::Smooth, arrives, leaves),
+            join => node(join, arrives, leaves),
+        };
+    }
+    for (i, &k) in chain.kinds.iter().enumerate() {
+        sum += kind(k);
+        if k == Kind::Cubic {
+            sum += OVER_EXTREMUM * inner_extrema(&chain.cubic(i)).count() as f64;
+        }
+    }
+    sum
+}
+
+/// Parameters inside a cubic where it turns back in y (`Horizontal`) or x (`Vertical`).
+pub(super) fn inner_extrema(c: &CubicBez) -> impl Iterator<Item = (f64, Join)> + use<> {
+    let d = [
+        3.0 * (c.p1 - c.p0),
+        3.0 * (c.p2 - c.p1),
+        3.0 * (c.p3 - c.p2),
+    ];
+    let axes = [
+        (Join::Horizontal, d.map(|v| v.y)),
+        (Join::Vertical, d.map(|v| v.x)),
+    ];
+    axes.into_iter().flat_map(|(join, [a, b, c])| {
+        // a (1−t)² + 2 b t (1−t) + c t²
+        let (q2, q1, q0) = (a - 2.0 * b + c, 2.0 * (b - a), a);
+        let roots = solve_quadratic(q0, q1, q2);
+        let size = a.abs().max(b.abs()).max(c.abs());
+        roots.into_iter().filter_map(move |t| {
+            let inside = t > 1e-3 && t < 1.0 - 1e-3;
+            // It must turn back, not only touch, and not by rounding alone.
+            let turns = (2.0 * q2 * t + q1).abs() > 1e-6 * size;
+            (inside && turns).then_some((t, join))
+        })
+    })
 }

@@ -8,6 +8,7 @@
 mod candidate;
 mod choose;
 mod cost;
+mod improve;
 mod piece;
 mod samples;
 
@@ -30,7 +31,7 @@ pub struct Joint {
 
 impl Default for Joint {
     fn default() -> Self {
-        Self { least_noise: 0.05 }
+        Self { least_noise: 0.12 }
     }
 }
 
@@ -40,6 +41,8 @@ const TIGHTER: usize = 2;
 const ROBUST: f64 = 4.0;
 /// With so few points their own polygon is better than curves that miss the tolerance.
 const FEW: usize = 16;
+/// Points at each end of an open span that may be outliers: the blur of a corner.
+const BLURRED: usize = 4;
 /// A line so near to an axis is meant to be parallel to it, radians.
 const UPRIGHT: f64 = 0.006;
 
@@ -55,20 +58,20 @@ impl Fitter for Joint {
             Span::Ring(_) => Span::Ring(&points),
         };
         let s = Samples::new(span);
-        let mut least = self.least_noise * tolerance_px;
-        let mut best = self.once(&s, &points, s.sigma.max(least));
+        let blurred = if span.is_ring() { 0 } else { BLURRED };
+        let inner = points.get(blurred..points.len().saturating_sub(blurred));
+        let mut sigma = s.sigma.max(self.least_noise * tolerance_px);
+        let mut path = Self::search(&s, sigma);
         for _ in 0..TIGHTER {
-            if best.1 <= tolerance_px || least < s.sigma {
+            let missed = inner.is_some_and(|p| points_to_curve(p, &path.0).max_px > tolerance_px);
+            if !missed || sigma <= s.sigma {
                 break;
             }
-            least *= 0.5;
-            let next = self.once(&s, &points, s.sigma.max(least));
-            if next.1 < best.1 {
-                best = next;
-            }
+            sigma *= 0.5;
+            path = Self::search(&s, sigma.max(s.sigma));
         }
-        let (chain, worst) = best;
-        let path = chain.to_path();
+        let (path, parameters) = path;
+        let worst = points_to_curve(&points, &path).max_px;
         let hopeless = worst > tolerance_px && points.len() <= FEW;
         if !worst.is_finite() || !path.is_finite() || hopeless {
             return Ok(polygon(span));
@@ -84,19 +87,18 @@ impl Fitter for Joint {
             } else {
                 Verdict::Exhausted
             },
-            parameters: Refit::default().free(&chain),
+            parameters,
         })
     }
 }
 
 impl Joint {
-    /// The chain for points of deviation `sigma`, and the largest distance of a point from it, px.
-    #[expect(clippy::unused_self, reason = "options of the search will live here")]
-    fn once(&self, s: &Samples, points: &[Point], sigma: f64) -> (Chain, f64) {
+    /// The path for points of deviation `sigma`, and how many numbers of it were free.
+    fn search(s: &Samples, sigma: f64) -> (BezPath, usize) {
         let marks = candidate::candidates(s);
-        let (mut chain, mut feet) = choose::choose(s, &marks, sigma);
+        let (mut chain, feet) = choose::choose(s, &marks, sigma);
         if chain.nodes.len() < 2 {
-            return (chain, f64::INFINITY);
+            return (BezPath::new(), 0);
         }
         upright(&mut chain);
         let weight = 1.0 / cost::CORRELATION;
@@ -105,9 +107,18 @@ impl Joint {
             sigma,
             robust: ROBUST,
         };
-        Refit::default().run(&mut chain, (&samples, &mut feet), scale, 40);
-        let worst = points_to_curve(points, &chain.to_path()).max_px;
-        (chain, worst)
+        let refit = Refit::default();
+        let mut work = improve::Work {
+            chain,
+            feet,
+            samples: &samples,
+            scale,
+            refit,
+        };
+        work.settle(8);
+        work.improve();
+        work.settle(20);
+        (work.chain.to_path(), work.refit.free(&work.chain))
     }
 }
 

@@ -1,0 +1,365 @@
+//! Smaller structures: leave a node out, make a direction upright, straighten a curve, put a node at an extremum;
+//! refit what lies around; keep it where the description gets shorter.
+
+use super::cost;
+use crate::numeric::chain::{Chain, Join, Kind, Node};
+use crate::numeric::refit::{Foot, Refit, Sample, Scale};
+use kurbo::{CubicBez, ParamCurve, ParamCurveDeriv, Vec2};
+
+/// Nodes on each side of a change that are refitted with it.
+const AROUND: usize = 2;
+/// Steps of the refinement after a change.
+const ROUNDS: usize = 8;
+/// Times that all changes are tried.
+const SWEEPS: usize = 4;
+/// Directions so near to an axis may be meant to lie on it, radians.
+const SNAP: f64 = 0.08;
+/// A line's ends turn less than this from its direction, radians.
+const STRAIGHT: f64 = 0.08;
+
+/// A chain with the samples it follows.
+#[derive(Debug)]
+pub(super) struct Work<'a> {
+    pub(super) chain: Chain,
+    pub(super) feet: Vec<Foot>,
+    pub(super) samples: &'a [Sample],
+    pub(super) scale: Scale,
+    pub(super) refit: Refit,
+}
+
+/// A change of structure. Indices of nodes and segments are those of the window.
+#[derive(Debug, Clone, Copy)]
+enum Change {
+    /// Without this node; the kind of what takes its place.
+    Drop(usize, Kind),
+    /// This node's direction along an axis.
+    Snap(usize, Join),
+    /// This segment a line.
+    Straighten(usize),
+    /// A node on this segment, at its extremum in the direction of the axis.
+    Split(usize, f64, Join),
+}
+
+/// A part of a chain with its samples; `ring` when it is all of one.
+#[derive(Debug, Default)]
+struct Window {
+    chain: Chain,
+    /// Index of its first node in the whole chain.
+    start: usize,
+    samples: Vec<Sample>,
+    feet: Vec<Foot>,
+    /// Indices of its samples in the whole.
+    of: Vec<usize>,
+}
+
+impl Work<'_> {
+    /// Refines everything at once.
+    pub(super) fn settle(&mut self, rounds: usize) -> f64 {
+        let data = (self.samples, &mut self.feet);
+        self.refit.run(&mut self.chain, data, self.scale, rounds)
+    }
+
+    /// Tries all changes until none helps.
+    pub(super) fn improve(&mut self) {
+        for _ in 0..SWEEPS {
+            let mut changed = false;
+            let mut i = 0;
+            while i < self.chain.nodes.len() {
+                changed |= self.improve_at(i);
+                i += 1;
+            }
+            if !changed {
+                break;
+            }
+        }
+    }
+
+    /// Tries the changes of node `i` and of the segment after it.
+    fn improve_at(&mut self, i: usize) -> bool {
+        let before = self.window(i);
+        let n = self.chain.nodes.len();
+        let at = (i + n - before.start) % n;
+        let changes = changes(&before, at);
+        if changes.is_empty() {
+            return false;
+        }
+        let mut old = self.copy(&before);
+        let old_cost = self.cost(&mut old, 0);
+        let mut best: Option<(f64, Window)> = None;
+        for change in changes {
+            let mut trial = self.copy(&before);
+            apply(&mut trial, change);
+            let cost = self.cost(&mut trial, ROUNDS);
+            if cost < best.as_ref().map_or(old_cost - 0.01, |b| b.0) {
+                best = Some((cost, trial));
+            }
+        }
+        match best {
+            Some((_, window)) => {
+                self.put_back(&before, window);
+                true
+            }
+            None => false,
+        }
+    }
+
+    fn copy(&self, w: &Window) -> Window {
+        Window {
+            chain: w.chain.clone(),
+            start: w.start,
+            samples: w.samples.clone(),
+            feet: w.feet.clone(),
+            of: w.of.clone(),
+        }
+    }
+
+    /// Description length of a window after `rounds` steps of refinement.
+    fn cost(&mut self, w: &mut Window, rounds: usize) -> f64 {
+        let data = (&w.samples[..], &mut w.feet);
+        let fit = self.refit.run(&mut w.chain, data, self.scale, rounds);
+        let outside = |s: Option<usize>| s.and_then(|s| self.chain.kinds.get(s).copied());
+        let whole = w.chain.is_ring();
+        let before = if whole {
+            None
+        } else {
+            outside(self.chain.before(w.start))
+        };
+        let old = self.window_len(w.start);
+        let after = if whole {
+            None
+        } else {
+            outside(
+                self.chain
+                    .after((w.start + old - 1) % self.chain.nodes.len()),
+            )
+        };
+        fit + cost::structure(&w.chain, before, after)
+    }
+
+    /// Number of nodes of the window that begins at node `start`, while the whole chain is unchanged.
+    fn window_len(&self, start: usize) -> usize {
+        let n = self.chain.nodes.len();
+        if self.chain.is_ring() {
+            (2 * AROUND + 2).min(n)
+        } else {
+            (2 * AROUND + 2).min(n - start)
+        }
+    }
+
+    /// What lies around node `i` and the segment after it.
+    fn window(&self, i: usize) -> Window {
+        let n = self.chain.nodes.len();
+        let size = 2 * AROUND + 2;
+        if self.chain.is_ring() && n <= size {
+            return Window {
+                chain: self.chain.clone(),
+                start: 0,
+                samples: self.samples.to_vec(),
+                feet: self.feet.clone(),
+                of: (0..self.samples.len()).collect(),
+            };
+        }
+        let start = if self.chain.is_ring() {
+            (i + n - AROUND) % n
+        } else {
+            i.saturating_sub(AROUND)
+        };
+        let count = self.window_len(start);
+        let mut w = Window {
+            start,
+            ..Window::default()
+        };
+        for k in 0..count {
+            let mut node = self.chain.nodes[(start + k) % n];
+            if (k == 0 || k + 1 == count) && node.join != Join::End {
+                node.join = Join::Clamped;
+            }
+            w.chain.nodes.push(node);
+            if k + 1 < count {
+                w.chain.kinds.push(self.chain.kinds[(start + k) % n]);
+            }
+        }
+        for (k, (&sample, foot)) in self.samples.iter().zip(&self.feet).enumerate() {
+            let segment = (foot.segment + n - start) % n;
+            if segment + 1 < count {
+                w.samples.push(sample);
+                w.feet.push(Foot { segment, t: foot.t });
+                w.of.push(k);
+            }
+        }
+        w
+    }
+
+    /// Puts a changed window in the place of what it was made from.
+    fn put_back(&mut self, from: &Window, w: Window) {
+        if w.chain.is_ring() {
+            self.chain = w.chain;
+            self.feet = w.feet;
+            return;
+        }
+        let n = self.chain.nodes.len();
+        let old = from.chain.nodes.len();
+        let ends = [from.start, (from.start + old - 1) % n].map(|k| self.chain.nodes[k].join);
+        // Turned so that the window comes first; only a ring can wrap around.
+        let wraps = from.start + old > n;
+        let shift = if wraps { from.start } else { 0 };
+        self.chain.nodes.rotate_left(shift);
+        if wraps {
+            self.chain.kinds.rotate_left(shift);
+        }
+        let start = from.start - shift;
+        let mut nodes = w.chain.nodes;
+        let new = nodes.len();
+        for (node, join) in [0, new - 1].into_iter().zip(ends) {
+            nodes[node].join = join;
+        }
+        // The handle on the outer side of each end was not the window's to change.
+        nodes[0].back = self.chain.nodes[start].back;
+        nodes[0].arrive = self.chain.nodes[start].arrive;
+        let last = &self.chain.nodes[(start + old - 1) % n];
+        nodes[new - 1].ahead = last.ahead;
+        nodes[new - 1].leave = last.leave;
+        self.chain.nodes.splice(start..start + old, nodes);
+        self.chain
+            .kinds
+            .splice(start..start + old - 1, w.chain.kinds);
+        let m = self.chain.nodes.len();
+        for foot in &mut self.feet {
+            let s = (foot.segment + n - shift) % n;
+            foot.segment = if s >= start + old - 1 { s + m - n } else { s };
+        }
+        for (k, foot) in w.of.into_iter().zip(w.feet) {
+            self.feet[k] = Foot {
+                segment: foot.segment + start,
+                t: foot.t,
+            };
+        }
+        self.chain.settle();
+    }
+}
+
+/// What may be changed at node `at` of a window and at the segment after it.
+fn changes(w: &Window, at: usize) -> Vec<Change> {
+    let mut out = Vec::new();
+    let chain = &w.chain;
+    let node = &chain.nodes[at];
+    let least = if chain.is_ring() { 3 } else { 2 };
+    if !node.join.is_fixed() && chain.nodes.len() > least {
+        let kinds = [chain.kind(chain.before(at)), chain.kind(chain.after(at))];
+        out.push(Change::Drop(at, Kind::Cubic));
+        if kinds.contains(&Some(Kind::Line)) {
+            out.push(Change::Drop(at, Kind::Line));
+        }
+    }
+    if node.join == Join::Smooth {
+        if node.leave.y.abs() < SNAP {
+            out.push(Change::Snap(at, Join::Horizontal));
+        } else if node.leave.x.abs() < SNAP {
+            out.push(Change::Snap(at, Join::Vertical));
+        }
+    }
+    if at < chain.kinds.len() && chain.kinds[at] == Kind::Cubic {
+        let (a, b) = chain.ends(at);
+        let d = chain.direction(at);
+        let bends = |v: Vec2, fixed: Join| fixed != Join::End && d.cross(v).abs() > STRAIGHT;
+        let lines = [chain.before(a), chain.after(b)]
+            .into_iter()
+            .any(|s| chain.kind(s) == Some(Kind::Line));
+        if !lines
+            && !bends(chain.nodes[a].leave, chain.nodes[a].join)
+            && !bends(chain.nodes[b].arrive, chain.nodes[b].join)
+        {
+            out.push(Change::Straighten(at));
+        }
+        for (t, join) in cost::inner_extrema(&chain.cubic(at)) {
+            out.push(Change::Split(at, t, join));
+        }
+    }
+    out
+}
+
+fn apply(w: &mut Window, change: Change) {
+    match change {
+        Change::Drop(at, kind) => drop_node(w, at, kind),
+        Change::Snap(at, join) => w.chain.nodes[at].join = join,
+        Change::Straighten(at) => w.chain.kinds[at] = Kind::Line,
+        Change::Split(at, t, join) => split(w, at, t, join),
+    }
+}
+
+fn drop_node(w: &mut Window, at: usize, kind: Kind) {
+    let n = w.chain.nodes.len();
+    let Some(before) = w.chain.before(at) else {
+        return;
+    };
+    let Some(after) = w.chain.after(at) else {
+        return;
+    };
+    let lengths = [before, after].map(|s| chord(&w.chain.cubic(s)));
+    let share = lengths[0] / (lengths[0] + lengths[1]).max(1e-12);
+    let (p, q) = (w.chain.ends(before).0, w.chain.ends(after).1);
+    let third = (lengths[0] + lengths[1]) / 3.0;
+    w.chain.nodes[p].ahead = third;
+    w.chain.nodes[q].back = third;
+    for foot in &mut w.feet {
+        if foot.segment == before {
+            foot.t *= share;
+        } else if foot.segment == after {
+            *foot = Foot {
+                segment: before,
+                t: share + (1.0 - share) * foot.t,
+            };
+        }
+    }
+    w.chain.kinds[before] = kind;
+    w.chain.nodes.remove(at);
+    w.chain.kinds.remove(after);
+    let _ = n;
+    for foot in &mut w.feet {
+        if foot.segment > after || (foot.segment == before && before > after) {
+            foot.segment -= 1;
+        }
+    }
+}
+
+fn split(w: &mut Window, at: usize, t: f64, join: Join) {
+    let c = w.chain.cubic(at);
+    let (l, r) = (c.subsegment(0.0..t), c.subsegment(t..1.0));
+    let (a, b) = w.chain.ends(at);
+    w.chain.nodes[a].ahead = (l.p1 - l.p0).hypot();
+    w.chain.nodes[b].back = (r.p3 - r.p2).hypot();
+    let d = c.deriv().eval(t).to_vec2();
+    let along = match join {
+        Join::Horizontal => Vec2::new(1f64.copysign(d.x), 0.0),
+        _ => Vec2::new(0.0, 1f64.copysign(d.y)),
+    };
+    let node = Node {
+        point: l.p3,
+        join,
+        arrive: along,
+        leave: along,
+        back: (l.p3 - l.p2).hypot(),
+        ahead: (r.p1 - r.p0).hypot(),
+    };
+    w.chain.nodes.insert(at + 1, node);
+    w.chain.kinds.insert(at, Kind::Cubic);
+    for foot in &mut w.feet {
+        if foot.segment > at || (foot.segment == at && foot.t >= t) {
+            let whole = foot.segment > at;
+            *foot = Foot {
+                segment: foot.segment + 1,
+                t: if whole {
+                    foot.t
+                } else {
+                    (foot.t - t) / (1.0 - t)
+                },
+            };
+        } else if foot.segment == at {
+            foot.t /= t;
+        }
+    }
+}
+
+fn chord(c: &CubicBez) -> f64 {
+    (c.p1 - c.p0).hypot() + (c.p2 - c.p1).hypot() + (c.p3 - c.p2).hypot()
+}
