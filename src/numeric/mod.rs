@@ -5,5 +5,6 @@ pub mod chain;
 pub mod distance;
 pub mod minimise;
 pub mod refit;
+pub mod shortest;
 pub mod skyline;
 pub mod turns;

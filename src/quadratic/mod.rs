@@ -8,6 +8,7 @@
 //! distance between the two outlines stay below the tolerance. A point that joins two quadratics
 //! half way between their control points need not be stored: TrueType implies it.
 
+pub mod rate;
 pub mod split;
 
 use crate::types::{Outline, OutlineError};
@@ -21,6 +22,19 @@ pub enum QuadraticError {
     /// The tolerance is not a positive number.
     #[error("the tolerance is {0} units; it must be a positive number")]
     Tolerance(f64),
+    /// No run of points on the grid comes as close as asked.
+    #[error(
+        "contour {contour} cannot be met within {tolerance} units by points on the grid of whole font units; allow more, or use more units an em"
+    )]
+    Grid {
+        /// which contour
+        contour: usize,
+        /// units
+        tolerance: f64,
+    },
+    /// More points than a glyph can count.
+    #[error("{0} points; a TrueType glyph holds 65535 at most: allow a larger error")]
+    Points(usize),
     /// The curves are no outline: a coordinate left the range of numbers.
     #[error(transparent)]
     Outline(#[from] OutlineError),
@@ -31,6 +45,8 @@ pub enum QuadraticError {
 #[serde(tag = "method", rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum Method {
+    /// The whole contour at once, fewest bytes.
+    Rate(rate::Rate),
     /// Each cubic alone.
     Split(split::Split),
 }
@@ -45,13 +61,17 @@ impl Method {
     /// Every method with its default options.
     #[must_use]
     pub fn all() -> Vec<Self> {
-        vec![Self::Split(split::Split::default())]
+        vec![
+            Self::Rate(rate::Rate::default()),
+            Self::Split(split::Split::default()),
+        ]
     }
 
     /// The word for it on the command line, in project files and snapshots.
     #[must_use]
     pub const fn key(&self) -> &'static str {
         match self {
+            Self::Rate(_) => "rate",
             Self::Split(_) => "split",
         }
     }
@@ -60,6 +80,7 @@ impl Method {
     #[must_use]
     pub const fn about(&self) -> &'static str {
         match self {
+            Self::Rate(_) => "the whole contour at once, fewest bytes",
             Self::Split(_) => "each cubic alone, implied points where they fall out",
         }
     }
@@ -73,6 +94,7 @@ impl Method {
             return Err(QuadraticError::Tolerance(tolerance));
         }
         match self {
+            Self::Rate(m) => m.convert(outline, tolerance),
             Self::Split(m) => m.convert(outline, tolerance),
         }
     }

@@ -1,0 +1,113 @@
+//! The smallest TrueType outline within a tolerance, the whole contour at once.
+//! Source   [sohel sec. II.B, alg. 1, eq. 4]: vertices by shortest path, quadratics as runs of vertices
+//! Solves   min glyf bytes + lambda * (sum of each quadratic's largest error), no error above the tolerance
+//! Takes    an [`Outline`] of lines, quadratics and cubics, font units; a tolerance, units
+//! Gives    an [`Outline`] on whole units; on-curve points half way between control points are implied
+//! Symbols  c_(i,m), c_(j,n) -> `Join::c`, `Join::next`; r -> `Pen::store`; w -> cost; T -> `Effort::limit`
+//! Departs  the rate is the bytes of `glyf`; an on-curve point may stand between two runs; control
+//!          points come from tangents of the contour ahead instead of a band around it; states with
+//!          nearly one future share a label, so the result is an upper bound of the optimum
+//! Cost     O(stages * labels * reach), some ms a glyph    Fails  where whole units cannot come so close
+
+mod assemble;
+mod curve;
+mod glyf;
+mod search;
+mod solve;
+
+pub use glyf::glyf_bytes;
+
+use super::QuadraticError;
+use crate::types::Outline;
+use curve::{Course, Keep};
+use search::Effort;
+use serde::{Deserialize, Serialize};
+
+/// What of the outline is kept beside its shape.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Strictness {
+    /// Corners, long lines and smooth joins.
+    Corners,
+    /// Extrema too: an on-curve or implied point with a level or upright tangent at the rounded extreme.
+    #[default]
+    Extrema,
+}
+
+/// Options of the converter.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
+pub struct Rate {
+    /// What is kept beside the shape.
+    pub keep: Strictness,
+    /// Smallest turn that is a corner, degrees.
+    pub corner_deg: f64,
+    /// Bytes that a unit of largest error is worth, quadratic by quadratic.
+    pub lambda: f64,
+    /// How finely the search looks: its stages for each √(curvature/tolerance) of arc.
+    pub grain: f64,
+}
+
+impl Default for Rate {
+    fn default() -> Self {
+        /// Below it, two rounded handles that were drawn as one look like a corner.
+        const CORNER_DEG: f64 = 8.0;
+        /// Breaks ties between answers of equal bytes towards the smaller error.
+        const LAMBDA: f64 = 0.02;
+        Self {
+            keep: Strictness::default(),
+            corner_deg: CORNER_DEG,
+            lambda: LAMBDA,
+            grain: 1.0,
+        }
+    }
+}
+
+impl Rate {
+    /// Lines and quadratics on whole units within `tolerance` (units, positive) of the outline.
+    pub(super) fn convert(
+        &self,
+        outline: &Outline,
+        tolerance: f64,
+    ) -> Result<Outline, QuadraticError> {
+        /// Shorter lines may become part of a curve, tolerances.
+        const LINE: f64 = 16.0;
+        /// A smaller rise makes no extremum worth keeping, tolerances.
+        const RISE: f64 = 3.0;
+        /// Bytes that a label may cost more than the cheapest beyond it: an on-curve point's.
+        const SLACK: f64 = 3.1;
+        let keep = Keep {
+            corner_rad: self.corner_deg.to_radians(),
+            extrema: self.keep == Strictness::Extrema,
+            tolerance,
+            line: LINE * tolerance,
+            least: RISE * tolerance,
+        };
+        let effort = Effort {
+            limit: tolerance,
+            grain: self.grain.clamp(0.1, 10.0),
+            slack: SLACK,
+            lambda: self.lambda.max(0.0),
+        };
+        let mut contours = Vec::new();
+        for (i, path) in outline.contours().iter().enumerate() {
+            let Some(course) = Course::new(path, keep) else {
+                continue;
+            };
+            let stored = solve::contour(&course, effort).ok_or(QuadraticError::Grid {
+                contour: i,
+                tolerance,
+            })?;
+            contours.push(stored);
+        }
+        contours.retain(|c| c.len() > 1);
+        let points = contours.iter().map(Vec::len).sum();
+        if points > usize::from(u16::MAX) {
+            return Err(QuadraticError::Points(points));
+        }
+        Ok(Outline::new(assemble::paths(&contours))?)
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,48 @@
+//! Whole and half font units, and directions between them.
+
+use super::super::curve::whole;
+use kurbo::{Point, Vec2};
+
+/// The nearest point whose coordinates are whole or half.
+pub(super) fn half(p: Point) -> Point {
+    let near = full(Point::new(2.0 * p.x, 2.0 * p.y));
+    Point::new(0.5 * near.x, 0.5 * near.y)
+}
+
+/// The nearest point of the grid; `f64::round` costs a call here.
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "font units; `as` saturates"
+)]
+pub(super) fn full(p: Point) -> Point {
+    /// Makes every coordinate positive, so that truncation is flooring.
+    const LIFT: i32 = 1 << 20;
+    let near = |v: f64| f64::from(((v + 0.5 + f64::from(LIFT)) as i32).saturating_sub(LIFT));
+    Point::new(near(p.x), near(p.y))
+}
+
+/// A direction may leave the wanted one by 2 degrees, or by what the lattice makes of it.
+pub(super) fn smooth(u: Vec2, v: Vec2) -> bool {
+    /// Sine of the turn that no eye sees at a join.
+    const TURN: f64 = 0.035;
+    /// Half a unit beside the tangent is the lattice's, not the curve's.
+    const LATTICE: f64 = 0.5;
+    if u.dot(v) <= 0.0 {
+        return false;
+    }
+    let exact = u.x == 0.0 || u.y == 0.0;
+    u.cross(v).abs()
+        <= if exact {
+            1e-9
+        } else {
+            (TURN * v.hypot()).max(LATTICE)
+        }
+}
+
+pub(super) fn normal(t: Vec2) -> Vec2 {
+    Vec2::new(-t.y, t.x)
+}
+
+pub(super) fn level(x: f64, most: f64) -> u64 {
+    whole(x.round().clamp(-most, most) + most) as u64
+}

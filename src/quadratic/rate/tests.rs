@@ -1,0 +1,154 @@
+use super::{Rate, Strictness, glyf::points, glyf_bytes};
+use crate::{quadratic::split::Split, types::Outline};
+use kurbo::{Affine, BezPath, Circle, Ellipse, PathEl, Shape};
+use write_fonts::{dump_table, tables::glyf::SimpleGlyph};
+
+/// The bytes write-fonts makes of it, without padding.
+fn written(outline: &Outline) -> Vec<u8> {
+    dump_table(&SimpleGlyph::from_bezpath(&outline.to_path()).unwrap()).unwrap()
+}
+
+fn ellipse(x: f64, y: f64, turn: f64) -> Outline {
+    let mut path = Ellipse::new((300.0, 320.0), (x, y), turn).to_path(1e-3);
+    path.close_path();
+    Outline::new(vec![path]).unwrap()
+}
+
+/// A letter-like contour: serifs, stems, bowls, corners, a hole.
+fn letter() -> Outline {
+    let outer = "M40 0L240 0L240 20C190 22 180 40 180 80L180 300C260 300 330 340 330 420C330 520 250 560 150 560L40 560L40 540C80 538 90 520 90 480L90 80C90 40 80 22 40 20Z";
+    let hole = "M180 330L180 530C230 530 250 500 250 430C250 370 230 330 180 330Z";
+    Outline::new(vec![
+        BezPath::from_svg(outer).unwrap(),
+        BezPath::from_svg(hole).unwrap(),
+    ])
+    .unwrap()
+}
+
+#[test]
+fn the_bytes_counted_are_those_written() {
+    for outline in [letter(), ellipse(200.0, 260.0, 0.3), ellipse(5.0, 6.0, 0.0)] {
+        for tolerance in [0.8, 1.2, 2.0] {
+            for q in [
+                Split::default().convert(&outline, tolerance).unwrap(),
+                Rate::default().convert(&outline, tolerance).unwrap(),
+            ] {
+                let counted = glyf_bytes(&q) as usize;
+                assert_eq!(counted + counted % 2, written(&q).len(), "{tolerance}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_circle_takes_a_run_of_eight() {
+    let circle = Outline::new(vec![Circle::new((0.0, 0.0), 250.0).to_path(1e-3)]).unwrap();
+    let q = Rate::default().convert(&circle, 1.2).unwrap();
+    let stored = points(&q.contours()[0]);
+    assert_eq!(stored.len(), 8, "{stored:?}");
+    assert!(stored.iter().all(|p| !p.on), "{stored:?}");
+}
+
+#[test]
+fn it_needs_fewer_bytes_than_splitting() {
+    for outline in [
+        letter(),
+        ellipse(200.0, 260.0, 0.3),
+        ellipse(90.0, 40.0, 0.0),
+    ] {
+        let (a, b) = (
+            Rate::default().convert(&outline, 1.0).unwrap(),
+            Split::default().convert(&outline, 1.0).unwrap(),
+        );
+        assert!(
+            glyf_bytes(&a) < glyf_bytes(&b),
+            "{} and {}",
+            glyf_bytes(&a),
+            glyf_bytes(&b)
+        );
+    }
+}
+
+#[test]
+fn corners_lines_and_extrema_stay() {
+    let (o, q) = (letter(), Rate::default().convert(&letter(), 1.0).unwrap());
+    assert_eq!(o.bounds(), q.bounds());
+    let corners = [
+        "240 0", "240 20", "180 300", "40 560", "40 540", "40 20", "40 0", "180 330", "180 530",
+    ];
+    let all: Vec<_> = q
+        .contours()
+        .iter()
+        .flat_map(points)
+        .map(|p| format!("{} {}", p.x, p.y))
+        .collect();
+    for corner in corners {
+        assert!(all.iter().any(|p| p == corner), "{corner} of {all:?}");
+    }
+    let round = Rate::default()
+        .convert(&ellipse(200.0, 260.0, 0.3), 1.0)
+        .unwrap();
+    let (a, b) = (
+        ellipse(200.0, 260.0, 0.3).bounds().unwrap(),
+        round.bounds().unwrap(),
+    );
+    assert_eq!(a.round(), b, "extrema stand at the rounded extremes");
+}
+
+#[test]
+fn less_kept_is_fewer_bytes_and_a_larger_lambda_a_smaller_error() {
+    let o = ellipse(240.0, 130.0, 0.5);
+    let loose = Rate {
+        keep: Strictness::Corners,
+        ..Rate::default()
+    };
+    assert!(
+        glyf_bytes(&loose.convert(&o, 1.5).unwrap())
+            <= glyf_bytes(&Rate::default().convert(&o, 1.5).unwrap())
+    );
+    let exact = Rate {
+        lambda: 40.0,
+        ..Rate::default()
+    };
+    assert!(
+        glyf_bytes(&exact.convert(&o, 1.5).unwrap())
+            > glyf_bytes(&Rate::default().convert(&o, 1.5).unwrap())
+    );
+}
+
+#[test]
+fn a_grid_too_coarse_is_named() {
+    let path = Affine::translate((0.5, 0.5)) * BezPath::from_svg("M0 0L10 0L10 10Z").unwrap();
+    let err = Rate::default()
+        .convert(&Outline::new(vec![path]).unwrap(), 0.5)
+        .unwrap_err();
+    assert!(
+        err.to_string().contains("grid of whole font units"),
+        "{err}"
+    );
+}
+
+#[test]
+fn nothing_degenerate_panics() {
+    for svg in [
+        "M0 0Z",
+        "M0 0L0 0Z",
+        "M0 0L5 0Z",
+        "M0 0C0 0 0 0 0 0Z",
+        "M0 0C9 9 9 9 0 0Z",
+        "M0 0C100 0 -100 0 0 0Z",
+        "M0 0Q50 0 100 0Q50 0 0 0Z",
+        "M0 0L1e7 0L0 1e7Z",
+    ] {
+        let o = Outline::new(vec![BezPath::from_svg(svg).unwrap()]).unwrap();
+        let _ = Rate::default().convert(&o, 1.0);
+    }
+    let all_on = Rate::default().convert(&letter(), 1.0).unwrap();
+    assert!(
+        all_on
+            .to_path()
+            .elements()
+            .iter()
+            .any(|e| matches!(e, PathEl::QuadTo(..)))
+    );
+}
