@@ -36,7 +36,7 @@ pub enum Strictness {
 
 /// Options of the converter.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
+#[serde(default, deny_unknown_fields)]
 pub struct Rate {
     /// What is kept beside the shape.
     pub keep: Strictness,
