@@ -1,5 +1,6 @@
 //! Mathematics without pictures; imports nothing of ours.
 
+pub mod assignment;
 pub mod bspline;
 pub mod chain;
 pub mod distance;

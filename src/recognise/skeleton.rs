@@ -134,9 +134,8 @@ fn split_dots(ink: &Bitmap, radii: &[f64]) -> (Vec<Dot>, Bitmap) {
         }
     }
     // Half a pixel of border is added back: the disc inscribed in the pixels' squares, not their centres.
-    let compact = |s: &(f64, f64, f64, f64)| {
-        s.0 <= DOT_AREA * std::f64::consts::PI * (s.3 + 0.25).powi(2)
-    };
+    let compact =
+        |s: &(f64, f64, f64, f64)| s.0 <= DOT_AREA * std::f64::consts::PI * (s.3 + 0.25).powi(2);
     let dots = sums.iter().filter(|s| compact(s)).map(|s| Dot {
         centre: Point::new(s.1 / s.0, s.2 / s.0),
         radius: (s.0 / std::f64::consts::PI).sqrt(),
@@ -234,8 +233,16 @@ impl Graph {
                         self.edges.extend([first, second]); // a ring with a tail stays
                         continue;
                     }
-                    let first = if first.ends[1] == node { first } else { first.reversed() };
-                    let second = if second.ends[0] == node { second } else { second.reversed() };
+                    let first = if first.ends[1] == node {
+                        first
+                    } else {
+                        first.reversed()
+                    };
+                    let second = if second.ends[0] == node {
+                        second
+                    } else {
+                        second.reversed()
+                    };
                     let mut path = first.path;
                     path.push(self.nodes[node]);
                     path.extend(second.path);
@@ -267,16 +274,30 @@ impl Graph {
             let way = std::iter::once(from).chain(e.path.iter().copied());
             let (points, half_widths) = way.chain([to]).unzip();
             let joins = e.ends.map(|n| number.get(&n).copied());
-            Stroke { points, half_widths, joins, closed: false }
+            Stroke {
+                points,
+                half_widths,
+                joins,
+                closed: false,
+            }
         });
         let mut strokes: Vec<Stroke> = lines.collect();
         strokes.extend(self.rings.iter().map(|ring| {
             let (points, half_widths) = ring.iter().copied().unzip();
-            Stroke { points, half_widths, joins: [None; 2], closed: true }
+            Stroke {
+                points,
+                half_widths,
+                joins: [None; 2],
+                closed: true,
+            }
         }));
         let dot = |&(centre, radius): &(Point, f64)| Dot { centre, radius };
         let dots = self.alone.iter().map(dot).collect();
-        Skeleton { strokes, junctions, dots }
+        Skeleton {
+            strokes,
+            junctions,
+            dots,
+        }
     }
 }
 
@@ -295,7 +316,13 @@ impl<'a> Tracer<'a> {
         let field = Field::new(thinned);
         let n = field.ink.len();
         let graph = Graph::default();
-        Self { field, radii, node_of: vec![None; n], seen: vec![false; n], graph }
+        Self {
+            field,
+            radii,
+            node_of: vec![None; n],
+            seen: vec![false; n],
+            graph,
+        }
     }
 
     fn run(mut self) -> Graph {
@@ -329,7 +356,10 @@ impl<'a> Tracer<'a> {
     }
 
     fn neighbours(&self, i: usize) -> impl Iterator<Item = usize> {
-        self.field.around(i).into_iter().filter(|&n| self.field.ink[n])
+        self.field
+            .around(i)
+            .into_iter()
+            .filter(|&n| self.field.ink[n])
     }
 
     /// Every pixel that is not inside a line, touching ones together.
@@ -380,7 +410,10 @@ impl<'a> Tracer<'a> {
         };
         // Two pixels of one node beside the same pixel are no ring: a ring round paper has three at least.
         if node != end || path.len() >= 3 {
-            self.graph.edges.push(Edge { ends: [node, end], path });
+            self.graph.edges.push(Edge {
+                ends: [node, end],
+                path,
+            });
         }
     }
 
