@@ -1,11 +1,23 @@
 //! Print, draw, photograph, read: pages of the template come back whole from any side.
 
 use crate::common::camera::Camera;
+use crate::common::moments::Moments;
 use khatt::scan::{self, Polarity};
 use khatt::template::{self, Direction, Layout, Page, Paper, Place, TemplateError};
-use khatt::trace;
-use khatt::types::{Cell, Contour, Sheet};
-use kurbo::{Affine, BezPath, Circle, PathEl, Point, Rect, Shape, Vec2};
+use khatt::types::Sheet;
+use kurbo::{Affine, BezPath, Circle, Rect, Shape};
+
+/// A flat-bed scanner.
+const FLATBED: Camera = Camera {
+    dpi: 300.0,
+    skew_deg: 0.0,
+    quarters: 0,
+    tilt: [0.0, 0.0],
+    blur: 0.8,
+    shade: 0.0,
+    jpeg: None,
+    seed: 1,
+};
 
 fn labels(n: usize) -> Vec<(String, String)> {
     let forms = ["", ".init", ".medi", ".fina"];
@@ -53,23 +65,6 @@ fn load(bytes: &[u8]) -> Sheet {
     sheets.into_iter().next().expect("one page")
 }
 
-/// Ink area in em² and centre of gravity in em from the baseline, y up, of a cell's contours.
-fn weigh(cell: &Cell) -> (f64, Point) {
-    let contours = trace::trace(&cell.gray, &trace::Options::default());
-    let ring = |c: &Contour| {
-        let mut path = BezPath::from_vec(vec![PathEl::MoveTo(c.points()[0])]);
-        path.extend(c.points().iter().skip(1).map(|&p| PathEl::LineTo(p)));
-        path.close_path();
-        path
-    };
-    let all: BezPath = contours.iter().flat_map(|c| ring(c).into_iter()).collect();
-    let em = cell.guides.px_per_em;
-    let below = cell.gray.height() as f64 - cell.guides.baseline_px;
-    let place = Affine::scale(1.0 / em) * Affine::translate((0.0, -below));
-    let shape = place * all;
-    (shape.area(), centroid(&shape))
-}
-
 fn check(layout: &Layout, page: &Page, camera: Camera) {
     let drawn: Vec<BezPath> = page
         .places
@@ -98,16 +93,15 @@ fn check(layout: &Layout, page: &Page, camera: Camera) {
             expected,
             "{camera:?}: cells are out of order"
         );
-        let (area, centre) = weigh(cell);
-        let truth = letter(place.index);
-        let gain = area / truth.area() - 1.0;
+        let (seen, truth) = (Moments::of_cell(cell), Moments::of(&letter(place.index)));
+        let gain = seen.area / truth.area - 1.0;
         assert!(
             gain.abs() < 0.02,
             "{camera:?}: {} weighs {:.1} % more",
             place.label,
             100.0 * gain
         );
-        let up = (centre.y - centroid(&truth).y).abs();
+        let up = (seen.centre.y - truth.centre.y).abs();
         assert!(
             up < 0.005,
             "{camera:?}: {} stands {up:.4} em off",
@@ -128,28 +122,11 @@ fn check(layout: &Layout, page: &Page, camera: Camera) {
     }
 }
 
-/// Centre of gravity of what a path fills, by its polygon.
-fn centroid(path: &BezPath) -> Point {
-    let (mut area, mut moment) = (0.0, Vec2::ZERO);
-    let mut last = Vec2::ZERO;
-    kurbo::flatten(path.iter(), 1e-5, |el| {
-        let p = el.end_point().map_or(last, Point::to_vec2);
-        if !matches!(el, PathEl::MoveTo(_)) {
-            let twice = last.cross(p);
-            area += twice / 2.0;
-            moment += (last + p) * twice / 6.0;
-        }
-        last = p;
-    });
-    (moment / area).to_point()
-}
-
 #[test]
 fn pages_are_read_from_any_side() {
     let layout = small();
     let pages = pages(&layout, 32);
     assert_eq!(pages.len(), 2);
-    let flat = Camera::FLATBED;
     check(
         &layout,
         &pages[0],
@@ -158,7 +135,7 @@ fn pages_are_read_from_any_side() {
             quarters: 2,
             skew_deg: -3.0,
             jpeg: Some(70),
-            ..flat
+            ..FLATBED
         },
     );
     let photo = Camera {
@@ -166,7 +143,7 @@ fn pages_are_read_from_any_side() {
         quarters: 1,
         skew_deg: 6.0,
         tilt: [0.06, -0.04],
-        ..flat
+        ..FLATBED
     };
     check(
         &layout,
@@ -185,7 +162,7 @@ fn guides_are_not_ink() {
     let page = &pages(&layout, 16)[0];
     let (bytes, _) = Camera {
         dpi: 200.0,
-        ..Camera::FLATBED
+        ..FLATBED
     }
     .take(page, &[]);
     let sheet = load(&bytes);
@@ -208,7 +185,7 @@ fn wrong_pages_are_named() {
     half.size.height *= 0.5;
     let (bytes, _) = Camera {
         dpi: 150.0,
-        ..Camera::FLATBED
+        ..FLATBED
     }
     .take(&half, &[]);
     let found = template::find(&load(&bytes), &layout);
@@ -220,7 +197,7 @@ fn wrong_pages_are_named() {
     blank.paints.clear();
     let (bytes, _) = Camera {
         dpi: 100.0,
-        ..Camera::FLATBED
+        ..FLATBED
     }
     .take(&blank, &[]);
     let found = template::find(&load(&bytes), &layout);
@@ -235,11 +212,7 @@ fn gain_is_measured() {
     let layout = small();
     let page = &pages(&layout, 1)[0];
     for blur in [0.8, 1.6] {
-        let (bytes, _) = Camera {
-            blur,
-            ..Camera::FLATBED
-        }
-        .take(page, &[]);
+        let (bytes, _) = Camera { blur, ..FLATBED }.take(page, &[]);
         let sheet = load(&bytes);
         let found = template::find(&sheet, &layout).expect("the page is recognised");
         let gain = template::gain(&sheet, &layout, &found).expect("the strip is in view");

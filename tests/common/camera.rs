@@ -31,18 +31,6 @@ pub(crate) struct Camera {
 }
 
 impl Camera {
-    /// A flat-bed scanner.
-    pub(crate) const FLATBED: Self = Self {
-        dpi: 300.0,
-        skew_deg: 0.0,
-        quarters: 0,
-        tilt: [0.0, 0.0],
-        blur: 0.8,
-        shade: 0.0,
-        jpeg: None,
-        seed: 1,
-    };
-
     /// The picture's bytes, and where every millimetre of the page went.
     pub(crate) fn take(&self, page: &Page, drawn: &[BezPath]) -> (Vec<u8>, View) {
         let mut page = page.clone();

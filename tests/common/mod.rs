@@ -2,4 +2,5 @@
 
 pub(crate) mod approved;
 pub(crate) mod camera;
+pub(crate) mod moments;
 pub(crate) mod shapes;

@@ -1,0 +1,185 @@
+//! Print → draw → scan in simulation: the letters of a font drawn at the printed guides, the pages photographed
+//! and read again.
+//!
+//! `cargo bench --bench template -- FONT [PAGES]`
+
+#![expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    clippy::print_stdout,
+    reason = "a bench prints its table; its numbers are small"
+)]
+
+#[path = "../common/camera.rs"]
+mod camera;
+#[path = "../common/moments.rs"]
+mod moments;
+
+use camera::Camera;
+use khatt::scan::{self, Polarity};
+use khatt::template::{self, Direction, Layout, Page};
+use khatt::types::Cell;
+use kurbo::{Affine, BezPath, Shape};
+use moments::Moments;
+use skrifa::instance::{LocationRef, Size};
+use skrifa::outline::{DrawSettings, OutlinePen};
+use skrifa::{FontRef, MetadataProvider};
+
+const TEXT: &str = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789&?!";
+
+/// A glyph's outline in em, y up.
+struct Pen(BezPath);
+
+impl OutlinePen for Pen {
+    fn move_to(&mut self, x: f32, y: f32) {
+        self.0.move_to((f64::from(x), f64::from(y)));
+    }
+    fn line_to(&mut self, x: f32, y: f32) {
+        self.0.line_to((f64::from(x), f64::from(y)));
+    }
+    fn quad_to(&mut self, a: f32, b: f32, x: f32, y: f32) {
+        self.0
+            .quad_to((f64::from(a), f64::from(b)), (f64::from(x), f64::from(y)));
+    }
+    fn curve_to(&mut self, a: f32, b: f32, c: f32, d: f32, x: f32, y: f32) {
+        let p = [(a, b), (c, d), (x, y)].map(|(x, y)| (f64::from(x), f64::from(y)));
+        self.0.curve_to(p[0], p[1], p[2]);
+    }
+    fn close(&mut self) {
+        self.0.close_path();
+    }
+}
+
+fn letters(font: &FontRef<'_>) -> Vec<(char, BezPath)> {
+    let em = font
+        .metrics(Size::unscaled(), LocationRef::default())
+        .units_per_em;
+    let outline = |c: char| {
+        let glyph = font.outline_glyphs().get(font.charmap().map(c)?)?;
+        let mut pen = Pen(BezPath::new());
+        let settings = DrawSettings::unhinted(Size::unscaled(), LocationRef::default());
+        glyph.draw(settings, &mut pen).ok()?;
+        Some((c, Affine::scale(1.0 / f64::from(em)) * pen.0))
+    };
+    TEXT.chars().filter_map(outline).collect()
+}
+
+/// The page as a user finds it: skewed up to 8°, any way up, hand-held half of the time.
+fn camera(i: u64) -> Camera {
+    let unit = |k: u64| ((i * 7919 + k * 104_729) % 1009) as f64 / 1009.0;
+    let held = if i.is_multiple_of(2) { 0.08 } else { 0.0 };
+    Camera {
+        dpi: [200.0, 300.0, 400.0, 600.0, 240.0][(i % 5) as usize],
+        skew_deg: 16.0 * unit(1) - 8.0,
+        quarters: (i % 4) as u32,
+        tilt: [held * (2.0 * unit(2) - 1.0), held * (2.0 * unit(3) - 1.0)],
+        blur: 0.6 + 0.6 * unit(4),
+        shade: 0.35 * unit(5),
+        jpeg: Some(70),
+        seed: i + 1,
+    }
+}
+
+/// Errors of one cell: scale that the page gives it, baseline in em, weight, radius of gyration.
+struct Row([f64; 4]);
+
+/// The whole shape says scale, height and weight; its extreme points would say the blur of its corners.
+fn measure(cell: &Cell, truth: &BezPath, scale: f64) -> Option<Row> {
+    let (seen, truth) = (Moments::of_cell(cell), Moments::of(truth));
+    let radius = (seen.radius / truth.radius - 1.0).abs();
+    let baseline = (seen.centre.y - truth.centre.y).abs();
+    let weight = (seen.area / truth.area - 1.0).abs();
+    (seen.area > 0.0).then_some(Row([scale, baseline, weight, radius]))
+}
+
+fn page_rows(
+    layout: &Layout,
+    page: &Page,
+    letters: &[(char, BezPath)],
+    cam: Camera,
+) -> Result<Vec<Row>, String> {
+    let em = layout.em();
+    let drawn: Vec<BezPath> = page
+        .places
+        .iter()
+        .map(|p| {
+            let path = &letters[p.index % letters.len()].1;
+            let left = p.field.center().x - path.bounding_box().center().x * em;
+            Affine::new([em, 0.0, 0.0, -em, left, p.baseline]) * path.clone()
+        })
+        .collect();
+    let (bytes, view) = cam.take(page, &drawn);
+    let sheet = scan::load(&bytes, "page", Polarity::DarkInk).map_err(|e| e.to_string())?;
+    let found = template::find(&sheet[0], layout).map_err(|e| e.to_string())?;
+    if found.code != page.code {
+        return Err(format!("read as {}", found.code));
+    }
+    let cells = template::cells(&sheet[0], layout, &found, &page.places);
+    let read = cells.iter().zip(&page.places);
+    read.map(|(cell, place)| {
+        let middle = place.field.center();
+        let scale = (found.view.scale(middle) / view.scale(middle) - 1.0).abs();
+        let truth = &letters[cell.index % letters.len()].1;
+        measure(cell, truth, scale).ok_or(format!("{} is empty", cell.label.0))
+    })
+    .collect()
+}
+
+fn main() {
+    let mut args = std::env::args().skip(1).filter(|a| a != "--bench");
+    let Some(path) = args.next() else {
+        println!("usage: cargo bench --bench template -- FONT [PAGES]");
+        return;
+    };
+    let count: u64 = args.next().and_then(|n| n.parse().ok()).unwrap_or(200);
+    let bytes = std::fs::read(&path).expect("the font file");
+    let font = FontRef::new(&bytes).expect("a font");
+    let letters = letters(&font);
+    let layout = Layout {
+        ascender: 0.9,
+        cap_height: 0.7,
+        x_height: 0.45,
+        ..Layout::default()
+    };
+    let names: Vec<(String, String)> = (0..layout.per_page() * 3)
+        .map(|i| (format!("g{i}"), letters[i % letters.len()].0.to_string()))
+        .collect();
+    let pages =
+        template::pages(&layout, Direction::LeftToRight, "Simulation", &names).expect("pages");
+    let (mut rows, mut lost) = (Vec::new(), Vec::new());
+    for i in 0..count {
+        let page = &pages[(i * 5 % 3) as usize];
+        match page_rows(&layout, page, &letters, camera(i)) {
+            Ok(r) => rows.extend(r),
+            Err(e) => lost.push(format!("page {i} ({:?}): {e}", camera(i))),
+        }
+    }
+    println!("| pages | cells read | pages lost | | median | 99 % | worst |");
+    println!("|---|---|---|---|---|---|---|");
+    for (k, name) in [
+        "scale, %",
+        "baseline, % em",
+        "weight, %",
+        "radius of gyration, %",
+    ]
+    .iter()
+    .enumerate()
+    {
+        let mut v: Vec<f64> = rows.iter().map(|r| 100.0 * r.0[k]).collect();
+        v.sort_by(f64::total_cmp);
+        let at = |share: f64| {
+            v.get(((v.len() - 1) as f64 * share) as usize)
+                .copied()
+                .unwrap_or(f64::NAN)
+        };
+        println!(
+            "| {count} | {} | {} | {name} | {:.3} | {:.3} | {:.3} |",
+            rows.len(),
+            lost.len(),
+            at(0.5),
+            at(0.99),
+            at(1.0)
+        );
+    }
+    lost.iter().for_each(|l| println!("{l}"));
+}
