@@ -101,6 +101,12 @@ fn check(layout: &Layout, page: &Page, camera: Camera) {
             place.label,
             100.0 * gain
         );
+        let size = (seen.radius / truth.radius - 1.0).abs();
+        assert!(
+            size < 0.015,
+            "{camera:?}: {label} is {:.1} % off in size",
+            100.0 * size
+        );
         let up = (seen.centre.y - truth.centre.y).abs();
         assert!(
             up < 0.005,
