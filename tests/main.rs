@@ -4,6 +4,7 @@ mod cli;
 mod common;
 mod detectors;
 mod fitters;
+mod fonts;
 mod layers;
 mod papers;
 mod published;

@@ -1,1 +1,198 @@
 //! Outlines → Font: names, metrics, spacing, joining, features.
+//!
+//! [`font`] takes drawn shapes with their labels and gives a [`Font`] that sets text: glyphs named and
+//! encoded, placed between sidebearings, joined where the script joins, with `.notdef`, space and
+//! no-break space.
+
+mod basics;
+mod features;
+pub mod metrics;
+pub mod names;
+mod nearest;
+mod spacing;
+
+use crate::types::{Font, FontError, Glyph, Info, Label, Outline};
+use names::{Form, Identity, LabelError};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use thiserror::Error;
+
+/// Why drawn shapes make no font.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum AssembleError {
+    /// A label names no glyph.
+    #[error("glyph {index}: {source}")]
+    Label {
+        /// position among the drawn shapes, from 0
+        index: usize,
+        /// why
+        source: LabelError,
+    },
+    /// Two shapes have one name.
+    #[error("glyphs {first} and {second} are both {name}; rename one or skip its cell with “_”")]
+    Twice {
+        /// the name
+        name: String,
+        /// position of the first, from 0
+        first: usize,
+        /// position of the second
+        second: usize,
+    },
+    /// The glyphs do not fit together.
+    #[error(transparent)]
+    Font(#[from] FontError),
+}
+
+/// A shape that someone drew, in font units.
+#[derive(Debug, Clone)]
+pub struct Drawn {
+    /// What it is said to be.
+    pub label: Label,
+    /// Its contours, y measured from the baseline.
+    pub outline: Outline,
+    /// Left and right end of its advance where the page says them, in the outline's own x.
+    pub advance: Option<(f64, f64)>,
+}
+
+/// How shapes become a font. Lengths are parts of the em.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct Options {
+    /// Room on either side of a glyph that joins nothing.
+    pub sidebearing: f64,
+    /// How far the strokes of two joined letters overlap.
+    pub overlap: f64,
+    /// Advance of the space; without it, from the letters.
+    pub space: Option<f64>,
+    /// Vertical measures; those left out are measured.
+    pub heights: metrics::Heights,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self {
+            sidebearing: 0.05,
+            overlap: 0.02,
+            space: None,
+            heights: metrics::Heights::default(),
+        }
+    }
+}
+
+/// Something that a user should know about a font that was built all the same.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Note {
+    /// The glyph it is about.
+    pub glyph: String,
+    /// What could not be done, and what to do about it.
+    pub message: String,
+}
+
+/// A font and what could not be met.
+#[derive(Debug, Clone)]
+pub struct Assembled {
+    /// The font.
+    pub font: Font,
+    /// Remarks in glyph order.
+    pub notes: Vec<Note>,
+}
+
+/// A drawn shape whose label is understood.
+#[derive(Debug, Clone)]
+struct Draft {
+    id: Identity,
+    codepoints: Vec<char>,
+    outline: Outline,
+    given: Option<(f64, f64)>,
+    advance: f64,
+}
+
+/// Builds the font of these shapes, in their order.
+///
+/// # Errors
+/// A label names no glyph, or two shapes have one name or character.
+pub fn font(
+    drawn: Vec<Drawn>,
+    mut info: Info,
+    options: &Options,
+) -> Result<Assembled, AssembleError> {
+    let mut drafts = drafts(drawn)?;
+    encode(&mut drafts);
+    let em = f64::from(info.units_per_em);
+    info.metrics = metrics::measure(&drafts, em, &options.heights);
+    spacing::set(&mut drafts, em, options);
+    let mut glyphs = basics::glyphs(&drafts, &info, options);
+    let (features, notes) = features::text(&drafts);
+    glyphs.extend(
+        drafts
+            .into_iter()
+            .filter(|d| !basics::is_basic(d))
+            .map(glyph),
+    );
+    let mut font = Font::new(info, glyphs)?;
+    font.features = features;
+    Ok(Assembled { font, notes })
+}
+
+fn glyph(draft: Draft) -> Glyph {
+    Glyph {
+        outline: draft.outline,
+        ..Glyph::new(draft.id.name, draft.codepoints, draft.advance)
+    }
+}
+
+/// Reads the labels.
+fn drafts(drawn: Vec<Drawn>) -> Result<Vec<Draft>, AssembleError> {
+    let mut seen: BTreeMap<String, usize> = BTreeMap::new();
+    let mut out = Vec::with_capacity(drawn.len());
+    for (index, shape) in drawn.into_iter().enumerate() {
+        let id = names::identify(&shape.label)
+            .map_err(|source| AssembleError::Label { index, source })?;
+        if let Some(first) = seen.insert(id.name.to_string(), index) {
+            let (name, second) = (id.name.to_string(), index);
+            return Err(AssembleError::Twice {
+                name,
+                first,
+                second,
+            });
+        }
+        out.push(Draft {
+            id,
+            codepoints: Vec::new(),
+            outline: shape.outline,
+            given: shape.advance,
+            advance: 0.0,
+        });
+    }
+    Ok(out)
+}
+
+/// Gives each character to the glyph without suffix, or else to the form that stands in for it. An
+/// alternate alone does not stand for its character: the plain letter was not drawn.
+fn encode(drafts: &mut [Draft]) {
+    let mut owners: BTreeMap<char, (usize, usize)> = BTreeMap::new();
+    for (i, draft) in drafts.iter_mut().enumerate() {
+        let [c] = draft.id.chars[..] else { continue };
+        if draft.id.suffixes.is_empty() {
+            draft.codepoints = vec![c];
+            owners.insert(c, (0, i));
+        } else if let (Some(form), None) = (draft.id.form(), draft.id.alternates().next()) {
+            let rank = Form::ALL
+                .iter()
+                .position(|f| *f == form)
+                .map_or(0, |p| p + 1);
+            let owner = owners.entry(c).or_insert((rank, i));
+            *owner = (rank, i).min(*owner);
+        }
+    }
+    for (c, (_, i)) in owners {
+        if let Some(d) = drafts.get_mut(i) {
+            d.codepoints = vec![c];
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

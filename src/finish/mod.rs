@@ -1,1 +1,4 @@
 //! Fitted curves in px → Outline in font units: place, direction, extrema, rounding.
+
+pub mod direction;
+pub mod place;

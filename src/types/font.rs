@@ -1,8 +1,12 @@
 //! A font before it is written.
 
-use super::{Glyph, Name};
+use super::{Glyph, Name, Outline};
+use kurbo::{Affine, BezPath};
 use std::collections::{BTreeMap, BTreeSet};
 use thiserror::Error;
+
+/// Components within components, at most: more than any font nests, and it ends a reference in a circle.
+const MAX_COMPONENT_DEPTH: usize = 8;
 
 /// Why glyphs are no font.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
@@ -64,8 +68,30 @@ pub struct Info {
     pub metrics: Metrics,
 }
 
+impl Default for Info {
+    fn default() -> Self {
+        Self {
+            family: "Untitled".to_owned(),
+            style: "Regular".to_owned(),
+            version: (1, 0),
+            units_per_em: 1000,
+            weight: 400,
+            italic_angle: 0.0,
+            created: 0,
+            copyright: None,
+            designer: None,
+            manufacturer: None,
+            license: None,
+            license_url: None,
+            vendor_url: None,
+            vendor_id: *b"NONE",
+            metrics: Metrics::default(),
+        }
+    }
+}
+
 /// Vertical measures, font units.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Metrics {
     /// Above the baseline; also the window's upper bound at least.
     pub ascender: f64,
@@ -98,7 +124,8 @@ pub struct Font {
     glyphs: Vec<Glyph>,
     /// Pair kerning.
     pub kerning: Kerning,
-    /// OpenType features in feature-file syntax, kerning and marks included.
+    /// OpenType features in feature-file syntax, except kerning and mark attachment: those follow
+    /// from [`Self::kerning`] and the glyphs' anchors when a font is written.
     pub features: String,
 }
 
@@ -151,13 +178,34 @@ impl Font {
     /// The first error of `change`.
     pub fn try_map_outlines<E>(
         &self,
-        mut change: impl FnMut(&Glyph) -> Result<super::Outline, E>,
+        mut change: impl FnMut(&Glyph) -> Result<Outline, E>,
     ) -> Result<Self, E> {
         let mut font = self.clone();
         for glyph in &mut font.glyphs {
             glyph.outline = change(glyph)?;
         }
         Ok(font)
+    }
+
+    /// A glyph's whole shape: its own contours and those of its components, placed. Components that
+    /// name no glyph are left out, and so is what lies deeper than a reference can sensibly go.
+    #[must_use]
+    pub fn shape(&self, glyph: &Glyph) -> Outline {
+        let mut paths = Vec::new();
+        self.collect(glyph, Affine::IDENTITY, MAX_COMPONENT_DEPTH, &mut paths);
+        Outline::default().map_contours(|_| paths)
+    }
+
+    fn collect(&self, glyph: &Glyph, place: Affine, depth: usize, out: &mut Vec<BezPath>) {
+        out.extend(glyph.outline.contours().iter().map(|c| place * c));
+        if depth == 0 {
+            return;
+        }
+        for part in &glyph.components {
+            if let Some(base) = self.glyph(part.base.as_str()) {
+                self.collect(base, place * part.place, depth - 1, out);
+            }
+        }
     }
 
     /// The glyph of that name.

@@ -57,6 +57,22 @@ impl Outline {
         &self.contours
     }
 
+    /// The same outline after `change` has put its contours in another order or direction.
+    /// What it gives back must be closed and finite like what it was given.
+    #[must_use]
+    pub(crate) fn map_contours(self, change: impl FnOnce(Vec<BezPath>) -> Vec<BezPath>) -> Self {
+        Self {
+            contours: change(self.contours),
+        }
+    }
+
+    /// The outline moved, scaled or turned. Contour directions follow the map.
+    #[must_use]
+    pub fn transformed(&self, map: Affine) -> Self {
+        let contours = self.contours.iter().map(|c| map * c).collect();
+        Self { contours }
+    }
+
     /// All contours as one path.
     #[must_use]
     pub fn to_path(&self) -> BezPath {

@@ -1,0 +1,73 @@
+//! Vertical measures from the drawn letters.
+//!
+//! Rule (Google Fonts' vertical metrics): the line is as tall as the ink, at least 1.2 em, without a
+//! line gap, and the same in hhea and OS/2; what is missing to 1.2 em goes above and below in
+//! proportion. x-height and cap height are the median tops of the flat letters.
+
+use super::Draft;
+use crate::types::Metrics;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Ascender to descender at least, em.
+const LEAST_LINE: f64 = 1.2;
+/// Line heights are rounded outward to this part of the em.
+const ROUND_TO: f64 = 0.01;
+/// Lower-case letters whose top is flat at the x-height.
+const FLAT_LOWER: &str = "xzvwyurnmi";
+/// Capitals whose top is flat at the cap height.
+const FLAT_UPPER: &str = "HEFIKLMNTXZ";
+
+/// Vertical measures that a project sets by hand, parts of the em.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct Heights {
+    /// Above the baseline.
+    pub ascender: Option<f64>,
+    /// Below the baseline, negative.
+    pub descender: Option<f64>,
+    /// Between lines.
+    pub line_gap: Option<f64>,
+    /// Height of x.
+    pub x_height: Option<f64>,
+    /// Height of H.
+    pub cap_height: Option<f64>,
+}
+
+/// The measures of the drawn letters, font units.
+pub(super) fn measure(drafts: &[Draft], em: f64, given: &Heights) -> Metrics {
+    let boxes = drafts.iter().filter_map(|d| d.outline.bounds());
+    let ink = boxes.reduce(|a, b| a.union(b));
+    let (top, bottom) = ink.map_or((0.8 * em, -0.2 * em), |r| (r.y1.max(0.0), r.y0.min(0.0)));
+    let step = ROUND_TO * em;
+    let missing = (LEAST_LINE * em - (top - bottom)).max(0.0);
+    let share = if top > bottom {
+        top / (top - bottom)
+    } else {
+        0.8
+    };
+    let share = share.clamp(0.7, 0.85);
+    let up = |v: f64| (v / step).ceil() * step;
+    let (x, cap) = (flat_top(drafts, FLAT_LOWER), flat_top(drafts, FLAT_UPPER));
+    let or = |given: Option<f64>, measured: f64| given.map_or(measured, |v| v * em).round();
+    Metrics {
+        ascender: or(given.ascender, up(top + missing * share)),
+        descender: or(given.descender, -up(-bottom + missing * (1.0 - share))),
+        line_gap: or(given.line_gap, 0.0),
+        x_height: or(given.x_height, x),
+        cap_height: or(given.cap_height, cap),
+    }
+}
+
+/// The median top of those of these letters that were drawn; 0 without any.
+fn flat_top(drafts: &[Draft], letters: &str) -> f64 {
+    let is_one = |d: &&Draft| d.codepoints.first().is_some_and(|c| letters.contains(*c));
+    let mut tops: Vec<f64> = drafts
+        .iter()
+        .filter(is_one)
+        .filter_map(|d| d.outline.bounds())
+        .map(|r| r.y1)
+        .collect();
+    tops.sort_by(f64::total_cmp);
+    tops.get(tops.len() / 2).copied().unwrap_or(0.0)
+}

@@ -1,0 +1,314 @@
+//! What a cell's label says: a legal glyph name and the characters behind it.
+//!
+//! A label is one of: a character (`ب`), several characters that one glyph draws (`لا`), a name of
+//! the Adobe Glyph List (`eacute`, `f_i`), a hexadecimal name (`uni0628`, `uni06440627`, `u1F600`),
+//! or a friendly name as Glyphs writes it (`beh-ar`, `lam_alef-ar`). Names take suffixes (`.init`,
+//! `.ss01`). The font keeps a name as it was given; the characters follow from it.
+
+use super::nearest;
+use crate::types::{Label, Name};
+use glyphs_reader::glyphdata::GlyphData;
+use read_fonts::ps::agl;
+use thiserror::Error;
+
+/// Why a label names no glyph.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum LabelError {
+    /// Nothing to name a glyph by.
+    #[error("an empty label names no glyph; write “_” to skip a cell")]
+    Empty,
+    /// A name that no list has.
+    #[error("“{label}” is no known glyph name{}", nearest.as_ref().map_or(String::new(), |n| format!("; did you mean “{n}”?")))]
+    Unknown {
+        /// the label as given
+        label: String,
+        /// a name that differs little
+        nearest: Option<String>,
+    },
+    /// A known name with a character that font files cannot hold.
+    #[error("“{0}” cannot be a glyph name: 63 characters of A–Z a–z 0–9 . _ - at most")]
+    Illegal(String),
+}
+
+/// The shape that a letter takes beside its neighbours.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Form {
+    /// Joined on neither side.
+    Isol,
+    /// Joined to the letter before it.
+    Fina,
+    /// Joined to the letter after it.
+    Init,
+    /// Joined on both sides.
+    Medi,
+}
+
+impl Form {
+    /// All four, in the order in which one of them stands in for a missing isolated form.
+    pub const ALL: [Self; 4] = [Self::Isol, Self::Fina, Self::Init, Self::Medi];
+
+    /// The OpenType feature and the suffix of that form.
+    #[must_use]
+    pub const fn tag(self) -> &'static str {
+        match self {
+            Self::Isol => "isol",
+            Self::Fina => "fina",
+            Self::Init => "init",
+            Self::Medi => "medi",
+        }
+    }
+
+    /// Whether this form joins the letter before it, to its right in Arabic.
+    #[must_use]
+    pub const fn joins_before(self) -> bool {
+        matches!(self, Self::Fina | Self::Medi)
+    }
+
+    /// Whether this form joins the letter after it, to its left in Arabic.
+    #[must_use]
+    pub const fn joins_after(self) -> bool {
+        matches!(self, Self::Init | Self::Medi)
+    }
+}
+
+/// A label understood.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Identity {
+    /// The glyph's name in the font.
+    pub name: Name,
+    /// What the glyph draws: one character, or the parts of a ligature in reading order. Never empty,
+    /// except for `.notdef`.
+    pub chars: Vec<char>,
+    /// The dotted parts of the name after the first: `["init", "ss01"]`.
+    pub suffixes: Vec<String>,
+}
+
+impl Identity {
+    /// The joining form that a suffix names.
+    #[must_use]
+    pub fn form(&self) -> Option<Form> {
+        let is = |f: &Form| self.suffixes.iter().any(|s| s == f.tag());
+        Form::ALL.into_iter().find(is)
+    }
+
+    /// The suffixes that name no joining form: which alternate it is.
+    pub fn alternates(&self) -> impl Iterator<Item = &str> {
+        let is_form = |s: &str| Form::ALL.iter().any(|f| f.tag() == s);
+        self.suffixes
+            .iter()
+            .map(String::as_str)
+            .filter(move |s| !is_form(s))
+    }
+}
+
+/// Reads a label.
+///
+/// # Errors
+/// The label is empty, in no list of names, or no legal glyph name.
+pub fn identify(label: &Label) -> Result<Identity, LabelError> {
+    let text = label.0.trim();
+    if text.is_empty() {
+        return Err(LabelError::Empty);
+    }
+    if text == ".notdef" {
+        return identity(text, Vec::new(), Vec::new());
+    }
+    if let Some(chars) = literal(text) {
+        return identity(&name_of(&chars), chars, Vec::new());
+    }
+    let mut parts = text.split('.');
+    let base = parts.next().unwrap_or_default();
+    let suffixes: Vec<String> = parts.map(str::to_owned).collect();
+    match characters(base) {
+        Some(chars) if suffixes.iter().all(|s| !s.is_empty()) => identity(text, chars, suffixes),
+        _ => Err(LabelError::Unknown {
+            label: text.to_owned(),
+            nearest: nearest::name(base).map(|n| {
+                std::iter::once(n)
+                    .chain(suffixes)
+                    .collect::<Vec<_>>()
+                    .join(".")
+            }),
+        }),
+    }
+}
+
+fn identity(name: &str, chars: Vec<char>, suffixes: Vec<String>) -> Result<Identity, LabelError> {
+    let name = Name::new(name).map_err(|e| LabelError::Illegal(e.0))?;
+    Ok(Identity {
+        name,
+        chars,
+        suffixes,
+    })
+}
+
+/// The label itself where it is text and no name: one character, or several none of which a name could hold.
+fn literal(text: &str) -> Option<Vec<char>> {
+    let chars: Vec<char> = text.chars().collect();
+    (chars.len() == 1 || chars.iter().all(|c| !c.is_ascii())).then_some(chars)
+}
+
+/// A name for these characters: the glyph list's for one that has a plain name there, else `uniXXXX`.
+#[must_use]
+pub fn name_of(chars: &[char]) -> String {
+    match chars {
+        [c] => agl_name(*c).unwrap_or_else(|| hexadecimal(chars)),
+        _ => hexadecimal(chars),
+    }
+}
+
+fn hexadecimal(chars: &[char]) -> String {
+    if chars.iter().all(|&c| u32::from(c) <= 0xFFFF) {
+        let digits: String = chars
+            .iter()
+            .map(|&c| format!("{:04X}", u32::from(c)))
+            .collect();
+        format!("uni{digits}")
+    } else {
+        let parts: Vec<String> = chars
+            .iter()
+            .map(|&c| format!("u{:04X}", u32::from(c)))
+            .collect();
+        parts.join("_")
+    }
+}
+
+/// The shortest of a character's names in the Adobe Glyph List. Its `afii…` and `SF…` numbers, and
+/// the names it gives letters beyond Greek, say less than the code does.
+fn agl_name(c: char) -> Option<String> {
+    /// After the Greek block the list's names were never in common use, up to general punctuation.
+    const RARE: std::ops::Range<u32> = 0x0400..0x1E00;
+    if RARE.contains(&u32::from(c)) {
+        return None;
+    }
+    let names = (0..).map_while(|n| {
+        let mut buffer = [0; agl::MAX_NAME_LEN + 1];
+        agl::char_to_nth_name(c, n, &mut buffer).map(str::to_owned)
+    });
+    names
+        .filter(|n| !n.starts_with("afii") && !n.starts_with("SF"))
+        .min_by_key(|n| (n.len(), n.clone()))
+}
+
+/// The characters of a name without suffix; `None` when no list knows it.
+pub(super) fn characters(base: &str) -> Option<Vec<char>> {
+    let known: Vec<Vec<char>> = base
+        .split('_')
+        .map(|part| agl::name_to_chars(part).collect())
+        .collect();
+    if known.iter().all(|k| !k.is_empty()) {
+        return Some(known.concat());
+    }
+    friendly(base)
+}
+
+/// The characters of a name as Glyphs writes it, `lam_alef-ar`.
+fn friendly(base: &str) -> Option<Vec<char>> {
+    let data = GlyphData::default();
+    let known = data.query(base, None)?;
+    if let Some(c) = known.codepoint.and_then(char::from_u32) {
+        return Some(vec![c]);
+    }
+    let production = known.production_name?.to_string();
+    let stem = production.split('.').next().unwrap_or_default();
+    let parts: Vec<Vec<char>> = stem
+        .split('_')
+        .map(|part| agl::name_to_chars(part).collect())
+        .collect();
+    (parts.iter().all(|p| !p.is_empty())).then(|| parts.concat())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(label: &str) -> (String, String, Option<Form>) {
+        let id = identify(&Label(label.to_owned())).unwrap();
+        (id.name.to_string(), id.chars.iter().collect(), id.form())
+    }
+
+    #[test]
+    fn every_way_to_name_a_glyph() {
+        let table = [
+            ("A", "A", "A", None),
+            ("7", "seven", "7", None),
+            ("é", "eacute", "é", None),
+            ("ب", "uni0628", "ب", None),
+            ("لا", "uni06440627", "لا", None),
+            ("eacute", "eacute", "é", None),
+            ("f_f_i", "f_f_i", "ffi", None),
+            ("fi", "fi", "ﬁ", None),
+            ("uni0628.init", "uni0628.init", "ب", Some(Form::Init)),
+            ("beh-ar", "beh-ar", "ب", None),
+            ("beh-ar.medi", "beh-ar.medi", "ب", Some(Form::Medi)),
+            (
+                "lam_alef-ar.fina",
+                "lam_alef-ar.fina",
+                "لا",
+                Some(Form::Fina),
+            ),
+            (
+                "uni06440627.fina",
+                "uni06440627.fina",
+                "لا",
+                Some(Form::Fina),
+            ),
+            ("fatha-ar", "fatha-ar", "\u{64e}", None),
+            ("u1F600", "u1F600", "\u{1f600}", None),
+            ("space", "space", " ", None),
+            ("/", "slash", "/", None),
+            ("keheh-ar", "keheh-ar", "ک", None),
+            ("kashida-ar", "kashida-ar", "ـ", None),
+        ];
+        for (label, name, chars, form) in table {
+            assert_eq!(
+                read(label),
+                (name.to_owned(), chars.to_owned(), form),
+                "{label}"
+            );
+        }
+    }
+
+    #[test]
+    fn every_character_gets_a_name_that_leads_back() {
+        for c in (0x21..0x500)
+            .chain(0x2000..0x2100)
+            .filter_map(char::from_u32)
+        {
+            let name = name_of(&[c]);
+            assert_eq!(
+                characters(&name),
+                Some(vec![c]),
+                "U+{:04X} {name}",
+                u32::from(c)
+            );
+        }
+    }
+
+    #[test]
+    fn suffixes_are_kept_apart() {
+        let id = identify(&Label("beh-ar.init.ss01".to_owned())).unwrap();
+        assert_eq!(id.form(), Some(Form::Init));
+        assert_eq!(id.alternates().collect::<Vec<_>>(), ["ss01"]);
+    }
+
+    #[test]
+    fn a_wrong_name_points_at_the_right_one() {
+        for (wrong, right) in [
+            ("behh-ar.init", "beh-ar.init"),
+            ("eacut", "eacute"),
+            ("beh.init", "beh-ar.init"),
+            ("ampersnd", "ampersand"),
+        ] {
+            let error = identify(&Label(wrong.to_owned())).unwrap_err();
+            assert_eq!(
+                error.to_string(),
+                format!("“{wrong}” is no known glyph name; did you mean “{right}”?")
+            );
+        }
+        let error = identify(&Label("qqqqqqqqqqqq".to_owned())).unwrap_err();
+        assert_eq!(error.to_string(), "“qqqqqqqqqqqq” is no known glyph name");
+        assert_eq!(identify(&Label(" ".to_owned())), Err(LabelError::Empty));
+    }
+}

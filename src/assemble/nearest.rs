@@ -1,0 +1,110 @@
+//! The known glyph name that differs least from an unknown one.
+
+use super::names::characters;
+use read_fonts::ps::agl;
+
+/// The letters that a changed name may take.
+const ALPHABET: &str = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-";
+
+/// The Adobe Glyph List names few characters beyond: East Asian ones and dingbats.
+const LAST_NAMED: u32 = 0x2300;
+
+/// The nearest known name: one edit or a script's suffix away among all names, or up to a third of
+/// its letters away among those of the Adobe Glyph List.
+pub(super) fn name(base: &str) -> Option<String> {
+    let known = |n: &String| characters(n).is_some();
+    let mut close = with_script(base).chain(edits(base)).filter(known);
+    close.next().or_else(|| listed(base))
+}
+
+/// The name with the suffixes that friendly names carry.
+fn with_script(base: &str) -> impl Iterator<Item = String> {
+    ["-ar", "-farsi", "-hb", "-cy"]
+        .into_iter()
+        .map(move |script| format!("{base}{script}"))
+}
+
+/// All names that are one letter too many, too few, wrong or swapped away.
+fn edits(base: &str) -> impl Iterator<Item = String> {
+    let letters: Vec<char> = base.chars().collect();
+    let n = letters.len();
+    let splice = move |at: usize, cut: usize, put: &[char]| -> String {
+        let (head, tail) = letters.split_at(at.min(letters.len()));
+        let rest = tail.get(cut..).unwrap_or_default();
+        head.iter().chain(put).chain(rest).collect()
+    };
+    let swapped: Vec<String> = base
+        .char_indices()
+        .zip(base.char_indices().skip(1))
+        .map(|((i, a), (j, b))| format!("{}{b}{a}{}", &base[..i], &base[j + b.len_utf8()..]))
+        .collect();
+    let dropped: Vec<String> = (0..n).map(|i| splice(i, 1, &[])).collect();
+    let changed = (0..=n).flat_map(move |i| {
+        let splice = splice.clone();
+        ALPHABET
+            .chars()
+            .flat_map(move |c| [splice(i, 1, &[c]), splice(i, 0, &[c])])
+    });
+    dropped.into_iter().chain(swapped).chain(changed)
+}
+
+/// The nearest name of the Adobe Glyph List within a third of the letters.
+fn listed(base: &str) -> Option<String> {
+    let allowed = base.chars().count() / 3;
+    let names = (0x20..LAST_NAMED).filter_map(|code| {
+        let mut buffer = [0; agl::MAX_NAME_LEN + 1];
+        agl::char_to_name(code, &mut buffer).map(str::to_owned)
+    });
+    names
+        .map(|n| (distance(base, &n), n))
+        .filter(|(d, _)| *d <= allowed)
+        .min()
+        .map(|(_, n)| n)
+}
+
+/// Letters to change, add or drop to make one word the other (Levenshtein's distance).
+fn distance(a: &str, b: &str) -> usize {
+    let b: Vec<char> = b.chars().collect();
+    let mut row: Vec<usize> = (0..=b.len()).collect();
+    for (i, ca) in a.chars().enumerate() {
+        let mut diagonal = i;
+        let mut left = i + 1;
+        for (cell, &cb) in row.iter_mut().skip(1).zip(&b) {
+            let above = *cell;
+            left = (left + 1)
+                .min(above + 1)
+                .min(diagonal + usize::from(ca != cb));
+            diagonal = above;
+            *cell = left;
+        }
+        if let Some(first) = row.first_mut() {
+            *first = i + 1;
+        }
+    }
+    row.last().copied().unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn distances() {
+        for (a, b, d) in [
+            ("", "", 0),
+            ("", "abc", 3),
+            ("kitten", "sitting", 3),
+            ("flaw", "lawn", 2),
+        ] {
+            assert_eq!(distance(a, b), d, "{a} {b}");
+            assert_eq!(distance(b, a), d, "{b} {a}");
+        }
+    }
+
+    #[test]
+    fn near_names() {
+        assert_eq!(name("semicoln").as_deref(), Some("semicolon"));
+        assert_eq!(name("alf-ar").as_deref(), Some("alef-ar"));
+        assert_eq!(name("zzzzzzzz"), None);
+    }
+}

@@ -1,0 +1,105 @@
+use super::*;
+use kurbo::{Rect, Shape};
+
+fn drawn(label: &str) -> Drawn {
+    let r = Rect::new(100.0, 0.0, 400.0, 500.0);
+    Drawn {
+        label: Label(label.to_owned()),
+        outline: Outline::new(vec![r.to_path(0.1)]).unwrap(),
+        advance: None,
+    }
+}
+
+fn build(labels: &[&str]) -> Assembled {
+    let shapes = labels.iter().map(|l| drawn(l)).collect();
+    font(shapes, Info::default(), &Options::default()).unwrap()
+}
+
+#[test]
+fn basic_glyphs_are_always_there() {
+    for labels in [&["A"][..], &[], &["space", "A"], &[".notdef"], &["uni00A0"]] {
+        let font = build(labels).font;
+        let names: Vec<_> = font
+            .glyphs()
+            .iter()
+            .take(3)
+            .map(|g| g.name.as_str())
+            .collect();
+        assert_eq!(names, [".notdef", "space", "uni00A0"], "{labels:?}");
+        let [a, b] = [1, 2].map(|i: usize| font.glyphs()[i].advance);
+        assert!((a - b).abs() < 1e-9, "{labels:?}");
+        assert_eq!(font.glyphs()[1].codepoints, [' '], "{labels:?}");
+    }
+}
+
+#[test]
+fn features_follow_from_names() {
+    let labels = [
+        "ب",
+        "uni0628.init",
+        "uni0628.medi",
+        "uni0628.fina",
+        "lam-ar",
+        "lam-ar.init",
+        "lam-ar.medi",
+        "alef-ar",
+        "alef-ar.fina",
+        "lam_alef-ar",
+        "lam_alef-ar.fina",
+        "f",
+        "i",
+        "f_i",
+        "a",
+        "a.ss01",
+    ];
+    let built = build(&labels);
+    insta::with_settings!({
+        snapshot_path => "../../snapshots",
+        prepend_module_to_snapshot => false,
+        omit_expression => true,
+    }, { insta::assert_snapshot!("features", built.font.features) });
+    assert!(built.notes.is_empty(), "{:?}", built.notes);
+}
+
+#[test]
+fn a_form_stands_in_for_a_missing_letter() {
+    let font = build(&["beh-ar.fina", "beh-ar.init", "beh-ar.init.ss01"]).font;
+    assert_eq!(font.glyph("beh-ar.fina").unwrap().codepoints, ['\u{628}']);
+    assert!(
+        font.features.contains("sub beh-ar.fina by beh-ar.init;"),
+        "{}",
+        font.features
+    );
+    assert!(
+        font.features
+            .contains("sub beh-ar.init by beh-ar.init.ss01;"),
+        "{}",
+        font.features
+    );
+}
+
+#[test]
+fn a_ligature_of_missing_parts_is_reported() {
+    let notes = build(&["lam-ar", "lam_alef-ar"]).notes;
+    assert_eq!(notes.len(), 1);
+    assert!(notes[0].message.contains("U+0627"), "{}", notes[0].message);
+}
+
+#[test]
+fn wrong_labels_are_errors_with_their_place() {
+    let all = |labels: &[&str]| {
+        let shapes = labels.iter().map(|l| drawn(l)).collect();
+        font(shapes, Info::default(), &Options::default())
+            .unwrap_err()
+            .to_string()
+    };
+    assert_eq!(
+        all(&["A", "beh-arr"]),
+        "glyph 1: “beh-arr” is no known glyph name; did you mean “beh-ar”?"
+    );
+    assert_eq!(
+        all(&["A", "b", "A"]),
+        "glyphs 0 and 2 are both A; rename one or skip its cell with “_”"
+    );
+    assert!(all(&["beh-ar", "uni0628"]).contains("U+0628"));
+}

@@ -1,0 +1,208 @@
+//! The tables that TrueType and CFF fonts share.
+
+use super::numbers::{count, to_i16, to_u16};
+use super::{WriteError, layout, names, os2};
+use crate::types::{Font, Glyph};
+use kurbo::Rect;
+use write_fonts::read::TopLevelTable;
+use write_fonts::tables::cmap::Cmap;
+use write_fonts::tables::gasp::{Gasp, GaspRange, GaspRangeBehavior};
+use write_fonts::tables::head::{Flags, Head, MacStyle};
+use write_fonts::tables::hhea::Hhea;
+use write_fonts::tables::hmtx::{Hmtx, LongMetric};
+use write_fonts::tables::maxp::Maxp;
+use write_fonts::tables::post::Post;
+use write_fonts::types::{FWord, Fixed, GlyphId, LongDateTime, UfWord};
+use write_fonts::validate::Validate;
+use write_fonts::{FontBuilder, FontWrite};
+
+/// Seconds from the epoch of font files, 1904, to that of Unix, 1970.
+const EPOCH_1904: i64 = 2_082_844_800;
+
+/// Depth and thickness of the underline, parts of the em: what most text fonts have.
+const UNDERLINE: (f64, f64) = (-0.1, 0.05);
+
+/// A font file in the making: everything but the outlines.
+pub(super) struct Common {
+    pub(super) head: Head,
+    pub(super) maxp: Maxp,
+    pub(super) post: Post,
+    builder: FontBuilder<'static>,
+}
+
+/// Builds the shared tables. `extents` holds each glyph's box as it stands in the file, whole units.
+pub(super) fn common(font: &Font, extents: &[Option<Rect>]) -> Result<Common, WriteError> {
+    let mut builder = FontBuilder::new();
+    let advances = advances(font)?;
+    add(&mut builder, "hmtx", &hmtx(font, &advances, extents)?)?;
+    add(&mut builder, "hhea", &hhea(font, &advances, extents)?)?;
+    add(&mut builder, "OS/2", &os2::table(font, &advances, extents)?)?;
+    add(&mut builder, "name", &names::table(&font.info)?)?;
+    add(&mut builder, "cmap", &cmap(font)?)?;
+    let features = layout::compile(font)?;
+    if let Some(gsub) = &features.gsub {
+        add(&mut builder, "GSUB", gsub)?;
+    }
+    if let Some(gpos) = &features.gpos {
+        add(&mut builder, "GPOS", gpos)?;
+    }
+    if let Some(gdef) = &features.gdef {
+        add(&mut builder, "GDEF", gdef)?;
+    }
+    Ok(Common {
+        head: head(font, extents)?,
+        maxp: Maxp::new(count(font.glyphs().len(), "the number of glyphs")?),
+        post: post(font)?,
+        builder,
+    })
+}
+
+impl Common {
+    /// The file, once the writer has set what it alone knows and added its outlines.
+    pub(super) fn build(
+        mut self,
+        outlines: impl FnOnce(&mut FontBuilder<'static>) -> Result<(), WriteError>,
+    ) -> Result<Vec<u8>, WriteError> {
+        add(&mut self.builder, "head", &self.head)?;
+        add(&mut self.builder, "maxp", &self.maxp)?;
+        add(&mut self.builder, "post", &self.post)?;
+        outlines(&mut self.builder)?;
+        Ok(self.builder.build())
+    }
+}
+
+/// Adds a table and names it in the error.
+pub(super) fn add<T>(builder: &mut FontBuilder<'_>, name: &str, table: &T) -> Result<(), WriteError>
+where
+    T: FontWrite + Validate + TopLevelTable,
+{
+    builder
+        .add_table(table)
+        .map_err(|e| WriteError::table(name, e))?;
+    Ok(())
+}
+
+fn advances(font: &Font) -> Result<Vec<u16>, WriteError> {
+    let advance = |g: &Glyph| to_u16(g.advance, || format!("the advance of {}", g.name));
+    font.glyphs().iter().map(advance).collect()
+}
+
+fn hmtx(font: &Font, advances: &[u16], extents: &[Option<Rect>]) -> Result<Hmtx, WriteError> {
+    let mut metrics = Vec::with_capacity(advances.len());
+    for ((glyph, &advance), extent) in font.glyphs().iter().zip(advances).zip(extents) {
+        // programs place the outline so that its xMin falls on the bearing: they must agree
+        let left = extent.map_or(0.0, |r| r.x0);
+        let bearing = to_i16(left, || format!("the left sidebearing of {}", glyph.name))?;
+        metrics.push(LongMetric::new(advance, bearing));
+    }
+    // a run of equal advances at the end is stored once
+    let last = metrics.last().map(|m| m.advance);
+    let tail = metrics
+        .iter()
+        .rev()
+        .take_while(|m| Some(m.advance) == last)
+        .count();
+    let bearings = metrics
+        .split_off(metrics.len() + 1 - tail.max(1))
+        .into_iter()
+        .map(|m| m.side_bearing)
+        .collect();
+    Ok(Hmtx::new(metrics, bearings))
+}
+
+fn hhea(font: &Font, advances: &[u16], extents: &[Option<Rect>]) -> Result<Hhea, WriteError> {
+    let m = font.info.metrics;
+    let inked: Vec<(f64, Rect)> = advances
+        .iter()
+        .zip(extents)
+        .filter_map(|(&a, e)| e.map(|r| (f64::from(a), r)))
+        .collect();
+    let least =
+        |f: &dyn Fn(&(f64, Rect)) -> f64| inked.iter().map(f).reduce(f64::min).unwrap_or(0.0);
+    let word = |v: f64, what: &str| to_i16(v, || what.to_owned()).map(FWord::new);
+    let last = advances.last();
+    let tail = advances
+        .iter()
+        .rev()
+        .take_while(|a| Some(*a) == last)
+        .count();
+    let slope = caret_slope(font.info.italic_angle)?;
+    Ok(Hhea {
+        ascender: word(m.ascender, "the ascender")?,
+        descender: word(m.descender, "the descender")?,
+        line_gap: word(m.line_gap, "the line gap")?,
+        advance_width_max: UfWord::new(advances.iter().copied().max().unwrap_or(0)),
+        min_left_side_bearing: word(least(&|(_, r)| r.x0), "a left sidebearing")?,
+        min_right_side_bearing: word(least(&|(a, r)| a - r.x1), "a right sidebearing")?,
+        x_max_extent: word(-least(&|(_, r)| -r.x1), "the right edge of a glyph")?,
+        caret_slope_rise: slope.0,
+        caret_slope_run: slope.1,
+        number_of_h_metrics: count(advances.len() + 1 - tail.max(1), "the number of advances")?,
+        ..Hhea::default()
+    })
+}
+
+/// Rise and run of the text cursor.
+fn caret_slope(italic_angle: f64) -> Result<(i16, i16), WriteError> {
+    if italic_angle.abs() < 0.01 {
+        return Ok((1, 0));
+    }
+    let run = (-italic_angle).to_radians().tan() * 1000.0;
+    Ok((1000, to_i16(run, || "the italic angle's slope".to_owned())?))
+}
+
+fn cmap(font: &Font) -> Result<Cmap, WriteError> {
+    let ids = (0..).map(GlyphId::new);
+    let of = |(g, id): (&Glyph, GlyphId)| {
+        g.codepoints
+            .iter()
+            .map(move |&c| (c, id))
+            .collect::<Vec<_>>()
+    };
+    let pairs = font.glyphs().iter().zip(ids).flat_map(of);
+    Cmap::from_mappings(pairs).map_err(|e| WriteError::table("cmap", e))
+}
+
+fn head(font: &Font, extents: &[Option<Rect>]) -> Result<Head, WriteError> {
+    let all = extents.iter().flatten().copied().reduce(|a, b| a.union(b));
+    let all = all.unwrap_or(Rect::ZERO);
+    let edge = |v: f64| to_i16(v, || "the edge of a glyph".to_owned());
+    let style = names::style(&font.info);
+    let when = |set: bool, flag| if set { flag } else { MacStyle::empty() };
+    let (major, minor) = font.info.version;
+    let created = LongDateTime::new(font.info.created.saturating_add(EPOCH_1904));
+    Ok(Head {
+        font_revision: Fixed::from_f64(f64::from(major) + f64::from(minor) / 1000.0),
+        flags: Flags::BASELINE_AT_Y_0 | Flags::LSB_AT_X_0,
+        units_per_em: font.info.units_per_em,
+        created,
+        modified: created,
+        x_min: edge(all.x0)?,
+        y_min: edge(all.y0)?,
+        x_max: edge(all.x1)?,
+        y_max: edge(all.y1)?,
+        mac_style: when(style.is_bold, MacStyle::BOLD) | when(style.is_italic, MacStyle::ITALIC),
+        lowest_rec_ppem: 6,
+        ..Head::default()
+    })
+}
+
+fn post(font: &Font) -> Result<Post, WriteError> {
+    let em = f64::from(font.info.units_per_em);
+    let word = |v: f64| to_i16(v, || "the underline".to_owned()).map(FWord::new);
+    Ok(Post {
+        italic_angle: Fixed::from_f64(font.info.italic_angle),
+        underline_position: word(UNDERLINE.0 * em)?,
+        underline_thickness: word(UNDERLINE.1 * em)?,
+        ..Post::new_v2(font.glyphs().iter().map(|g| g.name.as_str()))
+    })
+}
+
+/// Smooth at every size, fitted to the grid at none: what an unhinted font asks of a rasteriser.
+pub(super) fn gasp() -> Gasp {
+    let all = GaspRangeBehavior::GASP_GRIDFIT
+        | GaspRangeBehavior::GASP_DOGRAY
+        | GaspRangeBehavior::GASP_SYMMETRIC_GRIDFIT
+        | GaspRangeBehavior::GASP_SYMMETRIC_SMOOTHING;
+    Gasp::new(1, 1, vec![GaspRange::new(u16::MAX, all)])
+}

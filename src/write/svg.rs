@@ -1,0 +1,101 @@
+//! One SVG a glyph: user space in font units, y down, the em box from ascender to descender.
+
+use super::WriteError;
+use crate::types::{Files, Font, Glyph};
+use kurbo::{Affine, BezPath, PathEl, Point};
+use std::collections::BTreeSet;
+use std::fmt::Write;
+
+/// Numbers are cut to thousandths of a unit: below what a rasteriser can show.
+const PER_UNIT: f64 = 1000.0;
+
+/// A file for every glyph that has ink.
+#[expect(
+    clippy::unnecessary_wraps,
+    reason = "every writer in the table has one signature"
+)]
+pub(super) fn files(font: &Font) -> Result<Files, WriteError> {
+    let mut files = Files::default();
+    let mut taken = BTreeSet::new();
+    for glyph in font.glyphs() {
+        let shape = font.shape(glyph);
+        if shape.is_empty() {
+            continue;
+        }
+        let name = file_name(glyph.name.as_str(), &mut taken);
+        files
+            .0
+            .insert(name, document(font, glyph, &shape.to_path()).into_bytes());
+    }
+    Ok(files)
+}
+
+/// A file name that also a file system without upper and lower case keeps apart: a `_` follows every capital.
+fn file_name(glyph: &str, taken: &mut BTreeSet<String>) -> String {
+    let mut stem = String::new();
+    for (i, c) in glyph.chars().enumerate() {
+        stem.push(if i == 0 && c == '.' { '_' } else { c });
+        if c.is_ascii_uppercase() {
+            stem.push('_');
+        }
+    }
+    while !taken.insert(stem.to_ascii_lowercase()) {
+        stem.push('_');
+    }
+    format!("{stem}.svg")
+}
+
+fn document(font: &Font, glyph: &Glyph, shape: &BezPath) -> String {
+    let m = font.info.metrics;
+    let path = path_data(&(Affine::FLIP_Y * shape));
+    let (top, height) = (number(-m.ascender), number(m.ascender - m.descender));
+    let width = number(glyph.advance);
+    format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 {top} {width} {height}\">\n  <path d=\"{path}\"/>\n</svg>\n"
+    )
+}
+
+fn number(v: f64) -> String {
+    let cut = (v * PER_UNIT).round() / PER_UNIT;
+    // no "-0"
+    format!("{}", cut + 0.0)
+}
+
+/// SVG path data, absolute, to thousandths of a unit.
+fn path_data(path: &BezPath) -> String {
+    let mut out = String::new();
+    let p = |p: Point| format!("{} {}", number(p.x), number(p.y));
+    for el in path.elements() {
+        let done = match *el {
+            PathEl::MoveTo(a) => write!(out, "M{}", p(a)),
+            PathEl::LineTo(a) => write!(out, "L{}", p(a)),
+            PathEl::QuadTo(a, b) => write!(out, "Q{} {}", p(a), p(b)),
+            PathEl::CurveTo(a, b, c) => write!(out, "C{} {} {}", p(a), p(b), p(c)),
+            PathEl::ClosePath => write!(out, "Z"),
+        };
+        debug_assert!(done.is_ok(), "a string takes all that is written to it");
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_do_not_collide_without_case() {
+        let mut taken = BTreeSet::new();
+        let names: Vec<_> = ["a", "A", "A_", ".notdef"]
+            .iter()
+            .map(|n| file_name(n, &mut taken))
+            .collect();
+        assert_eq!(names, ["a.svg", "A_.svg", "A__.svg", "_notdef.svg"]);
+    }
+
+    #[test]
+    fn numbers_are_short_and_never_minus_zero() {
+        assert_eq!(number(-0.0001), "0");
+        assert_eq!(number(1.23456), "1.235");
+        assert_eq!(number(12.0), "12");
+    }
+}

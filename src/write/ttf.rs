@@ -1,0 +1,279 @@
+//! TrueType: quadratic outlines, composites, and no instructions.
+
+use super::numbers::{count, to_i16};
+use super::{WriteError, sfnt};
+use crate::types::{Component, Font, Glyph};
+use kurbo::{BezPath, PathEl, Rect};
+use std::collections::BTreeMap;
+use write_fonts::tables::glyf::{
+    Anchor, Bbox, Component as Part, ComponentFlags, CompositeGlyph, GlyfLocaBuilder,
+    Glyph as Written, SimpleGlyph, Transform,
+};
+use write_fonts::tables::head::Head;
+use write_fonts::tables::loca::LocaFormat;
+use write_fonts::tables::maxp::Maxp;
+use write_fonts::types::{F2Dot14, GlyphId16, Tag};
+
+/// The control program of an unhinted font: drop-out control on, at every size (`PUSHW 511; SCANCTRL;
+/// PUSHB 4; SCANTYPE`).
+const PREP: [u8; 7] = [0xB8, 0x01, 0xFF, 0x85, 0xB0, 0x04, 0x8D];
+
+/// A TrueType font.
+pub(super) fn bytes(font: &Font) -> Result<Vec<u8>, WriteError> {
+    let glyphs = Glyphs::of(font)?;
+    let mut outlines = GlyfLocaBuilder::new();
+    for (written, glyph) in glyphs.written.iter().zip(font.glyphs()) {
+        outlines
+            .add_glyph(written)
+            .map_err(|e| WriteError::table(&format!("glyf ({})", glyph.name), e))?;
+    }
+    let extents: Vec<Option<Rect>> = glyphs.written.iter().map(extent).collect();
+    let mut common = sfnt::common(font, &extents)?;
+    common.maxp = glyphs.maxp()?;
+    let (glyf, loca, format) = outlines.build();
+    common.head = Head {
+        index_to_loc_format: i16::from(format == LocaFormat::Long),
+        ..common.head
+    };
+    common.build(|builder| {
+        sfnt::add(builder, "glyf", &glyf)?;
+        sfnt::add(builder, "loca", &loca)?;
+        sfnt::add(builder, "gasp", &sfnt::gasp())?;
+        builder.add_raw(Tag::new(b"prep"), PREP.to_vec());
+        Ok(())
+    })
+}
+
+fn extent(glyph: &Written) -> Option<Rect> {
+    let b = glyph.bbox()?;
+    let edge = |v: i16| f64::from(v);
+    Some(Rect::new(
+        edge(b.x_min),
+        edge(b.y_min),
+        edge(b.x_max),
+        edge(b.y_max),
+    ))
+}
+
+/// Every glyph as the file holds it, in glyph-id order.
+struct Glyphs<'a> {
+    font: &'a Font,
+    written: Vec<Written>,
+}
+
+impl<'a> Glyphs<'a> {
+    fn of(font: &'a Font) -> Result<Self, WriteError> {
+        let ids: BTreeMap<&str, usize> = font
+            .glyphs()
+            .iter()
+            .zip(0..)
+            .map(|(g, i)| (g.name.as_str(), i))
+            .collect();
+        let simple: Vec<Written> = font
+            .glyphs()
+            .iter()
+            .map(|g| {
+                if is_composite(font, g) {
+                    Ok(Written::Empty)
+                } else {
+                    simple(font, g)
+                }
+            })
+            .collect::<Result<_, _>>()?;
+        let written = font
+            .glyphs()
+            .iter()
+            .zip(&simple)
+            .map(|(g, s)| {
+                if is_composite(font, g) {
+                    composite(g, &ids, &simple)
+                } else {
+                    Ok(s.clone())
+                }
+            })
+            .collect::<Result<_, _>>()?;
+        Ok(Self { font, written })
+    }
+
+    /// Counts that a rasteriser reserves memory by.
+    fn maxp(&self) -> Result<Maxp, WriteError> {
+        let mut max = [0_usize; 5];
+        for (written, glyph) in self.written.iter().zip(self.font.glyphs()) {
+            let counts = match written {
+                Written::Empty => [0; 5],
+                Written::Simple(s) => [
+                    s.contours.iter().map(|c| c.len()).sum(),
+                    s.contours.len(),
+                    0,
+                    0,
+                    0,
+                ],
+                Written::Composite(c) => {
+                    let bases = glyph.components.iter().filter_map(|p| {
+                        let at = self.font.glyphs().iter().position(|g| g.name == p.base)?;
+                        self.written.get(at)
+                    });
+                    let (points, contours) = bases.fold((0, 0), |(p, c), base| match base {
+                        Written::Simple(s) => (
+                            p + s.contours.iter().map(|c| c.len()).sum::<usize>(),
+                            c + s.contours.len(),
+                        ),
+                        _ => (p, c),
+                    });
+                    [0, 0, points, contours, c.components().len()]
+                }
+            };
+            for (m, c) in max.iter_mut().zip(counts) {
+                *m = (*m).max(c);
+            }
+        }
+        let [
+            points,
+            contours,
+            composite_points,
+            composite_contours,
+            parts,
+        ] = max;
+        Ok(Maxp {
+            max_points: Some(count(points, "the number of points")?),
+            max_contours: Some(count(contours, "the number of contours")?),
+            max_composite_points: Some(count(composite_points, "the number of points")?),
+            max_composite_contours: Some(count(composite_contours, "the number of contours")?),
+            // no instructions but PREP, which needs one cell of the stack
+            max_zones: Some(1),
+            max_twilight_points: Some(0),
+            max_storage: Some(0),
+            max_function_defs: Some(0),
+            max_instruction_defs: Some(0),
+            max_stack_elements: Some(1),
+            max_size_of_instructions: Some(0),
+            max_component_elements: Some(count(parts, "the number of components")?),
+            max_component_depth: Some(u16::from(parts > 0)),
+            ..Maxp::new(count(self.written.len(), "the number of glyphs")?)
+        })
+    }
+}
+
+/// Whether a glyph can stand as references: only components, each of a glyph that has only contours,
+/// placed by numbers that a file can hold.
+fn is_composite(font: &Font, glyph: &Glyph) -> bool {
+    let fits = |p: &Component| {
+        let [a, b, c, d, ..] = p.place.as_coeffs();
+        [a, b, c, d].iter().all(|v| (-2.0..2.0).contains(v))
+            && font
+                .glyph(p.base.as_str())
+                .is_some_and(|g| g.components.is_empty() && !g.outline.is_empty())
+    };
+    glyph.outline.is_empty() && !glyph.components.is_empty() && glyph.components.iter().all(fits)
+}
+
+/// A glyph's contours, run the way TrueType fills them: outer ones clockwise.
+fn simple(font: &Font, glyph: &Glyph) -> Result<Written, WriteError> {
+    let shape = font.shape(glyph);
+    if shape.is_empty() {
+        return Ok(Written::Empty);
+    }
+    let mut path = BezPath::new();
+    for contour in shape.contours() {
+        path.extend(contour.reverse_subpaths());
+    }
+    for el in path.elements() {
+        check(el, glyph)?;
+    }
+    SimpleGlyph::from_bezpath(&path)
+        .map(Written::Simple)
+        .map_err(|e| WriteError::table(&format!("glyf ({})", glyph.name), format!("{e:?}")))
+}
+
+/// Refuses cubics, and coordinates so large that a difference of two would not fit the file.
+fn check(el: &PathEl, glyph: &Glyph) -> Result<(), WriteError> {
+    let points = match *el {
+        PathEl::CurveTo(..) => return Err(WriteError::Cubic(glyph.name.to_string())),
+        PathEl::MoveTo(p) | PathEl::LineTo(p) => [p, p],
+        PathEl::QuadTo(a, b) => [a, b],
+        PathEl::ClosePath => return Ok(()),
+    };
+    for p in points {
+        for v in [p.x, p.y] {
+            to_i16(2.0 * v, || format!("a coordinate of {}", glyph.name))?;
+        }
+    }
+    Ok(())
+}
+
+fn composite(
+    glyph: &Glyph,
+    ids: &BTreeMap<&str, usize>,
+    simple: &[Written],
+) -> Result<Written, WriteError> {
+    let mut whole: Option<CompositeGlyph> = None;
+    for part in &glyph.components {
+        let base = ids.get(part.base.as_str()).copied().unwrap_or_default();
+        let Some(Written::Simple(shape)) = simple.get(base) else {
+            continue;
+        };
+        let (component, bounds) = place(part, base, shape, glyph)?;
+        match &mut whole {
+            None => whole = Some(CompositeGlyph::new(component, bounds)),
+            Some(w) => w.add_component(component, bounds),
+        }
+    }
+    Ok(whole.map_or(Written::Empty, Written::Composite))
+}
+
+fn place(
+    part: &Component,
+    base: usize,
+    shape: &SimpleGlyph,
+    glyph: &Glyph,
+) -> Result<(Part, Bbox), WriteError> {
+    let what = || format!("a component of {}", glyph.name);
+    let [a, b, c, d, x, y] = part.place.as_coeffs();
+    let (x, y) = (to_i16(x, what)?, to_i16(y, what)?);
+    let f = |v: f64| F2Dot14::from_f32(narrow(v));
+    let transform = Transform {
+        xx: f(a),
+        yx: f(b),
+        xy: f(c),
+        yy: f(d),
+    };
+    let flags = ComponentFlags {
+        round_xy_to_grid: true,
+        ..ComponentFlags::default()
+    };
+    let id = GlyphId16::new(count(base, "a glyph id")?);
+    let s = |v: F2Dot14| f64::from(v.to_f32());
+    let map = |px: i16, py: i16| {
+        let (px, py) = (f64::from(px), f64::from(py));
+        let t = &transform;
+        (
+            s(t.xx) * px + s(t.xy) * py + f64::from(x),
+            s(t.yx) * px + s(t.yy) * py + f64::from(y),
+        )
+    };
+    let mut bounds: Option<Rect> = None;
+    for p in shape.contours.iter().flat_map(|c| c.iter()) {
+        let (px, py) = map(p.x, p.y);
+        let at = Rect::new(px, py, px, py);
+        bounds = Some(bounds.map_or(at, |r| r.union(at)));
+    }
+    let r = bounds.unwrap_or(Rect::ZERO);
+    let bbox = Bbox {
+        x_min: to_i16(r.x0, what)?,
+        y_min: to_i16(r.y0, what)?,
+        x_max: to_i16(r.x1, what)?,
+        y_max: to_i16(r.y1, what)?,
+    };
+    Ok((
+        Part::new(id, Anchor::Offset { x, y }, transform, flags),
+        bbox,
+    ))
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "a 2.14 number needs 16 bits of the 24 kept"
+)]
+const fn narrow(v: f64) -> f32 {
+    v as f32
+}

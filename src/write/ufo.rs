@@ -1,0 +1,295 @@
+//! UFO 3: the font as a designer's editor opens it, and as fontmake and fontc build it.
+//!
+//! Features stand in `features.fea`; kerning and marks do not: compilers derive them from
+//! `kerning.plist` and the anchors, as our own writers do, so that a change to either counts.
+
+use super::{WriteError, names};
+use crate::types::{Files, Font, Glyph, Info};
+use kurbo::{BezPath, PathEl, Point, Vec2};
+use norad::fontinfo::{NonNegativeIntegerOrFloat, StyleMapStyle};
+use norad::{AffineTransform, Contour, ContourPoint, FontInfo, PointType, WriteOptions};
+use plist::{Dictionary, Value};
+use std::path::Path;
+use std::sync::Mutex;
+
+/// Tangents that turn less than this at a point, radians, make it a smooth one: a quarter of a degree.
+const SMOOTH: f64 = 0.0044;
+
+/// Bit of OS/2 fsSelection that asks programs to use the typo metrics.
+const USE_TYPO_METRICS: u8 = 7;
+
+/// The files of a UFO.
+pub(super) fn files(font: &Font) -> Result<Files, WriteError> {
+    let ufo = convert(font)?;
+    let files = Mutex::new(Files::default());
+    let sink = |path: &Path, data: &[u8]| {
+        let name = path
+            .iter()
+            .map(|p| p.to_string_lossy())
+            .collect::<Vec<_>>()
+            .join("/");
+        let mut files = files
+            .lock()
+            .map_err(|e| std::io::Error::other(e.to_string()))?;
+        files.0.insert(name, data.to_vec());
+        Ok(())
+    };
+    ufo.save_to_sink(&sink, &WriteOptions::default())
+        .map_err(|e| failed(&e))?;
+    files.into_inner().map_err(|e| failed(&e))
+}
+
+fn failed(error: &dyn std::error::Error) -> WriteError {
+    WriteError::table("UFO", error)
+}
+
+fn name(text: &str) -> Result<norad::Name, WriteError> {
+    norad::Name::new(text).map_err(|e| failed(&e))
+}
+
+fn convert(font: &Font) -> Result<norad::Font, WriteError> {
+    let mut ufo = norad::Font::new();
+    ufo.font_info = info(&font.info);
+    ufo.features = font.features.clone();
+    for glyph in font.glyphs() {
+        let glyph = convert_glyph(glyph)?;
+        ufo.default_layer_mut().insert_glyph(glyph);
+    }
+    let order = font
+        .glyphs()
+        .iter()
+        .map(|g| Value::from(g.name.as_str()))
+        .collect();
+    ufo.lib
+        .insert("public.glyphOrder".to_owned(), Value::Array(order));
+    for (prefix, groups) in [
+        ("public.kern1.", &font.kerning.first),
+        ("public.kern2.", &font.kerning.second),
+    ] {
+        for (group, members) in groups {
+            let members = members
+                .iter()
+                .map(|m| name(m.as_str()))
+                .collect::<Result<_, _>>()?;
+            ufo.groups
+                .insert(name(&format!("{prefix}{group}"))?, members);
+        }
+    }
+    let side = |side: &str, prefix: &str| match side.strip_prefix('@') {
+        Some(group) => name(&format!("{prefix}{group}")),
+        None => name(side),
+    };
+    for ((first, second), &value) in &font.kerning.pairs {
+        let first = side(first, "public.kern1.")?;
+        let second = side(second, "public.kern2.")?;
+        ufo.kerning.entry(first).or_default().insert(second, value);
+    }
+    Ok(ufo)
+}
+
+fn info(info: &Info) -> FontInfo {
+    let m = info.metrics;
+    let style = names::style(info);
+    let whole = |v: f64| super::numbers::to_i16(v, String::new).ok().map(i32::from);
+    FontInfo {
+        family_name: Some(info.family.clone()),
+        style_name: Some(info.style.clone()),
+        style_map_family_name: Some(style.family.clone()),
+        style_map_style_name: Some(match (style.is_bold, style.is_italic) {
+            (false, false) => StyleMapStyle::Regular,
+            (false, true) => StyleMapStyle::Italic,
+            (true, false) => StyleMapStyle::Bold,
+            (true, true) => StyleMapStyle::BoldItalic,
+        }),
+        postscript_font_name: Some(names::postscript(info)),
+        version_major: Some(i32::from(info.version.0)),
+        version_minor: Some(u32::from(info.version.1)),
+        units_per_em: NonNegativeIntegerOrFloat::new(f64::from(info.units_per_em)),
+        ascender: Some(m.ascender),
+        descender: Some(m.descender),
+        x_height: Some(m.x_height),
+        cap_height: Some(m.cap_height),
+        italic_angle: Some(info.italic_angle),
+        open_type_hhea_ascender: whole(m.ascender),
+        open_type_hhea_descender: whole(m.descender),
+        open_type_hhea_line_gap: whole(m.line_gap),
+        open_type_os2_typo_ascender: whole(m.ascender),
+        open_type_os2_typo_descender: whole(m.descender),
+        open_type_os2_typo_line_gap: whole(m.line_gap),
+        open_type_os2_weight_class: Some(u32::from(info.weight)),
+        open_type_os2_selection: Some(vec![USE_TYPO_METRICS]),
+        open_type_os2_vendor_id: Some(String::from_utf8_lossy(&info.vendor_id).into_owned()),
+        open_type_head_created: Some(date(info.created)),
+        copyright: info.copyright.clone(),
+        open_type_name_designer: info.designer.clone(),
+        open_type_name_manufacturer: info.manufacturer.clone(),
+        open_type_name_manufacturer_url: info.vendor_url.clone(),
+        open_type_name_license: info.license.clone(),
+        open_type_name_license_url: info.license_url.clone(),
+        ..FontInfo::default()
+    }
+}
+
+/// Seconds since 1970 as `YYYY/MM/DD HH:MM:SS`, UTC, by the proleptic Gregorian calendar.
+fn date(seconds: i64) -> String {
+    let (days, rest) = (seconds.div_euclid(86400), seconds.rem_euclid(86400));
+    // years begin in March here, so that the leap day ends them; day 0 is 0000-03-01
+    let day = days + 719_468;
+    let (era, day) = (day.div_euclid(146_097), day.rem_euclid(146_097));
+    let year = (day - day / 1460 + day / 36_524 - day / 146_096) / 365;
+    let day = day - (365 * year + year / 4 - year / 100);
+    let month = (5 * day + 2) / 153;
+    let day = day - (153 * month + 2) / 5 + 1;
+    let (month, next) = if month < 10 {
+        (month + 3, 0)
+    } else {
+        (month - 9, 1)
+    };
+    let year = year + era * 400 + next;
+    let (h, m, s) = (rest / 3600, rest / 60 % 60, rest % 60);
+    format!("{year:04}/{month:02}/{day:02} {h:02}:{m:02}:{s:02}")
+}
+
+fn convert_glyph(glyph: &Glyph) -> Result<norad::Glyph, WriteError> {
+    // the name is checked first: norad's constructor takes what it is given
+    let mut out = norad::Glyph::new(&name(glyph.name.as_str())?);
+    out.width = glyph.advance;
+    out.codepoints = norad::Codepoints::new(glyph.codepoints.iter().copied());
+    out.contours = glyph.outline.contours().iter().map(contour).collect();
+    for part in &glyph.components {
+        let [xx, xy, yx, yy, dx, dy] = part.place.as_coeffs();
+        let place = AffineTransform {
+            x_scale: xx,
+            xy_scale: xy,
+            yx_scale: yx,
+            y_scale: yy,
+            x_offset: dx,
+            y_offset: dy,
+        };
+        out.components.push(norad::Component::new(
+            name(part.base.as_str())?,
+            place,
+            None,
+        ));
+    }
+    for anchor in &glyph.anchors {
+        let label = Some(name(&anchor.name)?);
+        out.anchors.push(norad::Anchor::new(
+            anchor.at.x,
+            anchor.at.y,
+            label,
+            None,
+            None,
+        ));
+    }
+    out.lib = Dictionary::new();
+    Ok(out)
+}
+
+/// A closed contour as UFO points: the start is the last on-curve point reached.
+fn contour(path: &BezPath) -> Contour {
+    let mut points: Vec<ContourPoint> = Vec::new();
+    let mut start = None;
+    let mut add =
+        |p: Point, kind| points.push(ContourPoint::new(p.x, p.y, kind, false, None, None));
+    for el in path.elements() {
+        match *el {
+            PathEl::MoveTo(p) => start = Some(p),
+            PathEl::LineTo(p) => add(p, PointType::Line),
+            PathEl::QuadTo(a, p) => {
+                add(a, PointType::OffCurve);
+                add(p, PointType::QCurve);
+            }
+            PathEl::CurveTo(a, b, p) => {
+                add(a, PointType::OffCurve);
+                add(b, PointType::OffCurve);
+                add(p, PointType::Curve);
+            }
+            PathEl::ClosePath => {}
+        }
+    }
+    let at = |p: &ContourPoint| Point::new(p.x, p.y);
+    if let Some(start) = start.filter(|s| points.last().is_none_or(|p| at(p) != *s)) {
+        points.push(ContourPoint::new(
+            start.x,
+            start.y,
+            PointType::Line,
+            false,
+            None,
+            None,
+        ));
+    }
+    // editors show the first point of the file as the start: let it be the path's own
+    if !points.is_empty() {
+        points.rotate_right(1);
+    }
+    mark_smooth(&mut points);
+    Contour::new(points, None)
+}
+
+/// Marks the points through which the curve runs without a corner, where a curve is on either side.
+fn mark_smooth(points: &mut [ContourPoint]) {
+    let n = points.len();
+    let at = |i: usize| {
+        points
+            .get(i % n)
+            .map(|p| (Vec2::new(p.x, p.y), p.typ == PointType::OffCurve))
+    };
+    let smooth: Vec<bool> = (0..n)
+        .map(|i| {
+            let (Some((before, b)), Some((here, off)), Some((after, a))) =
+                (at(i + n - 1), at(i), at(i + 1))
+            else {
+                return false;
+            };
+            let (into, out) = (here - before, after - here);
+            let turn = into.cross(out).atan2(into.dot(out)).abs();
+            !off && (a || b) && into.hypot() > 0.0 && out.hypot() > 0.0 && turn < SMOOTH
+        })
+        .collect();
+    for (point, smooth) in points.iter_mut().zip(smooth) {
+        point.smooth = smooth;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn dates() {
+        for (seconds, text) in [
+            (0, "1970/01/01 00:00:00"),
+            (951_782_399, "2000/02/28 23:59:59"),
+            (951_782_400, "2000/02/29 00:00:00"),
+            (4_107_542_400, "2100/03/01 00:00:00"),
+            (-1, "1969/12/31 23:59:59"),
+        ] {
+            assert_eq!(date(seconds), text);
+        }
+    }
+
+    #[test]
+    fn a_contour_goes_there_and_back() {
+        for svg in [
+            "M0 0L10 0L10 10Z",
+            "M0 0C0 5 5 10 10 10C15 10 20 5 20 0Z",
+            "M0 0L20 0C20 5 15 10 10 10C5 10 0 5 0 0Z",
+        ] {
+            let path = BezPath::from_svg(svg).unwrap();
+            let ours = contour(&path);
+            let back = ours.to_kurbo().unwrap();
+            assert!(
+                (kurbo::Shape::area(&back) - kurbo::Shape::area(&path)).abs() < 1e-9,
+                "{svg}"
+            );
+            assert!(ours.is_closed(), "{svg}");
+            assert_eq!((ours.points[0].x, ours.points[0].y), (0.0, 0.0), "{svg}");
+        }
+        let round = contour(&BezPath::from_svg("M0 0C0 5 5 10 10 10C15 10 20 5 20 0Z").unwrap());
+        assert_eq!(
+            round.points.iter().map(|p| p.smooth).collect::<Vec<_>>(),
+            [false, false, false, true, false, false, false]
+        );
+    }
+}

@@ -1,0 +1,376 @@
+//! Written fonts, read back by two independent readers and set by a shaper.
+
+use harfrust::{ShapeOptions, ShaperData, UnicodeBuffer};
+use khatt::assemble::{self, Drawn};
+use khatt::quadratic::Method;
+use khatt::types::{Files, Font, Info, Label, Outline};
+use khatt::write::{self, Curves};
+use kurbo::{BezPath, Circle, Ellipse, Point, Rect, Shape};
+use skrifa::outline::{DrawSettings, OutlinePen};
+use skrifa::prelude::{LocationRef, Size};
+use skrifa::{FontRef, GlyphId, MetadataProvider};
+
+/// Letters of the test font: text, and the forms that Arabic needs.
+const LABELS: &[&str] = &[
+    "A",
+    "o",
+    "g",
+    "n",
+    "space",
+    "é",
+    "f",
+    "i",
+    "f_i",
+    "alef-ar",
+    "alef-ar.fina",
+    "beh-ar",
+    "beh-ar.init",
+    "beh-ar.medi",
+    "beh-ar.fina",
+    "seen-ar",
+    "seen-ar.init",
+    "seen-ar.medi",
+    "seen-ar.fina",
+    "meem-ar",
+    "meem-ar.init",
+    "meem-ar.medi",
+    "meem-ar.fina",
+    "lam-ar",
+    "lam-ar.init",
+    "lam-ar.medi",
+    "lam-ar.fina",
+    "heh-ar",
+    "heh-ar.init",
+    "heh-ar.medi",
+    "heh-ar.fina",
+    "lam_alef-ar",
+    "lam_alef-ar.fina",
+    "u1F600",
+];
+
+/// A shape of lines, cubics and a hole, different for every glyph.
+fn shape(seed: u32) -> Outline {
+    let k = f64::from(seed);
+    let mut ring = Ellipse::new((300.0, 250.0), (180.0 + 3.0 * k, 150.0 + k), 0.1 * k).to_path(0.1);
+    let hole = Circle::new((300.0, 250.0), 60.0)
+        .to_path(0.1)
+        .reverse_subpaths();
+    ring.close_path();
+    let foot = Rect::new(120.0, -40.0 - k, 520.0, 20.5).to_path(0.1);
+    Outline::new(vec![ring, hole, foot]).expect("closed contours")
+}
+
+fn font() -> Font {
+    let drawn = (0..).zip(LABELS).map(|(i, label)| Drawn {
+        label: Label((*label).to_owned()),
+        outline: shape(i),
+        advance: None,
+    });
+    let info = Info {
+        family: "Khatt Test".to_owned(),
+        ..Info::default()
+    };
+    let built = assemble::font(drawn.collect(), info, &assemble::Options::default());
+    let built = built.expect("a font of these letters");
+    assert!(built.notes.is_empty(), "{:?}", built.notes);
+    built.font
+}
+
+/// The files of a format, with the curves that it asks for.
+fn files(font: &Font, name: &str) -> Files {
+    let format = write::format(name).expect("a known format");
+    let font = match format.curves {
+        Curves::Cubic => font.clone(),
+        Curves::Quadratic => font
+            .try_map_outlines(|g| Method::default().convert(&g.outline, 0.5))
+            .expect("quadratics"),
+    };
+    (format.write)(&font).expect("a written font")
+}
+
+fn single(font: &Font, name: &str) -> Vec<u8> {
+    files(font, name).0.remove("").expect("one file")
+}
+
+#[derive(Default)]
+struct Pen(BezPath);
+
+impl OutlinePen for Pen {
+    fn move_to(&mut self, x: f32, y: f32) {
+        self.0.move_to((f64::from(x), f64::from(y)));
+    }
+    fn line_to(&mut self, x: f32, y: f32) {
+        self.0.line_to((f64::from(x), f64::from(y)));
+    }
+    fn quad_to(&mut self, cx: f32, cy: f32, x: f32, y: f32) {
+        let (cx, cy, x, y) = (f64::from(cx), f64::from(cy), f64::from(x), f64::from(y));
+        self.0.quad_to((cx, cy), (x, y));
+    }
+    fn curve_to(&mut self, ax: f32, ay: f32, bx: f32, by: f32, x: f32, y: f32) {
+        let p = |x: f32, y: f32| Point::new(f64::from(x), f64::from(y));
+        self.0.curve_to(p(ax, ay), p(bx, by), p(x, y));
+    }
+    fn close(&mut self) {
+        self.0.close_path();
+    }
+}
+
+/// A glyph's outline as skrifa reads it; of CFF numbers it keeps whole units only.
+fn skrifa_outline(font: &FontRef<'_>, id: u32) -> BezPath {
+    let mut pen = Pen::default();
+    if let Some(glyph) = font.outline_glyphs().get(GlyphId::new(id)) {
+        let settings = DrawSettings::unhinted(Size::unscaled(), LocationRef::default());
+        glyph.draw(settings, &mut pen).expect("a readable outline");
+    }
+    pen.0
+}
+
+struct TtfPen(BezPath);
+
+impl ttf_parser::OutlineBuilder for TtfPen {
+    fn move_to(&mut self, x: f32, y: f32) {
+        self.0.move_to((f64::from(x), f64::from(y)));
+    }
+    fn line_to(&mut self, x: f32, y: f32) {
+        self.0.line_to((f64::from(x), f64::from(y)));
+    }
+    fn quad_to(&mut self, cx: f32, cy: f32, x: f32, y: f32) {
+        self.0
+            .quad_to((f64::from(cx), f64::from(cy)), (f64::from(x), f64::from(y)));
+    }
+    fn curve_to(&mut self, ax: f32, ay: f32, bx: f32, by: f32, x: f32, y: f32) {
+        let p = |x: f32, y: f32| Point::new(f64::from(x), f64::from(y));
+        self.0.curve_to(p(ax, ay), p(bx, by), p(x, y));
+    }
+    fn close(&mut self) {
+        self.0.close_path();
+    }
+}
+
+/// A glyph's outline as ttf-parser reads it.
+fn ttf_parser_outline(face: &ttf_parser::Face<'_>, id: u16) -> BezPath {
+    let mut pen = TtfPen(BezPath::new());
+    // an empty glyph has no box, which is no failure
+    let _ = face.outline_glyph(ttf_parser::GlyphId(id), &mut pen);
+    pen.0
+}
+
+#[test]
+fn both_readers_find_what_was_written() {
+    let font = font();
+    for format in ["ttf", "otf"] {
+        let bytes = single(&font, format);
+        let first = FontRef::new(&bytes).expect("skrifa reads it");
+        let second = ttf_parser::Face::parse(&bytes, 0).expect("ttf-parser reads it");
+        assert_eq!(usize::from(second.number_of_glyphs()), font.glyphs().len());
+        for (id, glyph) in (0_u16..).zip(font.glyphs()) {
+            let wanted = font.shape(glyph).to_path();
+            for read in [
+                skrifa_outline(&first, u32::from(id)),
+                ttf_parser_outline(&second, id),
+            ] {
+                // TrueType runs the other way round, and rounds to whole units
+                let area = read.area() * if format == "ttf" { -1.0 } else { 1.0 };
+                let perimeter = wanted.perimeter(0.1);
+                assert!(
+                    (area - wanted.area()).abs() <= perimeter,
+                    "{format} {}",
+                    glyph.name
+                );
+                let (a, b) = (read.bounding_box(), wanted.bounding_box());
+                let off = (a.x0 - b.x0)
+                    .abs()
+                    .max((a.y1 - b.y1).abs())
+                    .max((a.x1 - b.x1).abs());
+                assert!(off <= 1.5, "{format} {}: {a:?} {b:?}", glyph.name);
+            }
+            let advance = second.glyph_hor_advance(ttf_parser::GlyphId(id));
+            assert_eq!(
+                advance.map(f64::from),
+                Some(glyph.advance),
+                "{format} {}",
+                glyph.name
+            );
+            for &c in &glyph.codepoints {
+                let (a, b) = (first.charmap().map(c), second.glyph_index(c));
+                assert_eq!(
+                    a,
+                    Some(GlyphId::new(u32::from(id))),
+                    "{format} U+{:04X}",
+                    u32::from(c)
+                );
+                assert_eq!(
+                    b,
+                    Some(ttf_parser::GlyphId(id)),
+                    "{format} U+{:04X}",
+                    u32::from(c)
+                );
+            }
+            assert_eq!(
+                second.glyph_name(ttf_parser::GlyphId(id)),
+                Some(glyph.name.as_str())
+            );
+        }
+    }
+}
+
+#[test]
+fn left_bearings_are_the_left_edges() {
+    let font = font();
+    for format in ["ttf", "otf"] {
+        let bytes = single(&font, format);
+        let face = ttf_parser::Face::parse(&bytes, 0).expect("ttf-parser reads it");
+        for id in 0..face.number_of_glyphs() {
+            let bearing = face.glyph_hor_side_bearing(ttf_parser::GlyphId(id));
+            let edge = match format {
+                // glyf says its own edge: that of the points
+                "ttf" => face
+                    .glyph_bounding_box(ttf_parser::GlyphId(id))
+                    .map_or(0.0, |b| f64::from(b.x_min)),
+                _ => Some(ttf_parser_outline(&face, id))
+                    .filter(|path| !path.elements().is_empty())
+                    .map_or(0.0, |path| path.bounding_box().x0),
+            };
+            let bearing = f64::from(bearing.expect("a bearing"));
+            assert!(
+                (-0.02..1.02).contains(&(edge - bearing)),
+                "{format} {id}: {bearing}, {edge}"
+            );
+        }
+    }
+}
+
+/// Glyph names of a text as a shaper sets it, in visual order.
+pub(crate) fn set(font: &Font, bytes: &[u8], text: &str) -> Vec<String> {
+    let face = FontRef::new(bytes).expect("a font");
+    let data = ShaperData::new(&face);
+    let shaper = data.shaper(&face).build();
+    let mut buffer = UnicodeBuffer::new();
+    buffer.push_str(text);
+    buffer.guess_segment_properties();
+    let shaped = shaper.shape(buffer, ShapeOptions::default());
+    let name = |id: u32| {
+        let at = usize::try_from(id).unwrap_or(usize::MAX);
+        font.glyphs()
+            .get(at)
+            .map_or_else(String::new, |g| g.name.to_string())
+    };
+    shaped
+        .glyph_infos()
+        .iter()
+        .map(|i| name(i.glyph_id))
+        .collect()
+}
+
+#[test]
+fn arabic_joins() {
+    let font = font();
+    for format in ["ttf", "otf"] {
+        let bytes = single(&font, format);
+        let names = |text| set(&font, &bytes, text);
+        assert_eq!(
+            names("بسم"),
+            ["meem-ar.fina", "seen-ar.medi", "beh-ar.init"],
+            "{format}"
+        );
+        assert_eq!(names("لا"), ["lam_alef-ar"], "{format}");
+        assert_eq!(names("بلا"), ["lam_alef-ar.fina", "beh-ar.init"], "{format}");
+        assert_eq!(
+            names("اب ب"),
+            ["beh-ar", "space", "beh-ar", "alef-ar"],
+            "{format}"
+        );
+        assert_eq!(names("fi"), ["f_i"], "{format}");
+    }
+}
+
+#[test]
+fn the_same_font_gives_the_same_bytes() {
+    for format in write::FORMATS {
+        let (a, b) = (files(&font(), format.name), files(&font(), format.name));
+        assert!(!a.0.is_empty() && a == b, "{}", format.name);
+    }
+}
+
+#[test]
+fn woff2_holds_the_same_font() {
+    let font = font();
+    let (ttf, woff2) = (single(&font, "ttf"), single(&font, "woff2"));
+    assert!(woff2.len() < ttf.len(), "{} of {}", woff2.len(), ttf.len());
+    let back = wuff::decompress_woff2(&woff2).expect("a WOFF2 file");
+    let (a, b) = (
+        FontRef::new(&ttf).expect("a font"),
+        FontRef::new(&back).expect("a font"),
+    );
+    for id in 0..u32::try_from(font.glyphs().len()).expect("few glyphs") {
+        assert_eq!(skrifa_outline(&a, id), skrifa_outline(&b, id), "glyph {id}");
+    }
+}
+
+#[test]
+fn ufo_opens_with_everything_in_it() {
+    let font = font();
+    let files = files(&font, "ufo");
+    let dir = tempfile::tempdir().expect("a folder");
+    for (path, bytes) in &files.0 {
+        let path = dir.path().join("test.ufo").join(path);
+        std::fs::create_dir_all(path.parent().expect("a parent")).expect("a folder");
+        std::io::Write::write_all(&mut std::fs::File::create(path).expect("a file"), bytes)
+            .expect("written");
+    }
+    let ufo = norad::Font::load(dir.path().join("test.ufo")).expect("norad opens it");
+    assert_eq!(ufo.glyph_count(), font.glyphs().len());
+    assert_eq!(ufo.features, font.features);
+    for glyph in font.glyphs() {
+        let read = ufo.get_glyph(glyph.name.as_str()).expect("every glyph");
+        assert!((read.width - glyph.advance).abs() < 1e-9, "{}", glyph.name);
+        let area: f64 = read
+            .contours
+            .iter()
+            .map(|c| c.to_kurbo().expect("a contour").area())
+            .sum();
+        assert!(
+            (area - glyph.outline.to_path().area()).abs() < 1e-3,
+            "{}",
+            glyph.name
+        );
+    }
+}
+
+#[test]
+fn cubics_are_refused_where_there_are_none() {
+    let ttf = write::format("ttf").expect("a known format");
+    let error = (ttf.write)(&font()).expect_err("cubics");
+    assert!(error.to_string().contains("convert them first"), "{error}");
+}
+
+#[test]
+fn a_shape_beyond_the_format_is_an_error() {
+    let far = Rect::new(0.0, 0.0, 40_000.0, 10.0).to_path(0.1);
+    let drawn = vec![Drawn {
+        label: Label("A".to_owned()),
+        outline: Outline::new(vec![far]).expect("closed"),
+        advance: None,
+    }];
+    let font = assemble::font(drawn, Info::default(), &assemble::Options::default())
+        .expect("a font")
+        .font;
+    for format in ["ttf", "otf"] {
+        let format = write::format(format).expect("a known format");
+        let error = (format.write)(&font).expect_err("too wide");
+        assert!(
+            error.to_string().contains("a coordinate of A is 80100"),
+            "{error}"
+        );
+    }
+}
+
+#[test]
+fn a_feature_that_does_not_compile_names_its_line() {
+    let mut font = font();
+    font.features =
+        "languagesystem DFLT dflt;\nfeature liga {\n    sub A by nothing;\n} liga;\n".to_owned();
+    let otf = write::format("otf").expect("a known format");
+    let error = (otf.write)(&font).expect_err("no such glyph").to_string();
+    assert!(error.contains("nothing") && error.contains("3"), "{error}");
+}
