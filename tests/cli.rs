@@ -61,7 +61,7 @@ fn disc(x: u32, y: u32) -> u8 {
 #[test]
 fn help_is_approved() {
     let here = Path::new(env!("CARGO_MANIFEST_DIR"));
-    for command in ["", "trace", "methods"] {
+    for command in ["", "build", "trace", "cut", "proof", "methods", "init"] {
         let args: Vec<&str> = [command, "--help"]
             .into_iter()
             .filter(|a| !a.is_empty())

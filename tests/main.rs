@@ -8,4 +8,5 @@ mod fonts;
 mod layers;
 mod papers;
 mod published;
+mod sheets;
 mod template;

@@ -9,23 +9,36 @@ pub(crate) struct Failure(Vec<Complaint>);
 
 /// One error.
 #[derive(Debug)]
-pub(crate) struct Complaint {
-    what: String,
-    help: Option<String>,
+pub(crate) enum Complaint {
+    /// What is wrong and what to do.
+    Said { what: String, help: Option<String> },
+    /// A message that shows the place itself.
+    Drawn(String),
 }
 
 impl Complaint {
     pub(crate) fn new(what: impl Into<String>, help: Option<String>) -> Self {
-        Self {
-            what: what.into(),
-            help,
-        }
+        let what = what.into();
+        Self::Said { what, help }
     }
 }
 
 impl Failure {
     pub(crate) fn new(what: impl Into<String>) -> Self {
         Self(vec![Complaint::new(what, None)])
+    }
+
+    /// A message that shows the place itself.
+    pub(crate) fn drawn(text: String) -> Self {
+        Self(vec![Complaint::Drawn(text)])
+    }
+
+    /// With a remedy.
+    pub(crate) fn help(mut self, remedy: impl Into<String>) -> Self {
+        if let Some(Complaint::Said { help, .. }) = self.0.last_mut() {
+            *help = Some(remedy.into());
+        }
+        self
     }
 
     /// `place` and the error with all its causes.
@@ -43,9 +56,14 @@ impl FromIterator<Complaint> for Failure {
 impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for complaint in &self.0 {
-            writeln!(f, "error: {}", complaint.what)?;
-            if let Some(help) = &complaint.help {
-                writeln!(f, "  help: {help}")?;
+            match complaint {
+                Complaint::Said { what, help } => {
+                    writeln!(f, "error: {what}")?;
+                    if let Some(help) = help {
+                        writeln!(f, "  help: {help}")?;
+                    }
+                }
+                Complaint::Drawn(text) => writeln!(f, "error:{}", text.trim_end())?,
             }
         }
         Ok(())

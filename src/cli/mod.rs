@@ -7,9 +7,15 @@
     reason = "the program is where the outside world enters"
 )]
 
+mod build;
+mod cut;
 mod failure;
 mod files;
+mod init;
 mod methods;
+mod progress;
+mod project;
+mod proof;
 mod staged;
 mod trace;
 
@@ -45,8 +51,12 @@ struct Common {
 
 #[derive(Debug, Subcommand)]
 enum Command {
+    Build(build::Build),
+    Cut(cut::Cut),
+    Proof(proof::Proof),
     Trace(trace::Trace),
     Methods(methods::Methods),
+    Init(init::Init),
 }
 
 /// Reads the arguments, does the work, says how it ended.
@@ -69,7 +79,11 @@ pub(crate) fn main() -> ExitCode {
 
 fn run(args: &Khatt) -> Outcome {
     match &args.command {
+        Command::Build(build) => build.run(&args.common),
+        Command::Cut(cut) => cut.run(&args.common),
+        Command::Proof(proof) => proof.run(&args.common),
         Command::Trace(trace) => trace.run(),
         Command::Methods(methods) => methods.run(),
+        Command::Init(init) => init.run(),
     }
 }

@@ -1,3 +1,18 @@
 //! The order of the stages: a page to cells, cells to outlines, outlines to a font.
 
+mod build;
+mod labels;
+mod letter;
+mod outputs;
+mod page;
 pub mod picture;
+mod problem;
+pub mod project;
+mod watch;
+
+pub use build::{Built, World, build, pages};
+pub use letter::Letter;
+pub use outputs::{outputs, proof};
+pub use problem::{Place, Problem};
+pub use project::{Project, ProjectError};
+pub use watch::{Stage, Unwatched, Watch};

@@ -9,6 +9,7 @@ mod names;
 mod numbers;
 mod os2;
 mod otf;
+pub mod proof;
 mod sfnt;
 mod svg;
 mod ttf;

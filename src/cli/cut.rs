@@ -1,0 +1,110 @@
+//! `khatt cut`: the cells of a project's pages as pictures, and where they come from.
+
+use super::project::Opened;
+use super::staged::Staged;
+use super::{Common, Outcome};
+use clap::Args;
+use image::{GrayImage, ImageFormat};
+use khatt::pipeline;
+use khatt::scan;
+use khatt::types::{Cell, Files, Gray};
+use kurbo::Rect;
+use serde_json::{Value, json};
+use std::io::Cursor;
+use std::path::PathBuf;
+
+/// Writes the cells of the project's pages as pictures, with a list of them in cells.json
+#[derive(Debug, Args)]
+pub(crate) struct Cut {
+    /// Project file
+    #[arg(value_name = "PROJECT.toml")]
+    project: PathBuf,
+    /// Folder for the pictures
+    #[arg(short, long, value_name = "DIR")]
+    output: PathBuf,
+}
+
+impl Cut {
+    pub(crate) fn run(&self, common: &Common) -> Outcome {
+        let opened = Opened::new(&self.project)?;
+        let (pages, ..) = opened.work(common, |project, world| {
+            pipeline::pages(project, world, |sheet, cut| Ok(page(sheet, &cut)))
+        })?;
+        let (mut files, mut list) = (Files::default(), Vec::new());
+        for (pictures, entry) in pages {
+            files.0.extend(pictures);
+            list.push(entry);
+        }
+        let text = format!("{:#}\n", Value::Array(list));
+        files.0.insert("cells.json".to_owned(), text.into_bytes());
+        let mut staged = Staged::default();
+        staged.add(&self.output, &files)?;
+        staged.commit()
+    }
+}
+
+/// The pictures of a page's cells and its entry in the list.
+fn page((number, sheet): (usize, &str), cut: &scan::Cut) -> (Vec<(String, Vec<u8>)>, Value) {
+    let name = |c: &Cell| format!("{:02}-{:03}.png", number + 1, c.index + 1);
+    let pictures = cut.cells.iter().map(|c| (name(c), png(&c.gray)));
+    let cells = cut.cells.iter().map(|c| {
+        json!({
+            "cell": c.index + 1,
+            "label": c.label.0,
+            "picture": name(c),
+            "box_px": corners(c.in_sheet),
+            "to_sheet": c.to_sheet.as_coeffs(),
+            "baseline_px": c.guides.baseline_px,
+            "pixels_per_em": c.guides.px_per_em,
+        })
+    });
+    let removed = cut.rejected.iter().map(|r| {
+        json!({
+            "box_px": corners(r.in_sheet),
+            "area_px": r.area_px,
+            "reason": format!("{:?}", r.reason).to_lowercase(),
+        })
+    });
+    let warnings = cut.warnings.iter().map(|w| {
+        json!({
+            "cell": w.index.map(|i| i + 1),
+            "message": w.message,
+        })
+    });
+    let entry = json!({
+        "sheet": sheet,
+        "skew_deg": cut.skew_deg,
+        "to_upright": cut.upright.as_coeffs(),
+        "cells": cells.collect::<Vec<_>>(),
+        "removed": removed.collect::<Vec<_>>(),
+        "specks": cut.specks,
+        "warnings": warnings.collect::<Vec<_>>(),
+    });
+    (pictures.collect(), entry)
+}
+
+/// Left, top, right and bottom.
+fn corners(r: Rect) -> [f64; 4] {
+    [r.x0, r.y0, r.x1, r.y1]
+}
+
+/// Dark ink on white paper, 8 bit.
+fn png(gray: &Gray) -> Vec<u8> {
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "0…255 by the clamp"
+    )]
+    let level = |v: &f32| (255.0 * (1.0 - v.clamp(0.0, 1.0))).round() as u8;
+    let bytes = gray.samples().iter().map(level).collect();
+    let size = u32::try_from(gray.width())
+        .ok()
+        .zip(u32::try_from(gray.height()).ok());
+    let picture = size
+        .and_then(|(w, h)| GrayImage::from_raw(w, h, bytes))
+        .unwrap_or_default();
+    let mut out = Cursor::new(Vec::new());
+    let written = picture.write_to(&mut out, ImageFormat::Png);
+    debug_assert!(written.is_ok(), "memory takes everything");
+    out.into_inner()
+}

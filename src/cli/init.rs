@@ -1,0 +1,34 @@
+//! `khatt init`: a project to start from.
+
+use super::failure::Failure;
+use super::{Outcome, files};
+use clap::Args;
+use std::path::PathBuf;
+
+/// The project that a new folder starts with.
+const PROJECT: &str = include_str!("init.toml");
+
+/// Starts a project: a folder with a project file that explains itself
+#[derive(Debug, Args)]
+pub(crate) struct Init {
+    /// Folder to start in; it is made where it does not exist
+    #[arg(value_name = "DIR")]
+    folder: PathBuf,
+}
+
+impl Init {
+    pub(crate) fn run(&self) -> Outcome {
+        let path = self.folder.join("font.toml");
+        if path.exists() {
+            let what = format!("{} exists already and stays as it is", path.display());
+            return Err(Failure::new(what).help("give another folder, or delete the file first"));
+        }
+        files::write(&path, PROJECT.as_bytes())?;
+        println!(
+            "{} is ready; put page.png beside it and run",
+            path.display()
+        );
+        println!("    khatt build {}", path.display());
+        Ok(())
+    }
+}

@@ -1,0 +1,136 @@
+//! The project file and what lies beside it.
+
+use super::failure::{Complaint, Failure, chain};
+use super::progress::{Progress, Times};
+use super::staged::parent;
+use super::{Common, files};
+use khatt::pipeline::{Problem, Project, ProjectError, World};
+use miette::{
+    Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, NamedSource, SourceCode,
+};
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+use std::{env, fmt, fs};
+
+/// A project and the folder that its paths start from.
+#[derive(Debug)]
+pub(crate) struct Opened {
+    project: Project,
+    folder: PathBuf,
+}
+
+impl Opened {
+    /// Reads a project file.
+    pub(crate) fn new(path: &Path) -> Result<Self, Failure> {
+        let name = files::name(path);
+        let bytes = files::read(path)?;
+        let text = String::from_utf8(bytes).map_err(|e| Failure::at(&name, &e))?;
+        let project = Project::parse(&text).map_err(|e| Failure::drawn(draw(&name, text, e)))?;
+        Ok(Self {
+            project,
+            folder: parent(path).to_owned(),
+        })
+    }
+
+    /// Does `work` with the project, watched by a progress bar.
+    pub(crate) fn work<T>(
+        &self,
+        common: &Common,
+        work: impl FnOnce(&Project, World<'_>) -> Result<T, Vec<Problem>>,
+    ) -> Result<(T, Duration, Times), Failure> {
+        let progress = Progress::new(common);
+        let read = |path: &Path| self.read(path);
+        let world = World {
+            read: &read,
+            watch: &progress,
+            created: created()?,
+        };
+        let done = work(&self.project, world);
+        let (total, times) = progress.finish();
+        done.map(|value| (value, total, times)).map_err(failure)
+    }
+
+    /// A file that the project names, or why there is none.
+    fn read(&self, path: &Path) -> Result<Vec<u8>, String> {
+        fs::read(self.path(path)).map_err(|e| e.to_string())
+    }
+
+    /// Where a path of the project file lies.
+    pub(crate) fn path(&self, path: &Path) -> PathBuf {
+        if self.folder == Path::new(".") {
+            path.to_owned()
+        } else {
+            self.folder.join(path)
+        }
+    }
+}
+
+/// The date that reproducible builds ask for, or the day on which dates begin.
+///
+/// [SOURCE_DATE_EPOCH](https://reproducible-builds.org/specs/source-date-epoch/) counts seconds.
+fn created() -> Result<i64, Failure> {
+    #[expect(
+        clippy::disallowed_methods,
+        reason = "the program alone reads the environment"
+    )]
+    let text = env::var_os("SOURCE_DATE_EPOCH");
+    let Some(text) = text else { return Ok(0) };
+    let text = text.to_string_lossy();
+    text.parse().map_err(|_| {
+        let what = format!("SOURCE_DATE_EPOCH is “{text}”");
+        Failure::new(what).help("give whole seconds since 1970-01-01, or unset it")
+    })
+}
+
+/// Every problem of a run with its remedy.
+fn failure(problems: Vec<Problem>) -> Failure {
+    let complaint = |p: &Problem| Complaint::new(chain(p), p.help().map(str::to_owned));
+    problems.iter().map(complaint).collect()
+}
+
+/// A project error over the lines it is about.
+#[derive(Debug)]
+struct Shown {
+    error: ProjectError,
+    text: NamedSource<String>,
+}
+
+impl fmt::Display for Shown {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let message = self.error.message.lines().next().unwrap_or_default();
+        write!(f, "{}: {message}", self.text.name())
+    }
+}
+
+impl std::error::Error for Shown {}
+
+impl Diagnostic for Shown {
+    fn help(&self) -> Option<Box<dyn fmt::Display + '_>> {
+        let help = self.error.help.as_ref()?;
+        Some(Box::new(help))
+    }
+
+    fn source_code(&self) -> Option<&dyn SourceCode> {
+        self.error.span.is_some().then_some(&self.text as _)
+    }
+
+    fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
+        let span = self.error.span.clone()?;
+        let label = LabeledSpan::new_with_span(Some("here".to_owned()), span);
+        Some(Box::new(std::iter::once(label)))
+    }
+}
+
+/// The message with file, line, column and the line itself.
+fn draw(name: &str, text: String, error: ProjectError) -> String {
+    let shown = Shown {
+        error,
+        text: NamedSource::new(name, text),
+    };
+    let handler = GraphicalReportHandler::new_themed(GraphicalTheme::unicode_nocolor());
+    let mut out = String::new();
+    match handler.with_width(100).render_report(&mut out, &shown) {
+        Ok(()) => out,
+        Err(fmt::Error) => format!("{shown}\n"),
+    }
+}

@@ -1,0 +1,138 @@
+//! A project → a font: the whole way.
+
+use super::labels;
+use super::letter::Letter;
+use super::page;
+use super::problem::Problem;
+use super::project::Project;
+use super::watch::{Stage, Watch};
+use crate::assemble::{self, Drawn, Note};
+use crate::scan::Cut;
+use crate::types::{Cell, Font};
+use rayon::prelude::*;
+use std::fmt;
+use std::path::Path;
+
+/// What a run needs of the world outside.
+#[derive(Clone, Copy)]
+pub struct World<'a> {
+    /// Gives a file that the project names, or says why not.
+    pub read: &'a (dyn Fn(&Path) -> Result<Vec<u8>, String> + Sync),
+    /// Is told what is done.
+    pub watch: &'a dyn Watch,
+    /// Seconds since 1970 that the font gives as its date.
+    pub created: i64,
+}
+
+impl World<'_> {
+    /// The content of a file that the project names.
+    pub(super) fn file(&self, path: &Path) -> Result<Vec<u8>, Problem> {
+        (self.read)(path).map_err(|why| Problem::File {
+            file: path.display().to_string(),
+            why,
+        })
+    }
+}
+
+impl fmt::Debug for World<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("World")
+            .field("created", &self.created)
+            .finish_non_exhaustive()
+    }
+}
+
+/// A font and the letters that it was made of.
+#[derive(Debug, Clone)]
+pub struct Built {
+    /// Cubic outlines, font units.
+    pub font: Font,
+    /// The cells' letters in reading order.
+    pub letters: Vec<Letter>,
+    /// What could not be met.
+    pub notes: Vec<Note>,
+}
+
+/// Builds a font.
+///
+/// # Errors
+/// Everything that is wrong with the project, its pages and their cells.
+pub fn build(project: &Project, world: World<'_>) -> Result<Built, Vec<Problem>> {
+    let letters = letters(project, world)?;
+    let _time = world.watch.enter(Stage::Assemble);
+    let drawn: Vec<Result<Drawn, Problem>> = letters
+        .iter()
+        .map(|letter| letter.place(project.font.units_per_em))
+        .collect();
+    let drawn = all(drawn)?;
+    let info = project.font.info(world.created);
+    let assembled = assemble::font(drawn, info, &project.spacing).map_err(|e| vec![e.into()])?;
+    Ok(Built {
+        font: assembled.font,
+        letters,
+        notes: assembled.notes,
+    })
+}
+
+/// The letters of all pages in reading order.
+///
+/// # Errors
+/// Everything that is wrong with the project, its pages and their cells.
+fn letters(project: &Project, world: World<'_>) -> Result<Vec<Letter>, Vec<Problem>> {
+    let pages = pages(project, world, |(_, sheet), cut| {
+        let cells = cut.cells;
+        world.watch.expect(cells.len());
+        let letter = |cell: Cell| {
+            let letter = Letter::new(sheet, cell, &project.trace, world.watch);
+            world.watch.done();
+            letter
+        };
+        // the one place where work is shared out
+        all(cells.into_par_iter().map(letter).collect())
+    });
+    Ok(pages?.into_iter().flatten().collect())
+}
+
+/// What `work` makes of each page, given its number from 0 and its name, one after the other: only one is in memory.
+///
+/// # Errors
+/// Everything that is wrong with the project, its pages and what `work` says of them.
+pub fn pages<T>(
+    project: &Project,
+    world: World<'_>,
+    work: impl Fn((usize, &str), Cut) -> Result<T, Vec<Problem>>,
+) -> Result<Vec<T>, Vec<Problem>> {
+    let named = labels::of(project, world)?;
+    let sheets = project.sheets.iter().zip(&named);
+    let done = sheets.enumerate().map(|(number, (sheet, labels))| {
+        let cut = page::cut(sheet, labels, project.font.units_per_em, world)?;
+        work((number, &sheet.name()), cut)
+    });
+    all_lists(done.collect())
+}
+
+/// All values, or all problems.
+pub(super) fn all<T>(results: Vec<Result<T, Problem>>) -> Result<Vec<T>, Vec<Problem>> {
+    all_lists(
+        results
+            .into_iter()
+            .map(|r| r.map_err(|p| vec![p]))
+            .collect(),
+    )
+}
+
+/// All values, or all problems.
+fn all_lists<T>(results: Vec<Result<T, Vec<Problem>>>) -> Result<Vec<T>, Vec<Problem>> {
+    let (mut values, mut problems) = (Vec::with_capacity(results.len()), Vec::new());
+    for result in results {
+        match result {
+            Ok(value) => values.push(value),
+            Err(more) => problems.extend(more),
+        }
+    }
+    if problems.is_empty() {
+        Ok(values)
+    } else {
+        Err(problems)
+    }
+}

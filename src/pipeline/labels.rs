@@ -1,0 +1,110 @@
+//! The text of a project's `glyphs` → a label for each cell, checked before any page is read.
+
+use super::build::{World, all};
+use super::problem::{Place, Problem};
+use super::project::{Labels, Project, SheetTable};
+use crate::assemble::names;
+use crate::types::{Label, Name};
+use std::collections::BTreeMap;
+
+/// The word that skips a cell.
+const SKIP: &str = "_";
+
+/// The labels of a page in reading order.
+fn labels(text: &str) -> Vec<Label> {
+    let words = text.split_whitespace();
+    words.map(|word| Label(word.to_owned())).collect()
+}
+
+/// Whether the label's cell is skipped.
+pub(super) fn skips(label: &Label) -> bool {
+    label.0 == SKIP
+}
+
+/// The labels of every page of a project, all of them known and none of them twice.
+pub(super) fn of(project: &Project, world: World<'_>) -> Result<Vec<Vec<Label>>, Vec<Problem>> {
+    let sheets = &project.sheets;
+    let pages = all(sheets.iter().map(|s| of_sheet(s, world)).collect())?;
+    let names: Vec<String> = sheets.iter().map(SheetTable::name).collect();
+    let named = names.iter().map(String::as_str);
+    let problems = check(named.zip(pages.iter().map(Vec::as_slice)));
+    if problems.is_empty() {
+        Ok(pages)
+    } else {
+        Err(problems)
+    }
+}
+
+fn of_sheet(sheet: &SheetTable, world: World<'_>) -> Result<Vec<Label>, Problem> {
+    match &sheet.glyphs {
+        Labels::Text(text) => Ok(labels(text)),
+        Labels::File { file } => Ok(labels(&String::from_utf8_lossy(&world.file(file)?))),
+    }
+}
+
+/// What is wrong with the labels of all pages: names that no list has, names that stand twice.
+pub(super) fn check<'a>(sheets: impl Iterator<Item = (&'a str, &'a [Label])>) -> Vec<Problem> {
+    let mut seen: BTreeMap<Name, Place> = BTreeMap::new();
+    let mut problems = Vec::new();
+    for (sheet, labels) in sheets {
+        for (index, label) in labels.iter().enumerate() {
+            if skips(label) {
+                continue;
+            }
+            let place = Place {
+                sheet: sheet.to_owned(),
+                index,
+                label: Some(label.0.clone()),
+            };
+            match names::identify(label) {
+                Err(source) => problems.push(Problem::Label {
+                    place,
+                    source: Box::new(source),
+                }),
+                Ok(id) => match seen.get(&id.name) {
+                    Some(first) => problems.push(Problem::Twice {
+                        first: Box::new(first.clone()),
+                        second: place,
+                    }),
+                    None => {
+                        seen.insert(id.name, place);
+                    }
+                },
+            }
+        }
+    }
+    problems
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_are_labels_and_a_lone_underscore_skips() {
+        let read = labels(" A _\n beh-ar.init underscore\t_ ");
+        let names: Vec<_> = read.iter().map(|l| (l.0.as_str(), skips(l))).collect();
+        let want = [
+            ("A", false),
+            ("_", true),
+            ("beh-ar.init", false),
+            ("underscore", false),
+            ("_", true),
+        ];
+        assert_eq!(names, want);
+    }
+
+    #[test]
+    fn every_wrong_name_is_told_with_its_cell() {
+        let (a, b) = (labels("A qqqqqqqq B"), labels("C A"));
+        let problems = check([("a.png", a.as_slice()), ("b.png", b.as_slice())].into_iter());
+        let text: Vec<String> = problems.iter().map(ToString::to_string).collect();
+        assert_eq!(
+            text,
+            [
+                "a.png, cell 2 “qqqqqqqq”: “qqqqqqqq” is no known glyph name",
+                "b.png, cell 2 “A”: the name stands already for a.png, cell 1 “A”",
+            ]
+        );
+    }
+}

@@ -1,0 +1,148 @@
+//! What went wrong where, and what to do about it.
+
+use crate::{
+    assemble::{AssembleError, names::LabelError},
+    fit::FitError,
+    quadratic::QuadraticError,
+    scan::ScanError,
+    types::{Cell, OutlineError},
+    write::WriteError,
+};
+use std::fmt;
+use thiserror::Error;
+
+/// A cell of a page.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Place {
+    /// The page, as messages name it.
+    pub sheet: String,
+    /// Position in the page's reading order, from 0.
+    pub index: usize,
+    /// What it is said to hold.
+    pub label: Option<String>,
+}
+
+impl Place {
+    /// Where a cell lies.
+    #[must_use]
+    pub fn of(sheet: &str, cell: &Cell) -> Self {
+        Self {
+            sheet: sheet.to_owned(),
+            index: cell.index,
+            label: Some(cell.label.0.clone()),
+        }
+    }
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}, cell {}", self.sheet, self.index + 1)?;
+        match &self.label {
+            Some(label) => write!(f, " “{label}”"),
+            None => Ok(()),
+        }
+    }
+}
+
+/// An error and the place that it concerns.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum Problem {
+    /// A file cannot be read.
+    #[error("{file}: {why}")]
+    File {
+        /// the file, as the project names it
+        file: String,
+        /// what the system said
+        why: String,
+    },
+    /// A page gives no cells.
+    #[error(transparent)]
+    Scan(#[from] ScanError),
+    /// A table of the project does not fit its page.
+    #[error("{sheet}: {why}")]
+    Sheet {
+        /// the page
+        sheet: String,
+        /// what is missing or too much, and what to do
+        why: String,
+    },
+    /// A cell that should hold something is empty.
+    #[error("{0}: the cell is empty")]
+    Empty(Place),
+    /// Letters beyond the last name.
+    #[error("{sheet}: {pieces} pieces of ink lie in cells after the last of {names} names")]
+    Unnamed {
+        /// the page
+        sheet: String,
+        /// how many names it has
+        names: usize,
+        /// how much ink has none
+        pieces: usize,
+    },
+    /// A cell's label names no glyph.
+    #[error("{place}: {source}")]
+    Label {
+        /// where
+        place: Place,
+        /// why
+        source: Box<LabelError>,
+    },
+    /// Two cells have one name.
+    #[error("{second}: the name stands already for {first}")]
+    Twice {
+        /// where it stands first
+        first: Box<Place>,
+        /// where it stands again
+        second: Place,
+    },
+    /// The tracing options do not fit.
+    #[error("{place}: {source}")]
+    Fit {
+        /// where
+        place: Place,
+        /// why
+        source: Box<FitError>,
+    },
+    /// The curves are no outline.
+    #[error("{place}: {source}")]
+    Outline {
+        /// where
+        place: Place,
+        /// why
+        source: OutlineError,
+    },
+    /// A glyph has no quadratic form.
+    #[error("glyph {glyph}: {source}")]
+    Quadratic {
+        /// its name
+        glyph: String,
+        /// why
+        source: QuadraticError,
+    },
+    /// The glyphs make no font.
+    #[error(transparent)]
+    Assemble(#[from] AssembleError),
+    /// The font cannot be written.
+    #[error(transparent)]
+    Write(#[from] WriteError),
+}
+
+impl Problem {
+    /// What to do about it.
+    #[must_use]
+    pub fn help(&self) -> Option<&'static str> {
+        Some(match self {
+            Self::File { .. } => "paths start from the project file's folder",
+            Self::Empty(_) => "draw the letter, or write _ in `glyphs` to skip the cell",
+            Self::Unnamed { .. } => "name these cells too, or skip them with _",
+            Self::Label { .. } => {
+                "give a character, an AGL name, uniXXXX, or a name such as beh-ar.init"
+            }
+            Self::Twice { .. } => {
+                "rename one, give it a suffix such as .alt, or skip its cell with _"
+            }
+            _ => return None,
+        })
+    }
+}

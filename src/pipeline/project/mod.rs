@@ -1,0 +1,96 @@
+//! The project file: what a user writes to say how pages become a font.
+
+mod check;
+mod font;
+mod parse;
+mod sheet;
+
+pub use font::FontTable;
+pub use parse::ProjectError;
+pub use sheet::{Labels, SheetTable};
+
+use super::picture;
+use crate::write::{FORMATS, Format};
+use crate::{assemble, quadratic};
+use serde::{Deserialize, Serialize};
+use std::path::PathBuf;
+
+/// A whole project file.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Project {
+    /// What the font says about itself.
+    pub font: FontTable,
+    /// The pages, in order.
+    #[serde(rename = "sheet", deserialize_with = "check::some_sheets")]
+    pub sheets: Vec<SheetTable>,
+    /// How a cell's picture becomes curves.
+    #[serde(default)]
+    pub trace: picture::Options,
+    /// Room between letters, overlap of joined ones, vertical measures.
+    #[serde(default)]
+    pub spacing: assemble::Options,
+    /// How cubics become TrueType's quadratics.
+    #[serde(default)]
+    pub quadratic: QuadraticTable,
+    /// What to make.
+    #[serde(default)]
+    pub output: OutputTable,
+}
+
+/// How cubics become TrueType's quadratics.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct QuadraticTable {
+    /// The method and its options.
+    pub convert: quadratic::Method,
+    /// How far the quadratics may lie from the cubics, parts of the em.
+    pub tolerance_em: f64,
+}
+
+impl Default for QuadraticTable {
+    fn default() -> Self {
+        Self {
+            convert: quadratic::Method::default(),
+            // a quarter of a unit at 1000 units an em: less than rounding to the grid moves a point
+            tolerance_em: 0.000_25,
+        }
+    }
+}
+
+/// The outputs to make, relative to the project file; those left out are not made.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct OutputTable {
+    /// Font with TrueType outlines.
+    pub ttf: Option<PathBuf>,
+    /// Font with cubic (CFF) outlines.
+    pub otf: Option<PathBuf>,
+    /// The TrueType font compressed for the web.
+    pub woff2: Option<PathBuf>,
+    /// Source for font editors: a folder.
+    pub ufo: Option<PathBuf>,
+    /// One SVG a glyph: a folder.
+    pub svg: Option<PathBuf>,
+    /// Web page that shows every cell with its outline.
+    pub proof: Option<PathBuf>,
+    /// What was done and how well, JSON.
+    pub report: Option<PathBuf>,
+}
+
+impl OutputTable {
+    /// The fonts to make: each format that is named, and where it goes.
+    #[must_use]
+    pub fn fonts(&self) -> Vec<(&'static Format, &PathBuf)> {
+        let path = |name: &str| match name {
+            "ttf" => self.ttf.as_ref(),
+            "otf" => self.otf.as_ref(),
+            "woff2" => self.woff2.as_ref(),
+            "ufo" => self.ufo.as_ref(),
+            "svg" => self.svg.as_ref(),
+            _ => None,
+        };
+        let named = FORMATS.iter().filter_map(|f| Some((f, path(f.name)?)));
+        named.collect()
+    }
+}

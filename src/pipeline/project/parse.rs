@@ -1,0 +1,118 @@
+//! Text → [`Project`], with errors that say where and which key was meant.
+
+use super::Project;
+use std::ops::Range;
+use thiserror::Error;
+use toml::de::Error as TomlError;
+
+/// Why a text is no project.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("{message}")]
+pub struct ProjectError {
+    /// What is wrong.
+    pub message: String,
+    /// Where in the text, bytes.
+    pub span: Option<Range<usize>>,
+    /// What to do.
+    pub help: Option<String>,
+}
+
+impl Project {
+    /// Reads a project file.
+    ///
+    /// # Errors
+    /// The text is no TOML, has a key that is not known, or a value of the wrong kind or out of its range.
+    pub fn parse(text: &str) -> Result<Self, ProjectError> {
+        toml::from_str(text).map_err(|e| explain(text, &e))
+    }
+}
+
+/// The decoder's error with the key that was probably meant.
+fn explain(text: &str, error: &TomlError) -> ProjectError {
+    let message = error.message().trim_end();
+    let mut quoted = message.split('`').skip(1).step_by(2);
+    let unknown = message.starts_with("unknown ");
+    let help = unknown.then(|| quoted.next()).flatten().and_then(|wrong| {
+        let known: Vec<&str> = quoted.collect();
+        nearest(wrong, &known).map(|right| format!("did you mean `{right}`?"))
+    });
+    ProjectError {
+        message: message.to_owned(),
+        span: error
+            .span()
+            .map(|s| s.start.min(text.len())..s.end.min(text.len())),
+        help,
+    }
+}
+
+/// The known word least different from `wrong`, if it differs by no more than half its letters.
+fn nearest<'a>(wrong: &str, known: &[&'a str]) -> Option<&'a str> {
+    let far = |word: &str| strsim::osa_distance(wrong, word);
+    let best = *known.iter().min_by_key(|word| far(word))?;
+    let letters = wrong.chars().count().max(best.chars().count());
+    (2 * far(best) <= letters).then_some(best)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const GOOD: &str = r#"
+[font]
+family = "Khatt Latin"
+units_per_em = 1000
+[[sheet]]
+image = "latin.png"
+layout = { grid = [8, 8] }
+glyphs = "A B C _ beh-ar.init"
+pixels_per_em = 504
+[trace]
+tolerance_px = 0.4
+[output]
+ttf = "build/KhattLatin.ttf"
+"#;
+
+    #[test]
+    fn the_readmes_project_is_read() {
+        let project = Project::parse(GOOD).unwrap();
+        assert_eq!(project.font.family, "Khatt Latin");
+        assert_eq!(project.font.style, "Regular");
+        assert_eq!(project.font.version, "1.000");
+        let again = toml::to_string(&project).unwrap();
+        assert_eq!(Project::parse(&again), Ok(project), "{again}");
+    }
+
+    #[test]
+    fn wrong_keys_and_values_are_found_where_they_stand() {
+        let cases = [
+            (
+                "family",
+                "famly",
+                "unknown field `famly`",
+                "famly",
+                "family",
+            ),
+            (
+                "tolerance_px",
+                "tolerance",
+                "unknown field",
+                "tolerance",
+                "tolerance_px",
+            ),
+            ("ttf =", "tff =", "unknown field", "tff", "ttf"),
+            ("1000", "8", "must be between 16 and 16384", "8", ""),
+            ("1000", "\"x\"", "invalid type", "\"x\"", ""),
+            ("504", "-1", "must be above 0", "-1", ""),
+            ("504", "nan", "must be above 0", "nan", ""),
+            ("grid", "grad", "unknown variant", "grad", "grid"),
+        ];
+        for (right, wrong, message, at, help) in cases {
+            let text = GOOD.replacen(right, wrong, 1);
+            let error = Project::parse(&text).unwrap_err();
+            assert!(error.message.contains(message), "{wrong}: {error:?}");
+            let span = error.span.unwrap();
+            assert_eq!(&text[span], at, "{wrong}");
+            assert!(error.help.unwrap_or_default().contains(help), "{wrong}");
+        }
+    }
+}

@@ -1,0 +1,76 @@
+//! What a caller may want to see of a run while it goes on; nothing of it reaches a result.
+
+use std::any::Any;
+use std::fmt;
+
+/// A stage of the way from page to font.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[non_exhaustive]
+pub enum Stage {
+    /// Picture file to page.
+    Load,
+    /// Even light, no dust.
+    Clean,
+    /// Upright page and its cells.
+    Cut,
+    /// Contours of a cell.
+    Trace,
+    /// Corners of the contours.
+    Corner,
+    /// Curves.
+    Fit,
+    /// Curves to the grey.
+    Refine,
+    /// Font units.
+    Place,
+    /// Names, metrics, spacing, joining.
+    Assemble,
+    /// TrueType's curves.
+    Quadratic,
+    /// Bytes.
+    Write,
+}
+
+impl fmt::Display for Stage {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Load => "load",
+            Self::Clean => "clean",
+            Self::Cut => "cut",
+            Self::Trace => "trace",
+            Self::Corner => "corner",
+            Self::Fit => "fit",
+            Self::Refine => "refine",
+            Self::Place => "place",
+            Self::Assemble => "assemble",
+            Self::Quadratic => "quadratic",
+            Self::Write => "write",
+        })
+    }
+}
+
+/// Is told what a run does. It is called from many threads at once.
+pub trait Watch: Sync {
+    /// A stage begins on this thread; it ends when the answer is dropped.
+    fn enter(&self, stage: Stage) -> Box<dyn Any>;
+
+    /// So many more cells are to be done.
+    fn expect(&self, cells: usize);
+
+    /// A cell is done.
+    fn done(&self);
+}
+
+/// Watches nothing.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Unwatched;
+
+impl Watch for Unwatched {
+    fn enter(&self, _: Stage) -> Box<dyn Any> {
+        Box::new(())
+    }
+
+    fn expect(&self, _: usize) {}
+
+    fn done(&self) {}
+}

@@ -1,0 +1,180 @@
+//! A glyph over its cell as SVG, user space in font units with y down.
+
+use super::Entry;
+use crate::types::{Gray, Info};
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use image::{ExtendedColorType, ImageEncoder, codecs::png};
+use kurbo::{Affine, BezPath, PathEl, Point};
+use std::fmt::Write;
+
+/// What an SVG of one glyph is made of.
+#[derive(Debug)]
+pub(super) struct Drawn {
+    pub(super) view_box: String,
+    /// From the picture's px (y down) to user space.
+    pub(super) picture: String,
+    pub(super) path: String,
+    pub(super) guides: String,
+    pub(super) handles: String,
+    pub(super) on_curve: String,
+    pub(super) off_curve: String,
+    pub(super) count: usize,
+    pub(super) advance: String,
+}
+
+impl Drawn {
+    pub(super) fn new(entry: &Entry, info: &Info) -> Self {
+        let glyph = &entry.glyph;
+        let path = Affine::FLIP_Y * glyph.outline.to_path();
+        let (mut handles, mut on_curve, mut off_curve) =
+            (String::new(), String::new(), String::new());
+        let mut count = 0;
+        let mut at = Point::ORIGIN;
+        for el in path.elements() {
+            let controls: &[Point] = match el {
+                PathEl::QuadTo(a, _) => &[*a],
+                PathEl::CurveTo(a, b, _) => &[*a, *b],
+                _ => &[],
+            };
+            controls.iter().for_each(|&p| dot(&mut off_curve, p));
+            let Some(end) = el.end_point() else { continue };
+            if let (Some(&first), Some(&last)) = (controls.first(), controls.last()) {
+                stroke(&mut handles, at, first);
+                stroke(&mut handles, end, last);
+            }
+            if !matches!(el, PathEl::MoveTo(_)) {
+                dot(&mut on_curve, end);
+                count += 1;
+            }
+            at = end;
+        }
+        Self {
+            view_box: view_box(entry, info),
+            picture: matrix(picture_to_user(entry)),
+            path: path_data(&path),
+            guides: guides(glyph.advance, info),
+            handles,
+            on_curve,
+            off_curve,
+            count,
+            advance: format!("{:.0}", glyph.advance),
+        }
+    }
+}
+
+/// From the cell picture's px (y down) to font units with y down.
+#[expect(
+    clippy::cast_precision_loss,
+    reason = "pictures have fewer rows than 2^52"
+)]
+fn picture_to_user(entry: &Entry) -> Affine {
+    let height = entry.gray.height() as f64;
+    Affine::FLIP_Y * entry.frame.to_units() * Affine::new([1.0, 0.0, 0.0, -1.0, 0.0, height])
+}
+
+/// The em box and what sticks out of it.
+fn view_box(entry: &Entry, info: &Info) -> String {
+    /// Paper around it, of the em.
+    const MARGIN: f64 = 0.05;
+    let m = &info.metrics;
+    let em = kurbo::Rect::new(0.0, -m.ascender, entry.glyph.advance, -m.descender);
+    let ink = (entry.glyph.outline.bounds()).map(|b| Affine::FLIP_Y.transform_rect_bbox(b));
+    let all = ink.map_or(em, |ink| em.union(ink));
+    let all = all.inflate(
+        MARGIN * f64::from(info.units_per_em),
+        MARGIN * f64::from(info.units_per_em),
+    );
+    format!(
+        "{:.0} {:.0} {:.0} {:.0}",
+        all.x0,
+        all.y0,
+        all.width(),
+        all.height()
+    )
+}
+
+fn matrix(map: Affine) -> String {
+    let c = map.as_coeffs();
+    format!(
+        "matrix({:.5} {:.5} {:.5} {:.5} {:.2} {:.2})",
+        c[0], c[1], c[2], c[3], c[4], c[5]
+    )
+}
+
+/// Baseline across the picture, the advance's two ends from ascender to descender.
+fn guides(advance: f64, info: &Info) -> String {
+    let (top, bottom) = (-info.metrics.ascender, -info.metrics.descender);
+    let em = f64::from(info.units_per_em);
+    format!(
+        "M{:.0} 0H{:.0}M0 {top:.0}V{bottom:.0}M{advance:.0} {top:.0}V{bottom:.0}",
+        -em,
+        advance + em
+    )
+}
+
+/// A point that a round line cap makes visible.
+fn dot(out: &mut String, p: Point) {
+    push(out, format_args!("M{:.1} {:.1}h0", p.x, p.y));
+}
+
+fn stroke(out: &mut String, a: Point, b: Point) {
+    push(
+        out,
+        format_args!("M{:.1} {:.1}L{:.1} {:.1}", a.x, a.y, b.x, b.y),
+    );
+}
+
+fn push(out: &mut String, text: std::fmt::Arguments<'_>) {
+    let written = out.write_fmt(text);
+    debug_assert!(written.is_ok(), "a String takes everything");
+}
+
+/// Path data to a tenth of a unit: below what a screen shows.
+fn path_data(path: &BezPath) -> String {
+    let mut out = String::new();
+    for el in path.elements() {
+        match el {
+            PathEl::MoveTo(p) => push(&mut out, format_args!("M{:.1} {:.1}", p.x, p.y)),
+            PathEl::LineTo(p) => push(&mut out, format_args!("L{:.1} {:.1}", p.x, p.y)),
+            PathEl::QuadTo(a, p) => push(
+                &mut out,
+                format_args!("Q{:.1} {:.1} {:.1} {:.1}", a.x, a.y, p.x, p.y),
+            ),
+            PathEl::CurveTo(a, b, p) => push(
+                &mut out,
+                format_args!(
+                    "C{:.1} {:.1} {:.1} {:.1} {:.1} {:.1}",
+                    a.x, a.y, b.x, b.y, p.x, p.y
+                ),
+            ),
+            PathEl::ClosePath => out.push('Z'),
+        }
+    }
+    out
+}
+
+/// The cell as a PNG in a data URI, dark ink on nothing, so that it also shows on a dark page.
+pub(super) fn picture(gray: &Gray) -> String {
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "0…255 by the clamp"
+    )]
+    let level = |v: &f32| (255.0 * (1.0 - v.clamp(0.0, 1.0))).round() as u8;
+    let bytes: Vec<u8> = gray.samples().iter().map(level).collect();
+    let mut png = Vec::new();
+    let (w, h) = (u32::try_from(gray.width()), u32::try_from(gray.height()));
+    let encoder = png::PngEncoder::new_with_quality(
+        &mut png,
+        png::CompressionType::Fast,
+        png::FilterType::Sub,
+    );
+    let size = w.ok().zip(h.ok());
+    let done = size.map(|(w, h)| encoder.write_image(&bytes, w, h, ExtendedColorType::L8));
+    if !matches!(done, Some(Ok(()))) {
+        return "data:,".to_owned();
+    }
+    let data = STANDARD.encode(png);
+    format!("data:image/png;base64,{data}")
+}

@@ -1,0 +1,138 @@
+//! A web page that shows every cell with its outline over the scan, and text set in the font.
+//!
+//! One self-contained file: pictures, font, style and script are inside. Everything that a user wrote is
+//! escaped by the template.
+
+mod draw;
+mod text;
+
+use crate::types::{Frame, Glyph, Gray, Info};
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use draw::{Drawn, picture};
+use maud::{DOCTYPE, Markup, PreEscaped, html};
+
+/// A cell and the glyph that became of it.
+#[derive(Debug, Clone)]
+pub struct Entry {
+    /// The page, as messages name it.
+    pub sheet: String,
+    /// Position in the page's reading order, from 0.
+    pub index: usize,
+    /// The cell's picture.
+    pub gray: Gray,
+    /// From the picture's px (y up) to font units.
+    pub frame: Frame,
+    /// The glyph as it stands in the font, cubics.
+    pub glyph: Glyph,
+    /// What text it stands for: one character, or the parts of a ligature.
+    pub text: String,
+}
+
+/// All that the page shows.
+#[derive(Debug, Clone, Copy)]
+pub struct Proof<'a> {
+    /// What the font says about itself.
+    pub info: &'a Info,
+    /// Its cells in reading order.
+    pub entries: &'a [Entry],
+    /// The font as WOFF2.
+    pub woff2: &'a [u8],
+}
+
+/// The layers that can be switched, with their keys.
+const LAYERS: &[(&str, &str, bool)] = &[
+    ("scan", "Scan", true),
+    ("fill", "Fill", false),
+    ("outline", "Outline", true),
+    ("nodes", "Nodes", true),
+    ("handles", "Handles", true),
+    ("guides", "Baseline and advance", true),
+];
+
+/// The page.
+#[must_use]
+pub fn page(proof: &Proof<'_>) -> String {
+    let info = proof.info;
+    let title = format!("{} {}", info.family, info.style);
+    let off: Vec<String> = LAYERS
+        .iter()
+        .filter(|(_, _, on)| !on)
+        .map(|(key, ..)| format!("no-{key}"))
+        .collect();
+    let page = html! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta name="viewport" content="width=device-width, initial-scale=1";
+                title { (title) ": proof" }
+                style { (PreEscaped(face(proof.woff2))) (PreEscaped(include_str!("proof.css"))) }
+            }
+            body class=(off.join(" ")) {
+                header {
+                    h1 { (title) }
+                    p { "Version " (info.version.0) "." (format!("{:03}", info.version.1)) ", "
+                        (proof.entries.len()) " glyphs from " (sheets(proof)) ", " (info.units_per_em) " units an em" }
+                }
+                (text::specimen(proof.entries))
+                (controls())
+                main { @for entry in proof.entries { (cell(entry, info)) } }
+                script { (PreEscaped(include_str!("proof.js"))) }
+            }
+        }
+    };
+    page.into_string()
+}
+
+/// The rule that embeds the font.
+fn face(woff2: &[u8]) -> String {
+    let data = STANDARD.encode(woff2);
+    format!(
+        "@font-face{{font-family:proofed;src:url(data:font/woff2;base64,{data}) format(\"woff2\")}}\n"
+    )
+}
+
+fn sheets(proof: &Proof<'_>) -> String {
+    let mut names: Vec<&str> = proof.entries.iter().map(|e| e.sheet.as_str()).collect();
+    names.dedup();
+    names.join(", ")
+}
+
+fn controls() -> Markup {
+    html! {
+        nav {
+            @for (i, (key, label, on)) in LAYERS.iter().enumerate() {
+                label { input type="checkbox" data-layer=(key) checked[*on]; kbd { (i + 1) } " " (label) }
+            }
+            label { "Size " input type="range" id="size" min="120" max="900" value="240"; }
+        }
+    }
+}
+
+fn cell(entry: &Entry, info: &Info) -> Markup {
+    let drawn = Drawn::new(entry, info);
+    let name = entry.glyph.name.as_str();
+    html! {
+        figure id=(format!("glyph-{name}")) data-name=(name) {
+            svg viewBox=(drawn.view_box) role="img" aria-label=(name) {
+                g.scan { image href=(picture(&entry.gray)) transform=(drawn.picture) width=(entry.gray.width()) height=(entry.gray.height()) {} }
+                path.guides d=(drawn.guides) {}
+                path.fill d=(drawn.path) {}
+                path.outline d=(drawn.path) {}
+                path.handles d=(drawn.handles) {}
+                path.nodes.off d=(drawn.off_curve) {}
+                path.nodes d=(drawn.on_curve) {}
+            }
+            figcaption {
+                b { (name) } " "
+                span.sample lang=(text::language(&entry.text)) { (entry.text) }
+                br;
+                small { (entry.sheet) ", cell " (entry.index + 1) " · " (drawn.count) " nodes · advance " (drawn.advance) }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

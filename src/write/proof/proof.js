@@ -1,0 +1,20 @@
+"use strict";
+const layers = [...document.querySelectorAll("[data-layer]")];
+const show = (box) => document.body.classList.toggle("no-" + box.dataset.layer, !box.checked);
+layers.forEach((box) => { box.addEventListener("change", () => show(box)); show(box); });
+document.getElementById("size").addEventListener("input", (event) =>
+  document.documentElement.style.setProperty("--size", event.target.value + "px"));
+document.addEventListener("keydown", (event) => {
+  if (event.target.isContentEditable || event.ctrlKey || event.metaKey || event.altKey) return;
+  const box = layers[Number(event.key) - 1];
+  if (box) { box.checked = !box.checked; show(box); }
+});
+const typed = document.getElementById("typed");
+typed.addEventListener("input", () => document.querySelectorAll("#waterfall span").forEach((span) => {
+  span.textContent = typed.textContent;
+  span.parentElement.dir = "auto";
+}));
+document.querySelector("main").addEventListener("click", (event) => {
+  const figure = event.target.closest("figure");
+  if (figure) { figure.classList.toggle("large"); figure.scrollIntoView({ block: "nearest" }); }
+});

@@ -1,0 +1,54 @@
+use super::*;
+use crate::types::{Name, Outline};
+use kurbo::BezPath;
+
+fn entry(name: &str, text: &str) -> Entry {
+    let path = BezPath::from_svg("M0 0L100 0C100 50 50 100 0 100Z").unwrap();
+    let mut glyph = Glyph::new(Name::new(name).unwrap(), text.chars().collect(), 120.0);
+    glyph.outline = Outline::new(vec![path]).unwrap();
+    Entry {
+        sheet: "<b>page & \"more\".png".to_owned(),
+        index: 3,
+        gray: Gray::from_fn(4, 4, |x, y| if x == y { 1.0 } else { 0.0 }),
+        frame: Frame {
+            units_per_px: 25.0,
+            baseline_px: 0.0,
+            origin_px: 0.0,
+        },
+        glyph,
+        text: text.to_owned(),
+    }
+}
+
+fn proof(entries: &[Entry]) -> String {
+    let info = Info {
+        family: "A<script>alert(1)</script>".to_owned(),
+        ..Info::default()
+    };
+    page(&Proof {
+        info: &info,
+        entries,
+        woff2: b"wOF2",
+    })
+}
+
+#[test]
+fn what_a_user_wrote_is_escaped() {
+    let page = proof(&[entry("a", "<")]);
+    assert!(!page.contains("<script>alert"), "the family name is text");
+    assert!(!page.contains("<b>page"), "the file name is text");
+    assert!(page.contains("&lt;b&gt;page &amp; &quot;more&quot;.png"));
+}
+
+#[test]
+fn every_cell_has_picture_outline_and_nodes_and_nothing_comes_from_outside() {
+    let page = proof(&[entry("a", "a"), entry("uni0628.init", "ب")]);
+    assert_eq!(page.matches("<figure").count(), 2);
+    assert_eq!(page.matches("data:image/png;base64,").count(), 2);
+    assert!(page.contains("id=\"glyph-uni0628.init\"") && page.contains("lang=\"ar\""));
+    assert!(page.contains("data:font/woff2;base64,d09GMg=="));
+    for outside in ["http://", "https://", "src=\"", "<link"] {
+        assert!(!page.contains(outside), "{outside}");
+    }
+    assert!(page.contains("dir=\"rtl\""), "Arabic runs right to left");
+}

@@ -1,0 +1,204 @@
+//! Pages to fonts: what a project makes, and what it says when pages and names do not match.
+#![expect(
+    clippy::disallowed_methods,
+    reason = "the tests play the user, who writes files"
+)]
+
+use crate::cli::{khatt, png, transcript};
+use crate::common::approved;
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+
+/// Where the grey of a drawn edge begins and ends, px.
+fn edge(distance: f64) -> u8 {
+    let ink = (0.5 - distance).clamp(0.0, 1.0) * 255.0;
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "0…255 by the clamp"
+    )]
+    let level = ink.round() as u8;
+    level
+}
+
+/// Nine cells of 200 × 200 px, three a row, all but those of `empty` with a letter: H, o and l by turns.
+fn page(empty: &[usize]) -> Vec<u8> {
+    png(600, 600, |x, y| {
+        let cell = (y / 200 * 3 + x / 200) as usize;
+        let (x, y) = (f64::from(x % 200) + 0.5, f64::from(y % 200) + 0.5);
+        if empty.contains(&cell) {
+            return 0;
+        }
+        let bar = |x0: f64, y0: f64, x1: f64, y1: f64| {
+            edge((x0 - x).max(x - x1).max((y0 - y).max(y - y1)))
+        };
+        match cell % 3 {
+            0 => bar(60.0, 50.0, 76.0, 150.0)
+                .max(bar(124.0, 50.0, 140.0, 150.0))
+                .max(bar(70.0, 92.0, 130.0, 108.0)),
+            1 => edge(((x - 100.0).hypot(y - 116.0) - 26.0).abs() - 9.0),
+            _ => bar(92.0, 40.0, 108.0, 150.0),
+        }
+    })
+}
+
+/// Names for them.
+const LETTERS: &str = "H o l E e I N c L";
+
+/// A folder with a project of these glyphs on `page.png`.
+fn project(glyphs: &str, picture: &[u8]) -> tempfile::TempDir {
+    let dir = tempfile::tempdir().expect("a folder");
+    let text = format!(
+        "[font]\nfamily = \"Test\"\n[[sheet]]\nimage = \"page.png\"\nlayout = {{ grid = [3, 3] }}\n\
+         glyphs = \"{glyphs}\"\npixels_per_em = 150\n[output]\nttf = \"out/test.ttf\"\notf = \"out/test.otf\"\n\
+         woff2 = \"out/test.woff2\"\nufo = \"out/test.ufo\"\nsvg = \"out/svg\"\nproof = \"out/test.html\"\n"
+    );
+    fs::write(dir.path().join("font.toml"), text).expect("a project");
+    fs::write(dir.path().join("page.png"), picture).expect("a picture");
+    dir
+}
+
+/// Every file below a folder, by its path.
+fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+    let mut out = BTreeMap::new();
+    let mut folders = vec![folder.to_owned()];
+    while let Some(at) = folders.pop() {
+        for entry in fs::read_dir(at).expect("a folder") {
+            let path = entry.expect("an entry").path();
+            if path.is_dir() {
+                folders.push(path);
+            } else {
+                let name = path.strip_prefix(folder).expect("below the folder");
+                out.insert(name.display().to_string(), fs::read(&path).expect("a file"));
+            }
+        }
+    }
+    out
+}
+
+#[test]
+fn a_page_becomes_every_output_and_again_the_same_bytes() {
+    let dir = project(LETTERS, &page(&[]));
+    let out = khatt(dir.path(), &["build", "font.toml", "--jobs", "1"]);
+    let stderr = String::from_utf8_lossy(&out.stderr);
+    assert_eq!(out.status.code(), Some(0), "{stderr}");
+    assert!(stderr.contains("trace "), "the stages are timed: {stderr}");
+    let first = files(&dir.path().join("out"));
+    let names = [
+        "test.html",
+        "test.otf",
+        "test.ttf",
+        "test.woff2",
+        "test.ufo/metainfo.plist",
+    ];
+    for name in names {
+        assert!(
+            first.contains_key(name),
+            "{name} is missing from {:?}",
+            first.keys()
+        );
+    }
+    assert_eq!(
+        first.keys().filter(|k| k.starts_with("svg/")).count(),
+        10,
+        "nine letters and .notdef"
+    );
+    let again = khatt(
+        dir.path(),
+        &["build", "font.toml", "--jobs", "2", "--quiet"],
+    );
+    assert_eq!((again.status.code(), again.stderr.len()), (Some(0), 0));
+    assert!(
+        files(&dir.path().join("out")) == first,
+        "two jobs give other bytes than one"
+    );
+    let left = files(dir.path());
+    let stray: Vec<_> = left.keys().filter(|k| k.contains(".khatt-")).collect();
+    assert!(stray.is_empty(), "{stray:?}");
+}
+
+#[test]
+fn a_letter_stands_on_the_baseline_in_units() {
+    let dir = project(LETTERS, &page(&[]));
+    khatt(dir.path(), &["build", "font.toml"]);
+    let bytes = fs::read(dir.path().join("out/test.ttf")).expect("the font");
+    let face = ttf_parser::Face::parse(&bytes, 0).expect("a font");
+    let bounds = |c: char| {
+        let id = face.glyph_index(c).expect("a character of the font");
+        face.glyph_bounding_box(id).expect("a shape")
+    };
+    let units = |px: f64| px * 1000.0 / 150.0;
+    // two thirds of a px at either edge
+    let near = |got: i16, want: f64| (f64::from(got) - want).abs() <= 9.0;
+    let h = bounds('H');
+    assert!(near(h.y_min, 0.0) && near(h.y_max, units(100.0)), "{h:?}");
+    assert!(near(h.width(), units(80.0)), "{h:?}");
+}
+
+#[test]
+fn pages_and_names_that_do_not_match_name_the_cells_and_write_nothing() {
+    let cases = [
+        ("empty-cells", LETTERS, page(&[1, 3, 5])),
+        ("too-few-names", "H o l E e I N", page(&[])),
+        ("too-many-names", "H o l E e I N c L x y", page(&[])),
+        ("twice", "H o l E e I N c H", page(&[])),
+        ("unknown-name", "H o l E e I N c beh-ra.init", page(&[])),
+        ("blank", LETTERS, png(600, 600, |_, _| 0)),
+        ("text", LETTERS, b"no picture".to_vec()),
+    ];
+    for (name, glyphs, picture) in cases {
+        let dir = project(glyphs, &picture);
+        let args = ["build", "font.toml"];
+        let out = khatt(dir.path(), &args);
+        assert_eq!(out.status.code(), Some(1), "{name}");
+        assert!(
+            !dir.path().join("out").exists(),
+            "{name}: nothing may be written"
+        );
+        approved::check("cli", &format!("build-{name}"), &transcript(&args, &out));
+    }
+}
+
+#[test]
+fn a_wrong_project_file_is_shown_where_it_is_wrong() {
+    let dir = project("H", &page(&[]));
+    let text = fs::read_to_string(dir.path().join("font.toml")).expect("the project");
+    for (name, right, wrong) in [
+        ("unknown-key", "pixels_per_em", "pixel_per_em"),
+        ("wrong-type", "150", "\"large\""),
+        (
+            "two-scales",
+            "pixels_per_em",
+            "x_height = 500\npixels_per_em",
+        ),
+        ("no-toml", "[font]", "[font"),
+    ] {
+        fs::write(dir.path().join("font.toml"), text.replacen(right, wrong, 1)).expect("a file");
+        let args = ["build", "font.toml"];
+        let out = khatt(dir.path(), &args);
+        assert_eq!(out.status.code(), Some(1), "{name}");
+        approved::check("cli", &format!("project-{name}"), &transcript(&args, &out));
+    }
+}
+
+#[test]
+fn cells_are_cut_and_listed() {
+    let dir = project(LETTERS, &page(&[]));
+    let out = khatt(dir.path(), &["cut", "font.toml", "-o", "cells"]);
+    assert_eq!(
+        out.status.code(),
+        Some(0),
+        "{}",
+        String::from_utf8_lossy(&out.stderr)
+    );
+    let cells = files(&dir.path().join("cells"));
+    assert_eq!(cells.len(), 10, "{:?}", cells.keys());
+    let list: serde_json::Value = serde_json::from_slice(&cells["cells.json"]).expect("JSON");
+    let first = &list[0]["cells"][0];
+    assert_eq!(
+        (first["label"].as_str(), first["cell"].as_u64()),
+        (Some("H"), Some(1))
+    );
+    assert!(cells.contains_key(first["picture"].as_str().expect("a name")));
+}
