@@ -61,7 +61,18 @@ fn disc(x: u32, y: u32) -> u8 {
 #[test]
 fn help_is_approved() {
     let here = Path::new(env!("CARGO_MANIFEST_DIR"));
-    for command in ["", "build", "trace", "cut", "proof", "methods", "init"] {
+    for command in [
+        "",
+        "build",
+        "trace",
+        "cut",
+        "proof",
+        "methods",
+        "init",
+        "completions",
+        "man",
+        "schema",
+    ] {
         let args: Vec<&str> = [command, "--help"]
             .into_iter()
             .filter(|a| !a.is_empty())
@@ -145,5 +156,22 @@ fn options_are_written_in_snake_case() {
                 row["method"]
             );
         }
+    }
+}
+
+#[test]
+fn completions_manual_and_schema_come_from_the_same_sources() {
+    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
+    for (args, has) in [
+        (&["completions", "bash"][..], "_khatt"),
+        (&["man"], ".TH khatt"),
+        (&["schema"], "\"max_error\""),
+    ] {
+        let out = khatt(here, args);
+        assert_eq!(out.status.code(), Some(0), "{args:?}");
+        assert!(
+            String::from_utf8_lossy(&out.stdout).contains(has),
+            "{args:?}"
+        );
     }
 }

@@ -202,3 +202,95 @@ fn cells_are_cut_and_listed() {
     );
     assert!(cells.contains_key(first["picture"].as_str().expect("a name")));
 }
+
+#[test]
+fn a_build_reports_lists_its_inputs_and_can_be_locked() {
+    let dir = project(LETTERS, &page(&[]));
+    let path = dir.path().join("font.toml");
+    let text = fs::read_to_string(&path).expect("the project");
+    fs::write(&path, format!("{text}report = \"out/report.json\"\n")).expect("a project");
+    let locked = ["build", "font.toml", "--locked"];
+    assert_eq!(
+        khatt(dir.path(), &locked).status.code(),
+        Some(1),
+        "nothing is built yet"
+    );
+    assert!(!dir.path().join("out").exists(), "--locked writes nothing");
+    let args = [
+        "build",
+        "font.toml",
+        "--depfile",
+        "out/font.d",
+        "--keep",
+        "out/keep",
+    ];
+    let out = khatt(dir.path(), &args);
+    assert_eq!(
+        out.status.code(),
+        Some(0),
+        "{}",
+        String::from_utf8_lossy(&out.stderr)
+    );
+    assert_eq!(
+        khatt(dir.path(), &locked).status.code(),
+        Some(0),
+        "now it is"
+    );
+    let made = files(&dir.path().join("out"));
+    let rule = String::from_utf8_lossy(&made["font.d"]);
+    assert!(
+        rule.contains("out/test.ttf") && rule.contains(": font.toml page.png\n"),
+        "{rule}"
+    );
+    let kept = |stage: &str| {
+        made.keys()
+            .filter(|k| k.starts_with(&format!("keep/{stage}")))
+            .count()
+    };
+    let stages = ["1-cut", "2-trace", "3-fit", "4-place", "5-assemble"];
+    assert_eq!(stages.map(kept), [9, 9, 9, 10, 1]);
+    let report: serde_json::Value = serde_json::from_slice(&made["report.json"]).expect("JSON");
+    let rows = report["glyphs"].as_array().expect("a list");
+    assert_eq!(rows.len(), 9);
+    for row in rows {
+        let error = row["max_error"].as_f64().expect("a number");
+        assert!(error > 0.0 && error < 15.0, "{row}");
+    }
+    assert!(report["stage_seconds"]["cut"].is_number());
+}
+
+#[test]
+fn a_gate_fails_the_build_and_names_the_cells() {
+    let dir = project(LETTERS, &page(&[]));
+    let path = dir.path().join("font.toml");
+    let text = fs::read_to_string(&path).expect("the project");
+    let gated = text.replace("[output]", "[gate]\nmax_error = 0.001\n[output]");
+    fs::write(&path, gated).expect("a project");
+    let out = khatt(dir.path(), &["build", "font.toml"]);
+    let stderr = String::from_utf8_lossy(&out.stderr);
+    assert_eq!(out.status.code(), Some(1));
+    assert!(
+        stderr.contains("page.png, cell 1 “H”: max_error is "),
+        "{stderr}"
+    );
+    assert!(!dir.path().join("out").exists(), "nothing may be written");
+}
+
+#[test]
+fn a_folder_with_somebodys_files_is_not_replaced() {
+    let dir = project(LETTERS, &page(&[]));
+    fs::create_dir_all(dir.path().join("out/svg")).expect("a folder");
+    fs::write(dir.path().join("out/svg/letter.txt"), "mine").expect("a file");
+    let out = khatt(dir.path(), &["build", "font.toml"]);
+    let stderr = String::from_utf8_lossy(&out.stderr);
+    assert_eq!(out.status.code(), Some(1));
+    assert!(
+        stderr.contains("letter.txt, which khatt did not make"),
+        "{stderr}"
+    );
+    assert_eq!(
+        files(&dir.path().join("out")).len(),
+        1,
+        "nothing is written, nothing is lost"
+    );
+}

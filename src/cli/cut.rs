@@ -89,7 +89,7 @@ fn corners(r: Rect) -> [f64; 4] {
 }
 
 /// Dark ink on white paper, 8 bit.
-fn png(gray: &Gray) -> Vec<u8> {
+pub(crate) fn png(gray: &Gray) -> Vec<u8> {
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,

@@ -12,10 +12,12 @@ mod cut;
 mod failure;
 mod files;
 mod init;
+mod keep;
 mod methods;
 mod progress;
 mod project;
 mod proof;
+mod shell;
 mod staged;
 mod trace;
 
@@ -57,6 +59,11 @@ enum Command {
     Trace(trace::Trace),
     Methods(methods::Methods),
     Init(init::Init),
+    Completions(shell::Completions),
+    /// Prints the manual page
+    Man,
+    /// Prints the JSON schema of the report
+    Schema,
 }
 
 /// Reads the arguments, does the work, says how it ended.
@@ -85,5 +92,8 @@ fn run(args: &Khatt) -> Outcome {
         Command::Trace(trace) => trace.run(),
         Command::Methods(methods) => methods.run(),
         Command::Init(init) => init.run(),
+        Command::Completions(completions) => completions.run(),
+        Command::Man => shell::man(),
+        Command::Schema => shell::schema(),
     }
 }

@@ -9,6 +9,7 @@ use miette::{
     Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, NamedSource, SourceCode,
 };
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 use std::{env, fmt, fs};
 
@@ -17,6 +18,7 @@ use std::{env, fmt, fs};
 pub(crate) struct Opened {
     project: Project,
     folder: PathBuf,
+    inputs: Mutex<Vec<PathBuf>>,
 }
 
 impl Opened {
@@ -29,6 +31,7 @@ impl Opened {
         Ok(Self {
             project,
             folder: parent(path).to_owned(),
+            inputs: Mutex::new(vec![path.to_owned()]),
         })
     }
 
@@ -52,7 +55,25 @@ impl Opened {
 
     /// A file that the project names, or why there is none.
     fn read(&self, path: &Path) -> Result<Vec<u8>, String> {
-        fs::read(self.path(path)).map_err(|e| e.to_string())
+        let path = self.path(path);
+        let bytes = fs::read(&path).map_err(|e| e.to_string())?;
+        let mut inputs = self.inputs.lock().unwrap_or_else(PoisonError::into_inner);
+        if !inputs.contains(&path) {
+            inputs.push(path);
+        }
+        Ok(bytes)
+    }
+
+    /// Where the report goes.
+    pub(crate) fn report(&self) -> Option<PathBuf> {
+        let path = self.project.output.report.as_ref()?;
+        Some(self.path(path))
+    }
+
+    /// The files that were read, the project file first.
+    pub(crate) fn inputs(&self) -> Vec<PathBuf> {
+        let read = self.inputs.lock().unwrap_or_else(PoisonError::into_inner);
+        read.clone()
     }
 
     /// Where a path of the project file lies.

@@ -4,7 +4,7 @@
 //! disk do new and old change places, each pair in one step; when one of these steps fails, the earlier
 //! ones are taken back. What is left under a temporary name is deleted at the end.
 
-use super::failure::Failure;
+use super::failure::{Complaint, Failure};
 use khatt::types::Files;
 use std::collections::BTreeSet;
 use std::ffi::OsStr;
@@ -191,6 +191,35 @@ fn refuse_foreign(target: &Path, files: &Files) -> io::Result<()> {
         }
     }
     Ok(())
+}
+
+/// Fails where what lies on the disk is not what would be written.
+pub(crate) fn same(outputs: &[(PathBuf, Files)]) -> Result<(), Failure> {
+    let mut changed = Vec::new();
+    for (target, files) in outputs {
+        for (name, content) in &files.0 {
+            let path = if name.is_empty() {
+                target.clone()
+            } else {
+                target.join(name)
+            };
+            if fs::read(&path).ok().as_ref() != Some(content) {
+                changed.push(path);
+            }
+        }
+    }
+    let complaint = |path: &PathBuf| {
+        let what = format!("{} is not what this project builds", path.display());
+        Complaint::new(
+            what,
+            Some("build without --locked and keep the result".to_owned()),
+        )
+    };
+    if changed.is_empty() {
+        Ok(())
+    } else {
+        Err(changed.iter().map(complaint).collect())
+    }
 }
 
 pub(crate) fn parent(path: &Path) -> &Path {

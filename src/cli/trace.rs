@@ -79,7 +79,7 @@ fn positive(text: &str) -> Result<f64, String> {
 }
 
 /// One path of all contours; user space is the picture's px, y down.
-fn svg(gray: &Gray, paths: &[BezPath]) -> String {
+pub(crate) fn svg(gray: &Gray, paths: &[BezPath]) -> String {
     let flip = to_picture(gray);
     let (w, h) = (gray.width(), gray.height());
     let mut d = String::new();

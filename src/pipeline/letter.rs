@@ -3,9 +3,9 @@
 use super::picture::{self, trace_picture};
 use super::problem::{Place, Problem};
 use super::watch::{Stage, Watch};
-use crate::assemble::Drawn;
+use crate::assemble::{Drawn, names};
 use crate::finish::place;
-use crate::types::{Cell, Frame};
+use crate::types::{Cell, Font, Frame};
 use kurbo::BezPath;
 
 /// What was drawn in a cell, still in the cell's px.
@@ -58,6 +58,21 @@ impl Letter {
             baseline_px: self.cell.gray.height() as f64 - guides.baseline_px,
             origin_px: 0.0,
         }
+    }
+
+    /// From the curves' px to the glyph as it stands in `font`, after spacing; `None` where it is not in it.
+    pub(super) fn frame_in(&self, font: &Font) -> Option<Frame> {
+        let identity = names::identify(&self.cell.label).ok()?;
+        let glyph = font.glyph(identity.name.as_str())?;
+        let units_per_em = font.info.units_per_em;
+        let frame = self.frame(units_per_em);
+        let drawn = self.place(units_per_em).ok()?;
+        // spacing has moved the outline by whole units
+        let moved = glyph.outline.bounds()?.x0 - drawn.outline.bounds()?.x0;
+        Some(Frame {
+            origin_px: frame.origin_px - moved.round() / frame.units_per_px,
+            ..frame
+        })
     }
 
     /// Puts the letter on the baseline, in font units.

@@ -8,11 +8,13 @@ mod page;
 pub mod picture;
 mod problem;
 pub mod project;
+mod report;
 mod watch;
 
 pub use build::{Built, World, build, pages};
 pub use letter::Letter;
-pub use outputs::{outputs, proof};
+pub use outputs::{Outputs, outputs, proof};
 pub use problem::{Place, Problem};
 pub use project::{Project, ProjectError};
+pub use report::{Remark, Report, Row};
 pub use watch::{Stage, Unwatched, Watch};

@@ -4,50 +4,62 @@ use super::build::{Built, World};
 use super::letter::Letter;
 use super::problem::Problem;
 use super::project::Project;
+use super::report::Report;
 use super::watch::Stage;
 use crate::assemble::names;
-use crate::types::{Files, Font, Frame};
+use crate::types::{Files, Font};
 use crate::write::proof::{self as page, Entry, Proof};
 use crate::write::{self, Curves, WriteError};
 use std::path::PathBuf;
 
-/// Everything that the project's `[output]` names, except the report: where it goes and what it is.
+/// What a project asks for.
+#[derive(Debug, Clone)]
+pub struct Outputs {
+    /// Where each output goes, relative to the project file, and what it is. The report is not among them:
+    /// the caller may want to add to it.
+    pub files: Vec<(PathBuf, Files)>,
+    /// What was done and how well.
+    pub report: Report,
+}
+
+/// Everything that the project's `[output]` names.
 ///
 /// # Errors
-/// A format cannot hold the font.
+/// A format cannot hold the font, or a gate does not let it through.
 pub fn outputs(
     project: &Project,
     built: &Built,
     world: World<'_>,
-) -> Result<Vec<(PathBuf, Files)>, Vec<Problem>> {
-    let wanted = project.output.fonts();
-    let proof = project.output.proof.as_ref();
-    let needs = |c: Curves| wanted.iter().any(|(f, _)| f.curves == c);
-    let quadratic = if needs(Curves::Quadratic) || proof.is_some() {
-        Some(quadratic(project, &built.font, world)?)
-    } else {
-        None
+) -> Result<Outputs, Vec<Problem>> {
+    let quadratic = quadratic(project, &built.font, world)?;
+    let report = {
+        let _time = world.watch.enter(Stage::Measure);
+        Report::new(built, &quadratic)
     };
+    let problems = report.gated(&project.gate);
+    if !problems.is_empty() {
+        return Err(problems);
+    }
     let _time = world.watch.enter(Stage::Write);
-    let mut out = Vec::new();
+    let mut files = Vec::new();
     let mut woff2 = None;
-    for (format, path) in wanted {
-        let font = match (format.curves, &quadratic) {
-            (Curves::Quadratic, Some(font)) => font,
-            _ => &built.font,
+    for (format, path) in project.output.fonts() {
+        let font = match format.curves {
+            Curves::Quadratic => &quadratic,
+            Curves::Cubic => &built.font,
         };
-        let files = (format.write)(font).map_err(|e| vec![e.into()])?;
+        let made = (format.write)(font).map_err(|e| vec![e.into()])?;
         if format.name == WEB {
-            woff2 = Some(files.clone());
+            woff2 = Some(made.clone());
         }
-        out.push((path.clone(), files));
+        files.push((path.clone(), made));
     }
-    if let (Some(path), Some(font)) = (proof, &quadratic) {
-        let woff2 = woff2.map_or_else(|| web_font(font), Ok);
+    if let Some(path) = &project.output.proof {
+        let woff2 = woff2.map_or_else(|| web_font(&quadratic), Ok);
         let page = proof_page(built, &woff2.map_err(|e| vec![e.into()])?);
-        out.push((path.clone(), Files::single(page.into_bytes())));
+        files.push((path.clone(), Files::single(page.into_bytes())));
     }
-    Ok(out)
+    Ok(Outputs { files, report })
 }
 
 /// The format that web pages embed.
@@ -100,19 +112,11 @@ fn proof_page(built: &Built, woff2: &Files) -> String {
 fn entry(font: &Font, letter: &Letter) -> Option<Entry> {
     let identity = names::identify(&letter.cell.label).ok()?;
     let glyph = font.glyph(identity.name.as_str())?;
-    let units_per_em = font.info.units_per_em;
-    let frame = letter.frame(units_per_em);
-    let drawn = letter.place(units_per_em).ok()?;
-    // spacing has moved the outline by whole units
-    let moved = glyph.outline.bounds()?.x0 - drawn.outline.bounds()?.x0;
     Some(Entry {
         sheet: letter.sheet.clone(),
         index: letter.cell.index,
         gray: letter.cell.gray.clone(),
-        frame: Frame {
-            origin_px: frame.origin_px - moved.round() / frame.units_per_px,
-            ..frame
-        },
+        frame: letter.frame_in(font)?,
         glyph: glyph.clone(),
         text: identity.chars.iter().collect(),
     })

@@ -120,6 +120,18 @@ pub enum Problem {
         /// why
         source: QuadraticError,
     },
+    /// A glyph is worse than the project allows.
+    #[error("{place}: {what} is {value:.2} units, above the {limit} that [gate] allows")]
+    Gate {
+        /// where
+        place: Place,
+        /// which measure
+        what: &'static str,
+        /// its value, font units
+        value: f64,
+        /// what the project allows, font units
+        limit: f64,
+    },
     /// The glyphs make no font.
     #[error(transparent)]
     Assemble(#[from] AssembleError),
@@ -141,6 +153,9 @@ impl Problem {
             }
             Self::Twice { .. } => {
                 "rename one, give it a suffix such as .alt, or skip its cell with _"
+            }
+            Self::Gate { .. } => {
+                "look at the glyph in `khatt proof`; scan it larger, trace with a smaller tolerance_px, or raise the gate"
             }
             _ => return None,
         })

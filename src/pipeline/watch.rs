@@ -27,6 +27,8 @@ pub enum Stage {
     Assemble,
     /// TrueType's curves.
     Quadratic,
+    /// The outline that is compiled against the scan.
+    Measure,
     /// Bytes.
     Write,
 }
@@ -44,6 +46,7 @@ impl fmt::Display for Stage {
             Self::Place => "place",
             Self::Assemble => "assemble",
             Self::Quadratic => "quadratic",
+            Self::Measure => "measure",
             Self::Write => "write",
         })
     }

@@ -33,6 +33,9 @@ pub struct Project {
     /// How cubics become TrueType's quadratics.
     #[serde(default)]
     pub quadratic: QuadraticTable,
+    /// What a glyph must hold to for the build to succeed.
+    #[serde(default)]
+    pub gate: GateTable,
     /// What to make.
     #[serde(default)]
     pub output: OutputTable,
@@ -56,6 +59,18 @@ impl Default for QuadraticTable {
             tolerance_em: 0.000_25,
         }
     }
+}
+
+/// Limits that fail the build, font units.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct GateTable {
+    /// Largest distance from the scanned edge to the outline that is compiled.
+    #[serde(deserialize_with = "check::optional_size")]
+    pub max_error: Option<f64>,
+    /// Root mean square of that distance.
+    #[serde(deserialize_with = "check::optional_size")]
+    pub rms_error: Option<f64>,
 }
 
 /// The outputs to make, relative to the project file; those left out are not made.

@@ -1,0 +1,60 @@
+//! `--keep`: what each stage made of each cell.
+
+use super::{cut, trace};
+use khatt::pipeline::{Built, Letter};
+use khatt::trace as contours;
+use khatt::types::{Contour, Files};
+use khatt::write;
+use kurbo::{BezPath, PathEl};
+
+/// For every cell its picture, its contours and its curves in the picture's pixels; for every glyph its
+/// outline in font units; the OpenType features.
+pub(crate) fn files(built: &Built) -> Files {
+    let mut files = Files::default();
+    for (n, letter) in built.letters.iter().enumerate() {
+        let stem = format!("{:03}-{}", n + 1, letter.cell.index + 1);
+        let gray = &letter.cell.gray;
+        let mut add = |stage: &str, kind: &str, content: Vec<u8>| {
+            files.0.insert(format!("{stage}/{stem}.{kind}"), content);
+        };
+        add("1-cut", "png", cut::png(gray));
+        add(
+            "2-trace",
+            "svg",
+            trace::svg(gray, &rings(letter)).into_bytes(),
+        );
+        add("3-fit", "svg", trace::svg(gray, &letter.paths).into_bytes());
+    }
+    if let Some(format) = write::format("svg") {
+        let outlines = (format.write)(&built.font).unwrap_or_default();
+        let placed = outlines
+            .0
+            .into_iter()
+            .map(|(name, svg)| (format!("4-place/{name}"), svg));
+        files.0.extend(placed);
+    }
+    let features = write::layout::text(&built.font).into_bytes();
+    files
+        .0
+        .insert("5-assemble/features.fea".to_owned(), features);
+    files
+}
+
+/// The contours as closed polygons.
+fn rings(letter: &Letter) -> Vec<BezPath> {
+    let rings = contours::trace(&letter.cell.gray, &contours::Options::default());
+    let ring = |c: &Contour| {
+        let mut path: BezPath = (c.points().iter().enumerate())
+            .map(|(i, &p)| {
+                if i == 0 {
+                    PathEl::MoveTo(p)
+                } else {
+                    PathEl::LineTo(p)
+                }
+            })
+            .collect();
+        path.close_path();
+        path
+    };
+    rings.iter().map(ring).collect()
+}

@@ -1,0 +1,169 @@
+//! What was done and how well: a row a glyph.
+
+use super::build::Built;
+use super::letter::Letter;
+use super::problem::{Place, Problem};
+use super::project::GateTable;
+use crate::assemble::{Note, names};
+use crate::numeric::distance::Polyline;
+use crate::trace;
+use crate::types::{Font, Outline};
+use kurbo::{Point, flatten};
+use schemars::JsonSchema;
+use serde::Serialize;
+
+/// Chords of the measured outline leave its curves by no more than this, font units.
+const CHORD: f64 = 0.01;
+
+/// What was done and how well.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct Report {
+    /// Name and version of the program.
+    pub program: String,
+    /// Family and style name.
+    pub font: String,
+    /// Units an em.
+    pub units_per_em: u16,
+    /// A row a drawn glyph, in reading order.
+    pub glyphs: Vec<Row>,
+    /// What could not be met.
+    pub notes: Vec<Remark>,
+}
+
+/// A glyph.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct Row {
+    /// Its name in the font.
+    pub name: String,
+    /// The text that it draws.
+    pub text: String,
+    /// The page.
+    pub sheet: String,
+    /// The cell in the page's reading order, from 1.
+    pub cell: usize,
+    /// Left, top, right and bottom of its ink in the page's picture, px.
+    pub box_px: [f64; 4],
+    /// Pixels an em.
+    pub pixels_per_em: f64,
+    /// Advance width, font units.
+    pub advance: f64,
+    /// Contours.
+    pub contours: usize,
+    /// On-curve points of the cubic outline.
+    pub nodes: usize,
+    /// Largest distance from the scanned edge to the outline that is compiled, font units.
+    pub max_error: f64,
+    /// Root mean square of that distance, font units.
+    pub rms_error: f64,
+}
+
+/// A remark about a glyph.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
+pub struct Remark {
+    /// The glyph.
+    pub glyph: String,
+    /// What could not be done, and what to do about it.
+    pub message: String,
+}
+
+impl Report {
+    /// Measures every glyph of `compiled` (the outlines that are written) against its scan.
+    #[must_use]
+    pub(super) fn new(built: &Built, compiled: &Font) -> Self {
+        let info = &built.font.info;
+        let rows = built.letters.iter().filter_map(|l| row(built, compiled, l));
+        let remark = |n: &Note| Remark {
+            glyph: n.glyph.clone(),
+            message: n.message.clone(),
+        };
+        Self {
+            program: format!("khatt {}", env!("CARGO_PKG_VERSION")),
+            font: format!("{} {}", info.family, info.style),
+            units_per_em: info.units_per_em,
+            glyphs: rows.collect(),
+            notes: built.notes.iter().map(remark).collect(),
+        }
+    }
+
+    /// The glyphs that a project's gates do not let through.
+    pub(super) fn gated(&self, gate: &GateTable) -> Vec<Problem> {
+        let limits = [("max_error", gate.max_error), ("rms_error", gate.rms_error)];
+        let mut out = Vec::new();
+        for row in &self.glyphs {
+            for ((what, limit), value) in limits.iter().zip([row.max_error, row.rms_error]) {
+                if let Some(limit) = limit.filter(|l| value > *l) {
+                    out.push(Problem::Gate {
+                        place: Place {
+                            sheet: row.sheet.clone(),
+                            index: row.cell - 1,
+                            label: Some(row.name.clone()),
+                        },
+                        what,
+                        value,
+                        limit,
+                    });
+                }
+            }
+        }
+        out
+    }
+}
+
+fn row(built: &Built, compiled: &Font, letter: &Letter) -> Option<Row> {
+    let identity = names::identify(&letter.cell.label).ok()?;
+    let glyph = built.font.glyph(identity.name.as_str())?;
+    let shape = compiled.glyph(identity.name.as_str())?;
+    let (max_error, rms_error) = errors(&edge(&built.font, letter)?, &shape.outline);
+    let b = letter.cell.in_sheet;
+    let contours = glyph.outline.contours();
+    let nodes = contours.iter().map(|c| c.segments().count());
+    Some(Row {
+        name: identity.name.to_string(),
+        text: identity.chars.iter().collect(),
+        sheet: letter.sheet.clone(),
+        cell: letter.cell.index + 1,
+        box_px: [b.x0, b.y0, b.x1, b.y1],
+        pixels_per_em: letter.cell.guides.px_per_em,
+        advance: glyph.advance,
+        contours: contours.len(),
+        nodes: nodes.sum(),
+        max_error,
+        rms_error,
+    })
+}
+
+/// The scanned edge of a letter where its glyph stands, font units.
+fn edge(font: &Font, letter: &Letter) -> Option<Vec<Point>> {
+    let map = letter.frame_in(font)?.to_units();
+    let contours = trace::trace(&letter.cell.gray, &trace::Options::default());
+    let points = contours.iter().flat_map(|c| c.points().to_vec());
+    Some(points.map(|p| map * p).collect())
+}
+
+/// Largest and root mean square distance of points to an outline.
+#[expect(
+    clippy::cast_precision_loss,
+    reason = "letters have fewer points than 2^52"
+)]
+fn errors(points: &[Point], outline: &Outline) -> (f64, f64) {
+    let lines: Vec<Polyline> = (outline.contours().iter())
+        .filter_map(|contour| {
+            let mut chords = Vec::new();
+            flatten(contour, CHORD, |el| chords.extend(el.end_point()));
+            chords.extend(chords.first().copied());
+            Polyline::new(chords)
+        })
+        .collect();
+    let distance = |p: &Point| {
+        let each = lines.iter().map(|line| line.nearest(*p).distance);
+        each.fold(f64::INFINITY, f64::min)
+    };
+    let all: Vec<f64> = points
+        .iter()
+        .map(distance)
+        .filter(|d| d.is_finite())
+        .collect();
+    let max = all.iter().copied().fold(0.0, f64::max);
+    let squares: f64 = all.iter().map(|d| d * d).sum();
+    (max, (squares / all.len().max(1) as f64).sqrt())
+}
