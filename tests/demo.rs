@@ -1,0 +1,145 @@
+//! The demo sheets: every glyph in its place, a few outlines and the fonts' tables approved, text that joins.
+
+use crate::common::approved;
+use harfrust::{ShapeOptions, ShaperData, UnicodeBuffer};
+use khatt::assemble::names;
+use khatt::pipeline::{self, Built, Project, Unwatched, World};
+use khatt::write;
+use skrifa::{FontRef, GlyphId, MetadataProvider, raw::TableProvider};
+use std::fmt::Write;
+use std::fs;
+use std::path::Path;
+
+/// Builds `glyphs/<name>.toml` and gives it with the bytes of its outputs by ending.
+fn demo(name: &str) -> (Built, Vec<(String, Vec<u8>)>) {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("glyphs");
+    let text = fs::read_to_string(folder.join(format!("{name}.toml"))).expect("a project");
+    let project = Project::parse(&text).expect("a project file");
+    let read = |path: &Path| fs::read(folder.join(path)).map_err(|e| e.to_string());
+    let world = World {
+        read: &read,
+        watch: &Unwatched,
+        created: 0,
+    };
+    let built = pipeline::build(&project, world).expect("a font");
+    let outputs = pipeline::outputs(&project, &built, world).expect("outputs");
+    let single = outputs.files.into_iter().filter_map(|(path, files)| {
+        let ending = path.extension()?.to_str()?.to_owned();
+        Some((ending, files.0.get("")?.clone()))
+    });
+    let single = single.collect();
+    (built, single)
+}
+
+fn output<'a>(outputs: &'a [(String, Vec<u8>)], ending: &str) -> &'a [u8] {
+    let found = outputs.iter().find(|(e, _)| e == ending);
+    &found.expect("an output").1
+}
+
+/// Tables with their sizes left out where they are coded, characters and advances: what a font says of itself.
+fn dump(bytes: &[u8]) -> String {
+    let font = FontRef::new(bytes).expect("a font");
+    let mut out = String::new();
+    let mut line = |text: String| writeln!(out, "{text}").expect("a String takes everything");
+    let tags = font.table_directory.table_records().iter();
+    line(format!(
+        "tables: {}",
+        tags.map(|r| r.tag().to_string())
+            .collect::<Vec<_>>()
+            .join(" ")
+    ));
+    let head = font.head().expect("head");
+    line(format!("units per em: {}", head.units_per_em()));
+    let os2 = font.os2().expect("OS/2");
+    line(format!(
+        "line: {} {} {}, weight {}",
+        os2.s_typo_ascender(),
+        os2.s_typo_descender(),
+        os2.s_typo_line_gap(),
+        os2.us_weight_class()
+    ));
+    let gsub = font.gsub().map(|g| g.feature_list().expect("features"));
+    let features = gsub.map(|list| {
+        let tags = list.feature_records().iter();
+        tags.map(|r| r.feature_tag().to_string())
+            .collect::<Vec<_>>()
+    });
+    line(format!("GSUB: {}", features.unwrap_or_default().join(" ")));
+    line(format!(
+        "glyphs: {}",
+        font.maxp().expect("maxp").num_glyphs()
+    ));
+    for (c, id) in font.charmap().mappings() {
+        line(format!("U+{c:04X} → {}", id.to_u32()));
+    }
+    out
+}
+
+/// Glyph names of a shaped text in visual order.
+fn shape(built: &Built, bytes: &[u8], text: &str) -> Vec<String> {
+    let font = FontRef::new(bytes).expect("a font");
+    let data = ShaperData::new(&font);
+    let shaper = data.shaper(&font).build();
+    let mut buffer = UnicodeBuffer::new();
+    buffer.push_str(text);
+    buffer.guess_segment_properties();
+    let glyphs = shaper.shape(buffer, ShapeOptions::default());
+    let name = |id: u32| built.font.glyphs()[id as usize].name.to_string();
+    glyphs
+        .glyph_infos()
+        .iter()
+        .map(|i| name(i.glyph_id))
+        .collect()
+}
+
+#[test]
+fn the_latin_sheet() {
+    let (built, outputs) = demo("latin");
+    assert_eq!(built.letters.len(), 89);
+    for c in "AZaz09.&@$_".chars() {
+        let name = names::name_of(&[c]);
+        let glyph = built.font.glyph(&name).expect("a glyph of the sheet");
+        assert_eq!(glyph.codepoints, [c], "{name}");
+        assert!(!glyph.outline.is_empty(), "{name}");
+    }
+    let metrics = built.font.info.metrics;
+    assert!((620.0..690.0).contains(&metrics.cap_height), "{metrics:?}");
+    assert!((370.0..430.0).contains(&metrics.x_height), "{metrics:?}");
+    for ending in ["ttf", "otf"] {
+        approved::check(
+            "fonts",
+            &format!("latin-{ending}"),
+            &dump(output(&outputs, ending)),
+        );
+    }
+}
+
+#[test]
+fn the_arabic_sheets_join() {
+    let (built, outputs) = demo("arabic");
+    assert_eq!(built.letters.len(), 119);
+    for ending in ["ttf", "otf"] {
+        let bytes = output(&outputs, ending);
+        approved::check("fonts", &format!("arabic-{ending}"), &dump(bytes));
+        let shaped = shape(&built, bytes, "بسم الله لا خط");
+        let want = [
+            "uni0637.fina",
+            "uni062E.init",
+            "space",
+            "uni06440627",
+            "space",
+            "uni0647.fina",
+            "uni0644.medi",
+            "uni0644.init",
+            "uni0627",
+            "space",
+            "uni0645.fina",
+            "uni0633.medi",
+            "uni0628.init",
+        ];
+        assert_eq!(shaped, want, "{ending}");
+        let font = FontRef::new(bytes).expect("a font");
+        assert_ne!(font.charmap().map('ب'), Some(GlyphId::NOTDEF));
+    }
+    assert!(write::layout::text(&built.font).contains("feature rlig"));
+}
