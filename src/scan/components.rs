@@ -1,5 +1,6 @@
 //! Connected ink: runs along rows, joined where they touch, also at their corners.
 
+use super::whole::floor;
 use crate::types::Gray;
 use kurbo::{Affine, Point, Rect};
 use rayon::prelude::*;
@@ -51,7 +52,7 @@ impl Component {
 
     /// How far its edge lies outside the line of half coverage, px.
     fn rim(&self) -> f64 {
-        (1.0 - self.full as f64 / self.area.max(1) as f64) * self.stroke() / 2.0
+        (1.0 - self.full as f64 / self.area.max(1) as f64).max(0.0) * self.stroke() / 2.0
     }
 
     /// Measures it on the upright page that `upright` maps the sheet's picture to.
@@ -88,6 +89,27 @@ impl Component {
         let flats = 2 * (self.area - covered.min(self.area));
         2.0 * self.area as f64 / ((sides.max(flats) + sides.min(flats) / 2) as f64).max(1.0)
     }
+
+    /// The pieces of it whose runs' middles lie inside a rectangle of the upright page.
+    pub(super) fn within(&self, upright: Affine, area: Rect) -> Vec<Self> {
+        let back = upright.inverse().transform_rect_bbox(area);
+        let clip = |r: &Run| {
+            let (start, end) = (r.start.max(floor(back.x0)), r.end.min(floor(back.x1)));
+            let middle = upright * Point::new((start + end) as f64 / 2.0, r.y as f64 + 0.5);
+            (start < end && area.contains(middle)).then_some(Run { y: r.y, start, end })
+        };
+        let runs: Vec<Run> = self.runs.iter().filter_map(clip).collect();
+        let full = self.full as f64 / self.area.max(1) as f64;
+        let groups = group(&runs, Touch::Corners).into_iter();
+        let pieces = groups.map(|g| {
+            let runs: Vec<Run> = g.into_iter().map(|i| runs[i]).collect();
+            let area: usize = runs.iter().map(|r| r.end - r.start).sum();
+            let mut piece = Self::new(runs, floor(full * area as f64));
+            piece.stand(upright);
+            piece
+        });
+        pieces.collect()
+    }
 }
 
 /// Runs of one row and of the next that overlap by at least a pixel.
@@ -114,7 +136,7 @@ pub(super) fn components(gray: &Gray, low: f32, seed: f32) -> Vec<Component> {
         .map(|y| runs(gray.row(y), y, low))
         .collect();
     let (runs, coverage): (Vec<Run>, Vec<Coverage>) = rows.into_iter().flatten().unzip();
-    let groups = group(&runs).into_iter();
+    let groups = group(&runs, Touch::Corners).into_iter();
     groups
         .filter(|g| g.iter().any(|&i| coverage[i].peak >= seed))
         .map(|g| {
@@ -148,8 +170,28 @@ fn runs(row: &[f32], y: usize, low: f32) -> Vec<(Run, Coverage)> {
     out
 }
 
-/// Indices of runs that touch, also at corners: union-find along neighbouring rows.
-fn group(runs: &[Run]) -> Vec<Vec<usize>> {
+/// What makes neighbours of two pixels.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Touch {
+    /// A common side or corner.
+    Corners,
+    /// A common side.
+    Sides,
+}
+
+/// Connected paper that does not reach the border of a picture of `width` × `height` px.
+pub(super) fn enclosed(paper: &[Run], width: usize, height: usize) -> Vec<Component> {
+    let free = |r: &Run| r.start == 0 || r.end >= width || r.y == 0 || r.y + 1 >= height;
+    let groups = group(paper, Touch::Sides).into_iter();
+    let pieces = groups.map(|g| g.into_iter().map(|i| paper[i]).collect::<Vec<Run>>());
+    let inside = pieces.filter(|runs| !runs.iter().any(free));
+    inside
+        .map(|runs| Component::new(runs, usize::MAX))
+        .collect()
+}
+
+/// Indices of runs that touch: union-find along neighbouring rows.
+fn group(runs: &[Run], touch: Touch) -> Vec<Vec<usize>> {
     let mut parent: Vec<usize> = (0..runs.len()).collect();
     fn root(parent: &mut [usize], mut i: usize) -> usize {
         while parent[i] != i {
@@ -158,16 +200,17 @@ fn group(runs: &[Run]) -> Vec<Vec<usize>> {
         }
         i
     }
+    let reach = usize::from(touch == Touch::Corners);
     let mut above = 0;
     for (i, run) in runs.iter().enumerate() {
         while runs[above].y + 1 < run.y
-            || (runs[above].y + 1 == run.y && runs[above].end < run.start)
+            || (runs[above].y + 1 == run.y && runs[above].end + reach <= run.start)
         {
             above += 1;
         }
         let touching = runs[above..i]
             .iter()
-            .take_while(|a| a.y < run.y && a.start <= run.end);
+            .take_while(|a| a.y < run.y && a.start < run.end + reach);
         for j in above..above + touching.count() {
             let (a, b) = (root(&mut parent, i), root(&mut parent, j));
             parent[a.max(b)] = a.min(b);

@@ -79,6 +79,21 @@ pub enum ScanError {
         /// names given
         names: usize,
     },
+    /// Letters and names differ in number.
+    #[error(
+        "{source_name} has {found} letters in rows of {rows}, but {names} names are given; look at the proof \
+         for letters that were joined or torn, correct the names, or write _ for ink to be skipped"
+    )]
+    Count {
+        /// the file
+        source_name: String,
+        /// letters found
+        found: usize,
+        /// letters of each row
+        rows: String,
+        /// names given
+        names: usize,
+    },
     /// The size of an em is to be measured in millimetres, and the file does not say its resolution.
     #[error(
         "{source_name} does not say its resolution, so em_mm means nothing; give pixels_per_em"

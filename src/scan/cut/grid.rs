@@ -92,11 +92,11 @@ pub(super) fn place(
         }
     }
     settle_small_parts(all, &mut cells, &x, &y);
-    let slots = name(all, cells, labels, plan, &mut rejected)?;
-    let rows = (0..plan.rows).map(|r| y.begin(r)).collect();
+    let mut slots = name(all, cells, labels, plan, &mut rejected)?;
+    slots.iter_mut().for_each(|s| s.level = y.begin(s.row));
     Ok(Layer {
         slots,
-        rows,
+        rows: plan.rows,
         rejected,
     })
 }
@@ -216,6 +216,7 @@ fn name(
                     label: label.clone(),
                     index,
                     row,
+                    level: 0.0,
                     parts,
                 }),
                 None if ink(&parts) as f64 > least => {

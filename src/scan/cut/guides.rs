@@ -25,8 +25,8 @@ const USUAL_EXTENT: f64 = 1.0;
 
 /// What all cells of a page share.
 pub(super) struct Guides {
-    /// Upright px, for each row of the layer.
-    pub(super) baselines: Vec<f64>,
+    /// How far the baseline lies below the slots' levels, px, for each row of the layer.
+    pub(super) drop: Vec<f64>,
     pub(super) px_per_em: f64,
     pub(super) warnings: Vec<Warning>,
 }
@@ -34,11 +34,19 @@ pub(super) struct Guides {
 /// A letter as far as heights go.
 struct Letter {
     row: usize,
+    level: f64,
     shape: Shape,
     /// The body's box: the largest part of letters that have dots, else the whole.
     body: Rect,
     /// The whole ink's box.
     whole: Rect,
+}
+
+impl Letter {
+    /// Upright px.
+    fn baseline(&self, drop: &[f64]) -> f64 {
+        self.level + drop[self.row]
+    }
 }
 
 /// Measures baselines and scale.
@@ -54,10 +62,10 @@ pub(super) fn measure(
         .iter()
         .filter_map(|s| letter(s, all, &names))
         .collect();
-    let baselines = baselines(&letters, &layer.rows);
-    let (px_per_em, warning) = scale(&letters, &baselines, page, options)?;
+    let drop = drops(&letters, layer.rows);
+    let (px_per_em, warning) = scale(&letters, &drop, page, options)?;
     Ok(Guides {
-        baselines,
+        drop,
         px_per_em,
         warnings: warning.into_iter().collect(),
     })
@@ -75,27 +83,30 @@ fn letter(slot: &Slot, all: &[Component], names: &GlyphData) -> Option<Letter> {
     };
     Some(Letter {
         row: slot.row,
+        level: slot.level,
         shape,
         body,
         whole,
     })
 }
 
-/// The baseline of each row, upright px. All rows share the distance from their nominal heights, up to a
-/// drift along the page; the letters of a row move its own baseline as far as their number justifies.
-fn baselines(letters: &[Letter], rows: &[f64]) -> Vec<f64> {
-    let standing: Vec<(usize, f64)> = feet(letters, Foot::Flat, 0.0);
-    let enough = standing.len() >= rows.len() && standing.len() >= 3;
+/// How far each row's baseline lies below its slots' levels, px. All rows share it, up to a drift along the
+/// page; the letters of a row move their own baseline as far as their number justifies.
+fn drops(letters: &[Letter], rows: usize) -> Vec<f64> {
+    let standing = feet(letters, Foot::Flat, 0.0);
+    let enough = standing.len() >= rows && standing.len() >= 3;
     let bowed = if enough {
         Vec::new()
     } else {
         feet(letters, Foot::Round, OVERSHOOT)
     };
-    let mut feet: Vec<(usize, f64)> = standing.into_iter().chain(bowed).collect();
-    if feet.is_empty() {
-        feet = letters.iter().map(|l| (l.row, l.body.y1)).collect();
+    let mut off: Vec<(usize, f64)> = standing.into_iter().chain(bowed).collect();
+    if off.is_empty() {
+        off = letters
+            .iter()
+            .map(|l| (l.row, l.body.y1 - l.level))
+            .collect();
     }
-    let off: Vec<(usize, f64)> = feet.iter().map(|&(r, y)| (r, y - rows[r])).collect();
     let height = median(&letters.iter().map(|l| l.body.height()).collect::<Vec<_>>());
     let common = Line::through(&off);
     let near = |&(r, o): &(usize, f64)| (o - common.at(r)).abs() <= ASTRAY * height.unwrap_or(0.0);
@@ -112,9 +123,9 @@ fn baselines(letters: &[Letter], rows: &[f64]) -> Vec<f64> {
             .map(|o| o.1 - common.at(r))
             .collect();
         let n = own.len() as f64;
-        rows[r] + common.at(r) + median(&own).unwrap_or(0.0) * n / (n + SHRINK)
+        common.at(r) + median(&own).unwrap_or(0.0) * n / (n + SHRINK)
     };
-    (0..rows.len()).map(row).collect()
+    (0..rows).map(row).collect()
 }
 
 /// A straight line through values of rows, by medians.
@@ -143,10 +154,10 @@ impl Line {
     }
 }
 
-/// Row and baseline of every letter that meets it so.
+/// Row, and distance of the baseline from the level, of every letter that meets it so.
 fn feet(letters: &[Letter], foot: Foot, overshoot: f64) -> Vec<(usize, f64)> {
     let such = letters.iter().filter(|l| l.shape.foot == foot);
-    such.map(|l| (l.row, l.body.y1 - overshoot * l.body.height()))
+    such.map(|l| (l.row, l.body.y1 - overshoot * l.body.height() - l.level))
         .collect()
 }
 
@@ -176,13 +187,13 @@ fn slope(points: &[(f64, f64)]) -> f64 {
 /// Pixels an em, and a word where nobody gave it.
 fn scale(
     letters: &[Letter],
-    baselines: &[f64],
+    drop: &[f64],
     page: &Page,
     options: &Options,
 ) -> Result<(f64, Option<Warning>), ScanError> {
     let source_name = || page.sheet.source.clone();
     let height = |head, what| {
-        head_height(letters, baselines, head).ok_or_else(|| ScanError::NoHeight {
+        head_height(letters, drop, head).ok_or_else(|| ScanError::NoHeight {
             source_name: source_name(),
             what,
         })
@@ -197,13 +208,13 @@ fn scale(
         }
         Some(Scale::XHeight(em)) => height(Head::X, "the height of x")? / em,
         Some(Scale::CapHeight(em)) => height(Head::Cap, "the height of H")? / em,
-        Some(Scale::AscenderToDescender(em)) => extent(letters, baselines).unwrap_or(1.0) / em,
+        Some(Scale::AscenderToDescender(em)) => extent(letters, drop).unwrap_or(1.0) / em,
         None => {
             let known = USUAL
                 .iter()
-                .find_map(|(head, em)| Some(head_height(letters, baselines, *head)? / em));
+                .find_map(|(head, em)| Some(head_height(letters, drop, *head)? / em));
             let px = known
-                .or_else(|| Some(extent(letters, baselines)? / USUAL_EXTENT))
+                .or_else(|| Some(extent(letters, drop)? / USUAL_EXTENT))
                 .unwrap_or(1.0);
             let message = format!(
                 "no scale is given: {px:.1} pixels an em are taken from the letters' usual heights; \
@@ -223,10 +234,10 @@ fn scale(
 }
 
 /// The height above the baseline that letters share, px: of flat heads, else of bows.
-fn head_height(letters: &[Letter], baselines: &[f64], head: Head) -> Option<f64> {
+fn head_height(letters: &[Letter], drop: &[f64], head: Head) -> Option<f64> {
     let of = |head: Head| -> Vec<f64> {
         let such = letters.iter().filter(|l| l.shape.head == head);
-        such.map(|l| baselines[l.row] - l.body.y0)
+        such.map(|l| l.baseline(drop) - l.body.y0)
             .filter(|h| *h > 0.0)
             .collect()
     };
@@ -239,14 +250,14 @@ fn head_height(letters: &[Letter], baselines: &[f64], head: Head) -> Option<f64>
 }
 
 /// From the highest ink to the lowest, about the baselines, px.
-fn extent(letters: &[Letter], baselines: &[f64]) -> Option<f64> {
+fn extent(letters: &[Letter], drop: &[f64]) -> Option<f64> {
     let above = letters
         .iter()
-        .map(|l| baselines[l.row] - l.whole.y0)
+        .map(|l| l.baseline(drop) - l.whole.y0)
         .reduce(f64::max)?;
     let below = letters
         .iter()
-        .map(|l| l.whole.y1 - baselines[l.row])
+        .map(|l| l.whole.y1 - l.baseline(drop))
         .reduce(f64::max)?;
     Some((above + below).max(1.0))
 }

@@ -2,8 +2,11 @@
 //!
 //! Nothing is lost: every piece of ink above the speckle limit is in a cell or in [`Cut::rejected`].
 
+mod boxes;
+mod free;
 mod grid;
 mod guides;
+mod rows;
 mod window;
 
 use super::clean::Page;
@@ -62,6 +65,8 @@ pub struct Rejected {
 pub enum Reason {
     /// A printed line.
     Line,
+    /// Too little ink for a letter, and one piece more than there are names.
+    Dirt,
     /// It lies outside all cells.
     Outside,
     /// Its cell is marked to be skipped.
@@ -101,15 +106,16 @@ struct Slot {
     index: usize,
     /// Row of letters that share a baseline.
     row: usize,
+    /// A height from which the baseline is equally far in all cells of a row, upright px.
+    level: f64,
     /// Indices of its pieces of ink.
     parts: Vec<usize>,
 }
 
-/// What a layout found: slots in reading order, the rows' nominal heights, and the rest.
+/// What a layout found: slots in reading order, how many rows, and the rest.
 struct Layer {
     slots: Vec<Slot>,
-    /// A height that lies alike in all rows, upright px.
-    rows: Vec<f64>,
+    rows: usize,
     /// Pieces of ink in no slot.
     rejected: Vec<(usize, Reason)>,
 }
@@ -134,17 +140,23 @@ pub fn cut(page: &Page, labels: &[Label], options: &Options) -> Result<Cut, Scan
     let upright = Affine::rotate_about(-skew_deg.to_radians(), middle);
     all.par_iter_mut().for_each(|c| c.stand(upright));
 
+    let source = page.sheet.source.as_str();
     let layer = match options.layout {
         Layout::Grid(rows, columns) => grid::place(
             &all,
             labels,
             &grid::Plan::new(page, options, rows, columns)?,
         )?,
-        Layout::Free | Layout::Boxes => {
-            return Err(ScanError::NoGrid {
-                rows: 0,
-                columns: 0,
-            });
+        Layout::Free => free::place(&all, labels, options, source)?,
+        Layout::Boxes => {
+            let plan = boxes::Plan {
+                gray,
+                low,
+                upright,
+                options,
+                source,
+            };
+            boxes::place(&mut all, labels, &plan)?
         }
     };
     let guides = guides::measure(&layer, &all, page, options)?;
@@ -156,7 +168,11 @@ pub fn cut(page: &Page, labels: &[Label], options: &Options) -> Result<Cut, Scan
     let shutter = window::Shutter { page, low, upright };
     let cells = inked.par_iter().map(|slot| {
         let parts: Vec<&Component> = slot.parts.iter().map(|&i| &all[i]).collect();
-        shutter.cell(slot, &parts, (guides.baselines[slot.row], guides.px_per_em))
+        shutter.cell(
+            slot,
+            &parts,
+            (slot.level + guides.drop[slot.row], guides.px_per_em),
+        )
     });
     let cells: Vec<Cell> = cells.collect();
     let rest = layer

@@ -266,3 +266,109 @@ fn printed_lines_are_no_ink() {
         assert!(widest < 34.0, "letters only");
     }
 }
+
+#[test]
+fn letters_of_a_bare_page_keep_their_dots_and_rows() {
+    let mut paper = Paper::new(640, 420, 1.5);
+    for (row, letters) in ["ninpl", "npin", "lninn"].iter().enumerate() {
+        for (i, c) in letters.chars().enumerate() {
+            // rows drift down to the right, and a descender reaches into the next one
+            paper.letter(
+                c,
+                60.0 + 95.0 * i as f64,
+                90.0 + 80.0 * row as f64 + 4.0 * i as f64,
+            );
+        }
+    }
+    paper.bar(40.0, 400.0, 480.0, 2.0);
+    let names = "n i n p l n p i n l n i n n";
+    let cut = cut_page(&paper, names, &options(Layout::Free)).unwrap();
+    assert_eq!(cut.cells.len(), 14);
+    for cell in &cut.cells {
+        let tall = cell.in_sheet.height();
+        let want = match cell.label.0.as_str() {
+            "i" => 42.0,
+            "l" => 45.0,
+            "p" => 55.0,
+            _ => 30.0,
+        };
+        assert!(
+            (tall - want).abs() < 4.0,
+            "{} {}: {tall}",
+            cell.index,
+            cell.label.0
+        );
+    }
+    assert!(
+        cut.rejected.iter().all(|r| r.reason == Reason::Line),
+        "{:?}",
+        cut.rejected
+    );
+    let wrong = cut_page(&paper, &names[2..], &options(Layout::Free)).unwrap_err();
+    assert!(
+        matches!(
+            wrong,
+            ScanError::Count {
+                found: 14,
+                names: 13,
+                ..
+            }
+        ),
+        "{wrong}"
+    );
+}
+
+#[test]
+fn printed_boxes_hold_one_letter_each() {
+    for skew in [0.0, -2.0] {
+        let mut paper = Paper::new(700, 520, skew);
+        for i in 0..12 {
+            let (x, y) = (
+                60.0 + 150.0 * f64::from(i % 4),
+                50.0 + 150.0 * f64::from(i / 4),
+            );
+            for (dx, dy, w, h) in [
+                (0.0, 0.0, 120.0, 3.0),
+                (0.0, 107.0, 120.0, 3.0),
+                (0.0, 0.0, 3.0, 110.0),
+                (117.0, 0.0, 3.0, 110.0),
+            ] {
+                paper.bar(x + dx, y + dy, w, h);
+            }
+            paper.letter('n', x + 55.0, y + 146.0); // a printed label under the box
+            match i {
+                4 => {}
+                5 => paper.bar(x + 40.0, y, 6.0, 70.0), // a letter that touches its box
+                _ => paper.letter(
+                    ['n', 'p', 'i', 'l'][usize::try_from(i % 4).unwrap_or(0)],
+                    x + 45.0,
+                    y + 75.0,
+                ),
+            }
+        }
+        let cut = cut_page(&paper, "n p i l n l i l n p i l", &options(Layout::Boxes)).unwrap();
+        assert_eq!(cut.cells.len(), 11, "at {skew}°");
+        assert_eq!(
+            cut.warnings.len(),
+            1,
+            "the empty box is warned of: {:?}",
+            cut.warnings
+        );
+        assert!(
+            cut.cells.iter().all(|c| c.in_sheet.width() < 36.0),
+            "letters only"
+        );
+        let outside = cut
+            .rejected
+            .iter()
+            .filter(|r| r.reason == Reason::Outside)
+            .count();
+        assert_eq!(outside, 12, "labels are listed: {:?}", cut.rejected);
+        let many =
+            cut_page(&paper, "n p i l n l i l n p i l n", &options(Layout::Boxes)).unwrap_err();
+        assert!(
+            matches!(many, ScanError::TooManyNames { cells: 12, .. }),
+            "{many}"
+        );
+    }
+}

@@ -1,0 +1,205 @@
+//! Printed boxes, each around one letter: separate frames or the meshes of ruled lines.
+//!
+//! A box is seen by its inside: paper that ink encloses. Slanted, warped and touched boxes enclose their
+//! paper all the same; gaps in a line close at the reduced size at which they are looked for.
+
+use super::rows::rows;
+use super::{Layer, Reason, Slot};
+use crate::scan::components::{Component, Run, enclosed};
+use crate::scan::error::ScanError;
+use crate::scan::options::{Direction, Options};
+use crate::types::{Gray, Label};
+use kurbo::{Affine, Rect};
+
+/// Longer side of the reduced picture in which boxes are looked for, px.
+const REDUCED: usize = 1800;
+/// Side of a box at least, as a share of the picture's shorter side.
+const LEAST_SIDE: f64 = 0.015;
+/// Share of a box's rectangle that is paper at least.
+const PAPER: f64 = 0.55;
+/// How far a box's sides may differ from the usual ones, as a share.
+const ALIKE: f64 = 0.25;
+/// Share of a box's side along its line in which ink that reaches the line is taken for line.
+const RIM: f64 = 0.07;
+/// Ink in a box without a name counts from this share of a usual box's ink.
+const COUNTS: f64 = 0.1;
+
+/// What the page of boxes is cut by.
+pub(super) struct Plan<'a> {
+    pub(super) gray: &'a Gray,
+    /// Coverage from which pixels are ink.
+    pub(super) low: f32,
+    pub(super) upright: Affine,
+    pub(super) options: &'a Options,
+    pub(super) source: &'a str,
+}
+
+/// Shares the ink out to the boxes. Pieces of ink that a letter forms with its box are cut free and appended
+/// to `all`.
+pub(super) fn place(
+    all: &mut Vec<Component>,
+    labels: &[Label],
+    plan: &Plan<'_>,
+) -> Result<Layer, ScanError> {
+    let frames = frames(plan);
+    let mut order = rows(&frames);
+    if plan.options.direction == Direction::Rtl {
+        order.iter_mut().for_each(|r| r.reverse());
+    }
+    if let Some(extra) = labels.get(frames.len()) {
+        return Err(ScanError::TooManyNames {
+            source_name: plan.source.to_owned(),
+            cells: frames.len(),
+            names: labels.len(),
+            extra: extra.0.clone(),
+        });
+    }
+    let mut rejected = Vec::new();
+    let mut inside: Vec<Vec<usize>> = vec![Vec::new(); frames.len()];
+    let mut freed = Vec::new();
+    for (i, c) in all.iter().enumerate() {
+        let touched: Vec<usize> = (0..frames.len())
+            .filter(|&f| reaches(c.upright, frames[f]))
+            .collect();
+        let home = (0..frames.len()).find(|&f| frames[f].contains(c.centre));
+        match (touched.is_empty(), home) {
+            (true, Some(f)) if in_rim(c.upright, frames[f]) => rejected.push((i, Reason::Line)),
+            (true, Some(f)) => inside[f].push(i),
+            (true, None) => rejected.push((i, Reason::Outside)),
+            (false, _) => {
+                rejected.push((i, Reason::Line));
+                freed.extend(
+                    touched
+                        .into_iter()
+                        .map(|f| (f, c.within(plan.upright, free(frames[f])))),
+                );
+            }
+        }
+    }
+    for (f, pieces) in freed {
+        for piece in pieces {
+            inside[f].push(all.len());
+            all.push(piece);
+        }
+    }
+    name(all, (&frames, &order, inside), labels, plan, rejected)
+}
+
+/// What a box holds besides its rim.
+fn free(frame: Rect) -> Rect {
+    frame.inset(-RIM * frame.width().min(frame.height()))
+}
+
+/// Whether a piece of ink reaches from a box's inside, or around it, to its line.
+fn reaches(ink: Rect, frame: Rect) -> bool {
+    let over = ink.x0 < frame.x0 || ink.y0 < frame.y0 || ink.x1 > frame.x1 || ink.y1 > frame.y1;
+    over && ink.overlaps(frame)
+}
+
+/// Whether a piece of ink lies along one side of a box.
+fn in_rim(ink: Rect, frame: Rect) -> bool {
+    !ink.overlaps(free(frame))
+}
+
+/// Insides of the boxes that are most alike, upright px.
+fn frames(plan: &Plan<'_>) -> Vec<Rect> {
+    let (w, h) = (plan.gray.width(), plan.gray.height());
+    let step = w.max(h).div_ceil(REDUCED).max(1);
+    let least = LEAST_SIDE * w.min(h) as f64;
+    let middle = |c: &Component| {
+        let scaled = plan.upright * Affine::scale(step as f64);
+        let mut turned = c.clone();
+        turned.stand(scaled);
+        turned.upright
+    };
+    let papers = enclosed(&paper_runs(plan, step), w / step, h / step);
+    let boxes: Vec<Rect> = papers
+        .iter()
+        .filter(|c| c.area as f64 > PAPER * c.bounds.area())
+        .map(middle)
+        .filter(|b| b.width() > least && b.height() > least)
+        .collect();
+    let alike = |a: &Rect, b: &Rect| {
+        (a.width() / b.width() - 1.0).abs() < ALIKE && (a.height() / b.height() - 1.0).abs() < ALIKE
+    };
+    let size = |b: &Rect| boxes.iter().filter(|o| alike(o, b)).count() as f64 * b.area().sqrt();
+    let usual = boxes.iter().max_by(|a, b| size(a).total_cmp(&size(b)));
+    usual.map_or_else(Vec::new, |u| {
+        boxes.iter().filter(|b| alike(b, u)).copied().collect()
+    })
+}
+
+/// Paper of the reduced picture: blocks without any ink.
+fn paper_runs(plan: &Plan<'_>, step: usize) -> Vec<Run> {
+    let (w, h) = (plan.gray.width() / step, plan.gray.height() / step);
+    let mut runs = Vec::new();
+    for y in 0..h {
+        let mut ink = vec![false; w];
+        for row in y * step..(y + 1) * step {
+            let blocks = plan.gray.row(row).chunks_exact(step);
+            ink.iter_mut()
+                .zip(blocks)
+                .for_each(|(i, b)| *i |= b.iter().any(|&v| v >= plan.low));
+        }
+        let mut x = 0;
+        while let Some(start) = ink[x..].iter().position(|i| !i).map(|s| s + x) {
+            let end = ink[start..]
+                .iter()
+                .position(|i| *i)
+                .map_or(w, |e| e + start);
+            runs.push(Run { y, start, end });
+            x = end;
+        }
+    }
+    runs
+}
+
+type Found<'a> = (&'a [Rect], &'a [Vec<usize>], Vec<Vec<usize>>);
+
+/// Gives the boxes their labels.
+fn name(
+    all: &[Component],
+    (frames, order, mut inside): Found<'_>,
+    labels: &[Label],
+    plan: &Plan<'_>,
+    mut rejected: Vec<(usize, Reason)>,
+) -> Result<Layer, ScanError> {
+    let ink = |parts: &[usize]| parts.iter().map(|&i| all[i].area).sum::<usize>();
+    let mut usual: Vec<usize> = inside.iter().map(|p| ink(p)).filter(|&a| a > 0).collect();
+    usual.sort_unstable();
+    let least = COUNTS * usual.get(usual.len() / 2).copied().unwrap_or(0) as f64;
+    let mut slots = Vec::new();
+    let places = order
+        .iter()
+        .enumerate()
+        .flat_map(|(r, row)| row.iter().enumerate().map(move |(c, &f)| (r, c, f)));
+    for (index, (row, column, f)) in places.enumerate() {
+        let parts = std::mem::take(&mut inside[f]);
+        match labels.get(index) {
+            Some(label) if label.0 == "_" => {
+                rejected.extend(parts.iter().map(|&i| (i, Reason::Skipped)))
+            }
+            Some(label) => slots.push(Slot {
+                label: label.clone(),
+                index,
+                row,
+                level: frames[f].y1,
+                parts,
+            }),
+            None if ink(&parts) as f64 > least => {
+                return Err(ScanError::TooFewNames {
+                    source_name: plan.source.to_owned(),
+                    row: row + 1,
+                    column: column + 1,
+                    names: labels.len(),
+                });
+            }
+            None => rejected.extend(parts.iter().map(|&i| (i, Reason::Unnamed))),
+        }
+    }
+    Ok(Layer {
+        slots,
+        rows: order.len(),
+        rejected,
+    })
+}

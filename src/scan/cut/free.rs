@@ -1,0 +1,193 @@
+//! Letters in rows on a bare page.
+//!
+//! Pieces of ink are joined to letters from the most to the least obvious pair until there are as many
+//! letters as names: a dot and its stem, strokes that the pen left apart, the two bars of an equals sign.
+
+use super::rows::rows;
+use super::{Layer, Reason, Slot, stroke_width};
+use crate::scan::components::Component;
+use crate::scan::error::ScanError;
+use crate::scan::options::{Direction, Options};
+use crate::types::Label;
+use kurbo::Rect;
+
+/// Thickness of a ruled line or a piece of it at most, as a share of its length.
+const LINE_SHAPE: f64 = 0.06;
+/// Length of a piece of a ruled line at least, in usual letters' heights: a dash is shorter.
+const LINE_LENGTH: f64 = 1.5;
+/// Thickness of a faint line's scraps at most, in the page's stroke widths, and their length at least, in
+/// usual letters' heights.
+const SCRAP: (f64, f64) = (0.2, 0.3);
+/// A part that is joined to something above or below is lower than this share of a usual letter.
+const SMALL: f64 = 0.35;
+/// Joins that cost more are never made: about this share of a usual letter lies between the two.
+const DEAREST: f64 = 0.75;
+/// Groups of less ink than this share of a usual letter's may be dirt.
+const DIRT: f64 = 0.06;
+
+/// Gathers the ink of a bare page into letters and names them.
+pub(super) fn place(
+    all: &[Component],
+    labels: &[Label],
+    options: &Options,
+    source: &str,
+) -> Result<Layer, ScanError> {
+    let (height, stroke) = (usual_height(all), stroke_width(all));
+    let is_line = |c: &Component| {
+        let (long, thin) = (
+            c.upright.width().max(c.upright.height()),
+            c.upright.width().min(c.upright.height()),
+        );
+        let line = long > LINE_LENGTH * height && thin < LINE_SHAPE * long;
+        line || (long > SCRAP.1 * height && thin < SCRAP.0 * stroke)
+    };
+    let (lines, ink): (Vec<usize>, Vec<usize>) = (0..all.len()).partition(|&i| is_line(&all[i]));
+    let mut rejected: Vec<(usize, Reason)> = lines.into_iter().map(|i| (i, Reason::Line)).collect();
+    let mut groups = letters(all, &ink, height, labels.len());
+    rejected.extend(drop_dirt(all, &mut groups, labels.len()));
+    let boxes: Vec<Rect> = groups.iter().map(|g| bounds(all, g)).collect();
+    let mut order = rows(&boxes);
+    if options.direction == Direction::Rtl {
+        order.iter_mut().for_each(|r| r.reverse());
+    }
+    let found: usize = order.iter().map(Vec::len).sum();
+    if found != labels.len() {
+        return Err(count_error(source, &order, labels));
+    }
+    let mut slots = Vec::new();
+    let places = order
+        .iter()
+        .enumerate()
+        .flat_map(|(r, row)| row.iter().map(move |&g| (r, g)));
+    for (index, ((row, g), label)) in places.zip(labels).enumerate() {
+        let parts = std::mem::take(&mut groups[g]);
+        if label.0 == "_" {
+            rejected.extend(parts.iter().map(|&i| (i, Reason::Skipped)));
+        } else {
+            let level = level(&boxes, &order[row]);
+            slots.push(Slot {
+                label: label.clone(),
+                index,
+                row,
+                level,
+                parts,
+            });
+        }
+    }
+    Ok(Layer {
+        slots,
+        rows: order.len(),
+        rejected,
+    })
+}
+
+fn bounds(all: &[Component], group: &[usize]) -> Rect {
+    let boxes = group.iter().map(|&i| all[i].upright);
+    boxes.reduce(|a, b| a.union(b)).unwrap_or(Rect::ZERO)
+}
+
+/// The median of a row's lower ends.
+fn level(boxes: &[Rect], row: &[usize]) -> f64 {
+    let mut feet: Vec<f64> = row.iter().map(|&i| boxes[i].y1).collect();
+    feet.sort_by(f64::total_cmp);
+    feet.get(feet.len() / 2).copied().unwrap_or(0.0)
+}
+
+fn count_error(source: &str, order: &[Vec<usize>], labels: &[Label]) -> ScanError {
+    let rows: Vec<String> = order.iter().map(|r| r.len().to_string()).collect();
+    ScanError::Count {
+        source_name: source.to_owned(),
+        found: order.iter().map(Vec::len).sum(),
+        rows: rows.join(", "),
+        names: labels.len(),
+    }
+}
+
+/// Joins ink, the most obvious pairs first, until `wanted` groups are left or no pair is near.
+fn letters(all: &[Component], ink: &[usize], height: f64, wanted: usize) -> Vec<Vec<usize>> {
+    let mut pairs: Vec<(f64, usize, usize)> = Vec::new();
+    for (i, &a) in ink.iter().enumerate() {
+        for (j, &b) in ink.iter().enumerate().skip(i + 1) {
+            let cost = cost(all[a].upright, all[b].upright, height);
+            if cost < DEAREST {
+                pairs.push((cost, i, j));
+            }
+        }
+    }
+    pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mut group: Vec<usize> = (0..ink.len()).collect();
+    let mut left = ink.len();
+    for (_, i, j) in pairs {
+        if left <= wanted {
+            break;
+        }
+        let (from, to) = (group[i].max(group[j]), group[i].min(group[j]));
+        if from != to {
+            group
+                .iter_mut()
+                .filter(|g| **g == from)
+                .for_each(|g| *g = to);
+            left -= 1;
+        }
+    }
+    let of = |id: usize| {
+        (0..ink.len())
+            .filter(|&i| group[i] == id)
+            .map(|i| ink[i])
+            .collect::<Vec<_>>()
+    };
+    (0..ink.len()).map(of).filter(|g| !g.is_empty()).collect()
+}
+
+/// Height of a usual letter, px: the median over the ink, each piece by its area.
+fn usual_height(all: &[Component]) -> f64 {
+    let mut sizes: Vec<(f64, usize)> = all.iter().map(|c| (c.upright.height(), c.area)).collect();
+    sizes.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let half = sizes.iter().map(|s| s.1).sum::<usize>() / 2;
+    let mut sum = 0;
+    let middle = sizes.iter().find(|s| {
+        sum += s.1;
+        sum > half
+    });
+    middle.map_or(1.0, |s| s.0.max(1.0))
+}
+
+/// How far two pieces are from being one letter: the gap between them as a share of a usual height, more
+/// where they stand beside rather than above each other. Two full letters one above the other never are.
+fn cost(a: Rect, b: Rect, height: f64) -> f64 {
+    let dx = (a.x0 - b.x1).max(b.x0 - a.x1);
+    let dy = (a.y0 - b.y1).max(b.y0 - a.y1);
+    let low = a.height().min(b.height());
+    let narrow = a.width().min(b.width()).max(1.0);
+    let small = low < SMALL * height;
+    match (dx < 0.0, dy < 0.0) {
+        (true, true) => {
+            0.8 * (1.0 - dx * dy / (narrow * low.max(1.0))).max(0.0) + if small { 0.0 } else { 0.2 }
+        }
+        (true, false) if small => dy / height + 0.5 * (1.0 + dx / narrow).max(0.0),
+        (false, true) if a.height().max(b.height()) < SMALL * height => 0.25 + dx / height,
+        (false, _) if small && dx < 0.2 * height => 0.35 + dx.hypot(dy.max(0.0)) / height,
+        _ => f64::INFINITY,
+    }
+}
+
+/// Takes out the least groups while there are too many and they are dirt.
+fn drop_dirt(
+    all: &[Component],
+    groups: &mut Vec<Vec<usize>>,
+    wanted: usize,
+) -> Vec<(usize, Reason)> {
+    let area = |g: &Vec<usize>| g.iter().map(|&i| all[i].area).sum::<usize>();
+    let mut areas: Vec<usize> = groups.iter().map(area).collect();
+    areas.sort_unstable();
+    let usual = areas.get(areas.len() / 2).copied().unwrap_or(0) as f64;
+    let mut out = Vec::new();
+    while groups.len() > wanted {
+        let least = (0..groups.len()).min_by_key(|&g| area(&groups[g]));
+        let Some(least) = least.filter(|&g| (area(&groups[g]) as f64) < DIRT * usual) else {
+            break;
+        };
+        out.extend(groups.remove(least).into_iter().map(|i| (i, Reason::Dirt)));
+    }
+    out
+}
