@@ -38,6 +38,19 @@ pub struct Scale {
     pub robust: f64,
 }
 
+/// When a refinement ends.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stop {
+    /// Steps at most.
+    pub rounds: usize,
+    /// Gain of a step, nats, that is not worth another one.
+    pub gain: f64,
+    /// Cost that must come into reach, or the refinement is given up.
+    pub enough: f64,
+}
+
+/// Steps as good as the last that a refinement is trusted to take still.
+const HOPE: f64 = 4.0;
 /// Handles of drawn curves are about this part of the chord; a quarter of a circle has 0.39.
 const HANDLE: f64 = 0.37;
 /// How far handles stray from [`HANDLE`], in chords. Wide: it only decides what the samples leave open.
@@ -48,7 +61,7 @@ const FREEDOM: f64 = 0.5;
 /// How far in one step, in shorter sides.
 const STRIDE: f64 = 0.35;
 
-/// Sums over the rows of one segment. Order of the eight: x, y, direction, handle of the start;
+/// Sums over the rows of one segment, the lower half of them. Order of the eight: x, y, direction, handle of the start;
 /// handle, direction, x, y of the end.
 #[derive(Debug, Clone, Copy, Default)]
 struct Block {
@@ -126,14 +139,14 @@ impl Refit {
         chain: &mut Chain,
         (samples, feet): (&[Sample], &mut Vec<Foot>),
         scale: Scale,
-        rounds: usize,
+        stop: Stop,
     ) -> f64 {
         chain.settle();
         let free = self.lay_out(chain);
         self.drop_anchors(chain);
         let mut cost = self.evaluate(chain, samples, feet, scale);
         let mut lambda = 1e-3;
-        for _ in 0..rounds {
+        for _ in 0..stop.rounds {
             if free == 0 || !self.solve(chain, free, lambda) {
                 break;
             }
@@ -156,7 +169,10 @@ impl Refit {
             }
             self.trial = trial;
             self.feet = slid;
-            if gain.abs() < 1e-4 + 1e-5 * cost || lambda > 1e4 {
+            let idle = gain.abs() < stop.gain * (1.0 + 0.1 * cost) || lambda > 1e4;
+            // Gains shrink from step to step; what is left is hardly more than a few of the last.
+            let hopeless = gain > 0.0 && cost - HOPE * gain > stop.enough;
+            if idle || hopeless {
                 break;
             }
         }
@@ -268,7 +284,7 @@ impl Refit {
             for (k, rk) in row.iter().enumerate() {
                 let w = weight * rk;
                 block.gradient[k] += w * distance;
-                for (h, rl) in block.hessian[k].iter_mut().zip(&row) {
+                for (h, rl) in block.hessian[k].iter_mut().zip(&row[..=k]) {
                     *h += w * rl;
                 }
             }
@@ -337,7 +353,8 @@ impl Refit {
                     for (l, other) in spread.iter().enumerate() {
                         for &(u, d) in other.iter().flatten() {
                             if u <= v {
-                                self.matrix.add(v, u, c * d * block.hessian[k][l]);
+                                self.matrix
+                                    .add(v, u, c * d * block.hessian[k.max(l)][k.min(l)]);
                             }
                         }
                     }

@@ -8,7 +8,7 @@ use crate::numeric::chain::{Chain, Join, Kind, Node};
 use crate::numeric::refit::Foot;
 
 /// Segments that cost so much more than their structure are not lengthened further.
-const HOPELESS: f64 = 80.0;
+const HOPELESS: f64 = 50.0;
 /// Consecutive hopeless lengthenings before giving up: noise may pass.
 const PATIENCE: usize = 3;
 #[derive(Debug, Clone, Copy)]
@@ -39,7 +39,12 @@ pub(super) fn choose(s: &Samples, marks: &[Candidate], sigma: f64) -> (Chain, Ve
             }
             let (a, b) = (&marks[i], &marks[j]);
             let line = lines.cost(s, sigma, a, b);
-            let cubic = cubic_cost(s, sigma, a, b) + over;
+            // No cubic is worth its handles where a line does.
+            let cubic = if line < cost::kind(Kind::Cubic) {
+                line
+            } else {
+                cubic_cost(s, sigma, (a, b), HOPELESS) + over
+            };
             for (kind, fit) in [(Kind::Line, line), (Kind::Cubic, cubic)] {
                 let fit = fit + cost::kind(kind);
                 for before in start {

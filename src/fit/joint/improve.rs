@@ -3,13 +3,15 @@
 
 use super::cost;
 use crate::numeric::chain::{Chain, Join, Kind, Node};
-use crate::numeric::refit::{Foot, Refit, Sample, Scale};
+use crate::numeric::refit::{Foot, Refit, Sample, Scale, Stop};
 use kurbo::{CubicBez, ParamCurve, ParamCurveDeriv, Vec2};
 
 /// Nodes on each side of a change that are refitted with it.
 const AROUND: usize = 2;
 /// Steps of the refinement after a change.
 const ROUNDS: usize = 8;
+/// A gain that ends it, nats.
+const GAIN: f64 = 0.02;
 /// Times that all changes are tried.
 const SWEEPS: usize = 4;
 /// Directions so near to an axis may be meant to lie on it, radians.
@@ -25,6 +27,8 @@ pub(super) struct Work<'a> {
     pub(super) samples: &'a [Sample],
     pub(super) scale: Scale,
     pub(super) refit: Refit,
+    /// Nodes around which nothing was tried since the last change there.
+    pub(super) stale: Vec<bool>,
 }
 
 /// A change of structure. Indices of nodes and segments are those of the window.
@@ -54,52 +58,56 @@ struct Window {
 
 impl Work<'_> {
     /// Refines everything at once.
-    pub(super) fn settle(&mut self, rounds: usize) -> f64 {
+    pub(super) fn settle(&mut self, rounds: usize, gain: f64) {
         let data = (self.samples, &mut self.feet);
-        self.refit.run(&mut self.chain, data, self.scale, rounds)
+        let stop = Stop {
+            rounds,
+            gain,
+            enough: f64::INFINITY,
+        };
+        self.refit.run(&mut self.chain, data, self.scale, stop);
     }
 
     /// Tries all changes until none helps.
     pub(super) fn improve(&mut self) {
+        self.stale = vec![true; self.chain.nodes.len()];
         for _ in 0..SWEEPS {
-            let mut changed = false;
             let mut i = 0;
             while i < self.chain.nodes.len() {
-                changed |= self.improve_at(i);
+                if std::mem::take(&mut self.stale[i]) {
+                    self.improve_at(i);
+                }
                 i += 1;
             }
-            if !changed {
+            if !self.stale.contains(&true) {
                 break;
             }
         }
     }
 
     /// Tries the changes of node `i` and of the segment after it.
-    fn improve_at(&mut self, i: usize) -> bool {
+    fn improve_at(&mut self, i: usize) {
         let before = self.window(i);
         let n = self.chain.nodes.len();
         let at = (i + n - before.start) % n;
         let changes = changes(&before, at);
         if changes.is_empty() {
-            return false;
+            return;
         }
         let mut old = self.copy(&before);
-        let old_cost = self.cost(&mut old, 0);
-        let mut best: Option<(f64, Window)> = None;
+        let mut least = self.cost(&mut old, 0, f64::INFINITY) - 0.01;
+        let mut best = None;
         for change in changes {
             let mut trial = self.copy(&before);
             apply(&mut trial, change);
-            let cost = self.cost(&mut trial, ROUNDS);
-            if cost < best.as_ref().map_or(old_cost - 0.01, |b| b.0) {
-                best = Some((cost, trial));
+            let cost = self.cost(&mut trial, ROUNDS, least);
+            if cost < least {
+                least = cost;
+                best = Some(trial);
             }
         }
-        match best {
-            Some((_, window)) => {
-                self.put_back(&before, window);
-                true
-            }
-            None => false,
+        if let Some(window) = best {
+            self.put_back(&before, window);
         }
     }
 
@@ -113,10 +121,8 @@ impl Work<'_> {
         }
     }
 
-    /// Description length of a window after `rounds` steps of refinement.
-    fn cost(&mut self, w: &mut Window, rounds: usize) -> f64 {
-        let data = (&w.samples[..], &mut w.feet);
-        let fit = self.refit.run(&mut w.chain, data, self.scale, rounds);
+    /// Description length of a window after `rounds` steps of refinement, or more than `enough`.
+    fn cost(&mut self, w: &mut Window, rounds: usize, enough: f64) -> f64 {
         let outside = |s: Option<usize>| s.and_then(|s| self.chain.kinds.get(s).copied());
         let whole = w.chain.is_ring();
         let before = if whole {
@@ -133,6 +139,16 @@ impl Work<'_> {
                     .after((w.start + old - 1) % self.chain.nodes.len()),
             )
         };
+        let structure = cost::structure(&w.chain, before, after);
+        let data = (&w.samples[..], &mut w.feet);
+        // An extremum may yet move out of its segment.
+        let slack = cost::OVER_EXTREMUM * (w.chain.kinds.len().min(2) as f64);
+        let stop = Stop {
+            rounds,
+            gain: GAIN,
+            enough: enough - structure + slack,
+        };
+        let fit = self.refit.run(&mut w.chain, data, self.scale, stop);
         fit + cost::structure(&w.chain, before, after)
     }
 
@@ -195,6 +211,7 @@ impl Work<'_> {
         if w.chain.is_ring() {
             self.chain = w.chain;
             self.feet = w.feet;
+            self.stale = vec![true; self.chain.nodes.len()];
             return;
         }
         let n = self.chain.nodes.len();
@@ -204,6 +221,7 @@ impl Work<'_> {
         let wraps = from.start + old > n;
         let shift = if wraps { from.start } else { 0 };
         self.chain.nodes.rotate_left(shift);
+        self.stale.rotate_left(shift);
         if wraps {
             self.chain.kinds.rotate_left(shift);
         }
@@ -219,6 +237,8 @@ impl Work<'_> {
         let last = &self.chain.nodes[(start + old - 1) % n];
         nodes[new - 1].ahead = last.ahead;
         nodes[new - 1].leave = last.leave;
+        self.stale
+            .splice(start..start + old, std::iter::repeat_n(true, new));
         self.chain.nodes.splice(start..start + old, nodes);
         self.chain
             .kinds
@@ -288,7 +308,6 @@ fn apply(w: &mut Window, change: Change) {
 }
 
 fn drop_node(w: &mut Window, at: usize, kind: Kind) {
-    let n = w.chain.nodes.len();
     let Some(before) = w.chain.before(at) else {
         return;
     };
@@ -314,7 +333,6 @@ fn drop_node(w: &mut Window, at: usize, kind: Kind) {
     w.chain.kinds[before] = kind;
     w.chain.nodes.remove(at);
     w.chain.kinds.remove(after);
-    let _ = n;
     for foot in &mut w.feet {
         if foot.segment > after || (foot.segment == before && before > after) {
             foot.segment -= 1;

@@ -101,23 +101,34 @@ impl Joint {
             return (BezPath::new(), 0);
         }
         upright(&mut chain);
-        let weight = 1.0 / cost::CORRELATION;
-        let samples: Vec<Sample> = s.at.iter().map(|&at| Sample { at, weight }).collect();
-        let scale = Scale {
-            sigma,
-            robust: ROBUST,
+        let weighed = |at, steps| Sample {
+            at,
+            weight: steps / cost::CORRELATION,
         };
-        let refit = Refit::default();
+        let all: Vec<Sample> = s.at.iter().map(|&at| weighed(at, 1.0)).collect();
+        let (indices, points) = s.thinned();
+        let few: Vec<Sample> = points
+            .into_iter()
+            .map(|(at, steps)| weighed(at, steps))
+            .collect();
         let mut work = improve::Work {
             chain,
-            feet,
-            samples: &samples,
-            scale,
-            refit,
+            feet: indices.iter().map(|&k| feet[k]).collect(),
+            samples: &few,
+            scale: Scale {
+                sigma,
+                robust: ROBUST,
+            },
+            refit: Refit::default(),
+            stale: Vec::new(),
         };
-        work.settle(8);
+        work.settle(8, 0.1);
         work.improve();
-        work.settle(20);
+        // Each sample's foot is near that of its neighbour among the few.
+        let near = |k: usize| indices.partition_point(|&i| i < k).min(indices.len() - 1);
+        work.feet = (0..all.len()).map(|k| work.feet[near(k)]).collect();
+        work.samples = &all;
+        work.settle(20, 1e-3);
         (work.chain.to_path(), work.refit.free(&work.chain))
     }
 }

@@ -6,7 +6,7 @@ use crate::numeric::chain::Join;
 use kurbo::{Point, Vec2};
 
 /// Samples looked at, at most: enough to see where a cubic fails.
-const LOOKS: usize = 16;
+const LOOKS: usize = 12;
 /// Deviation of a candidate's direction, radians: that of a parabola through a dozen noisy points.
 const TURN: f64 = 0.03;
 /// Deviation of the direction at a given end, radians, where the parabola is one-sided.
@@ -120,16 +120,24 @@ struct Sums {
 }
 
 /// Cost of the best cubic from `a` to `b`. Both may give way as far as they are uncertain, so that no node
-/// is bought to mend an estimate.
-pub(super) fn cubic_cost(s: &Samples, sigma: f64, a: &Candidate, b: &Candidate) -> f64 {
+/// is bought to mend an estimate. Given up where `enough` is out of reach.
+pub(super) fn cubic_cost(
+    s: &Samples,
+    sigma: f64,
+    (a, b): (&Candidate, &Candidate),
+    enough: f64,
+) -> f64 {
     let mut trial = Trial::new(s, sigma, a, b);
     let mut best = f64::INFINITY;
     for round in 0..=ROUNDS {
         let mut sums = Sums::default();
         trial.look(&mut sums);
         trial.weigh_priors(&mut sums);
+        let gain = best - sums.cost;
         best = best.min(sums.cost);
-        if round == ROUNDS || !solve6(&mut sums.h, &mut sums.g) {
+        // What is left is hardly more than the last gain.
+        let over = gain < 0.5 || (round > 1 && best - 2.0 * gain > enough);
+        if round == ROUNDS || over || !solve6(&mut sums.h, &mut sums.g) {
             break;
         }
         trial.step(&sums.g);
@@ -211,7 +219,7 @@ impl<'a> Trial<'a> {
             let weight = self.weight * pull / (self.sigma * self.sigma);
             for (k, rk) in row.iter().enumerate() {
                 sums.g[k] += weight * rk * d;
-                for (h, rl) in sums.h[k].iter_mut().zip(&row) {
+                for (h, rl) in sums.h[k].iter_mut().zip(&row[..=k]) {
                     *h += weight * rk * rl;
                 }
             }

@@ -5,6 +5,10 @@ use kurbo::{Point, Vec2};
 
 /// A span has at least so many steps.
 const STEPS: usize = 4;
+/// Samples that one may stand for in a search.
+const STRIDE: usize = 4;
+/// And the turn that they may make together, radians.
+const TURN: f64 = 0.2;
 /// Samples on each side of a local parabola, in a span without noise.
 const REACH: usize = 4;
 /// And at most.
@@ -98,6 +102,33 @@ impl Samples {
             [Vec2::ZERO, d / (lo + hi).max(1) as f64, Vec2::ZERO]
         });
         [origin + a, b / self.step, 2.0 * c / (self.step * self.step)]
+    }
+
+    /// Fewer samples that tell nearly as much: indices, and smoothed points with the number of samples that each
+    /// stands for. Where the curve bends all are kept.
+    pub(super) fn thinned(&self) -> (Vec<usize>, Vec<(Point, f64)>) {
+        let n = self.at.len();
+        let mut indices = Vec::with_capacity(n / 2);
+        let mut points = Vec::with_capacity(n / 2);
+        let mut k = 0;
+        while k < n {
+            let turn = self.bend[k].abs() * self.step;
+            let stride = (1..STRIDE)
+                .find(|&m| (m + 1) as f64 * turn > TURN)
+                .unwrap_or(STRIDE)
+                .min(n - k);
+            let mid = k + (stride - 1) / 2;
+            let reach = stride / 2;
+            let at = if reach == 0 {
+                self.at[mid]
+            } else {
+                self.parabola(mid, reach, reach)[0].to_point()
+            };
+            indices.push(mid);
+            points.push((at, stride as f64));
+            k += stride;
+        }
+        (indices, points)
     }
 
     /// Robust deviation of the points from parabolas through their neighbours, along the normal.
