@@ -3,6 +3,7 @@
 mod cli;
 mod common;
 mod demo;
+mod convert;
 mod detectors;
 mod fitters;
 mod fonts;

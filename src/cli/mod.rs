@@ -8,6 +8,7 @@
 )]
 
 mod build;
+mod convert;
 mod cut;
 mod failure;
 mod files;
@@ -57,6 +58,7 @@ enum Command {
     Cut(cut::Cut),
     Proof(proof::Proof),
     Trace(trace::Trace),
+    Convert(convert::Convert),
     Methods(methods::Methods),
     Init(init::Init),
     Completions(shell::Completions),
@@ -90,6 +92,7 @@ fn run(args: &Khatt) -> Outcome {
         Command::Cut(cut) => cut.run(&args.common),
         Command::Proof(proof) => proof.run(&args.common),
         Command::Trace(trace) => trace.run(),
+        Command::Convert(convert) => convert.run(&args.common),
         Command::Methods(methods) => methods.run(),
         Command::Init(init) => init.run(),
         Command::Completions(completions) => completions.run(),

@@ -69,7 +69,7 @@ impl Trace {
 }
 
 /// A length: finite and above 0.
-fn positive(text: &str) -> Result<f64, String> {
+pub(super) fn positive(text: &str) -> Result<f64, String> {
     let value = text.parse::<f64>().map_err(|e| e.to_string())?;
     if value.is_finite() && value > 0.0 {
         Ok(value)

@@ -1,6 +1,7 @@
 //! The order of the stages: a page to cells, cells to outlines, outlines to a font.
 
 mod build;
+pub mod convert;
 mod labels;
 mod letter;
 mod outputs;

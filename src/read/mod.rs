@@ -1,1 +1,111 @@
-//! Font and SVG files → Font: the mirror of `write`.
+//! Font files and drawings → Font: the mirror of `write`.
+//!
+//! | takes | gives |
+//! |---|---|
+//! | the bytes of a TTF, OTF or WOFF2 ([`font`]), of SVG files ([`svg`]), a UFO folder ([`ufo`]) | [`Reading`]: a [`Font`] and what it could not take along |
+//!
+//! Whatever the bytes are, the answer is a font or an error, never a panic.
+
+mod sfnt;
+mod svg;
+mod ufo;
+
+pub use sfnt::font;
+pub use svg::svg;
+pub use ufo::ufo;
+
+use crate::types::{Font, FontError, Glyph, Name};
+use std::collections::BTreeSet;
+use thiserror::Error;
+
+/// Why there is no font.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum ReadError {
+    /// The bytes are of no kind that is read, or damaged.
+    #[error("not readable as {kind}: {message}")]
+    Damaged {
+        /// what it was taken for
+        kind: &'static str,
+        /// what is wrong with it
+        message: String,
+    },
+    /// A place on an axis that the font does not have.
+    #[error("the font has no axis “{0}”; it has: {1}")]
+    Axis(String, String),
+    /// There is nothing to draw in it.
+    #[error("there are no outlines in it")]
+    Empty,
+    /// The glyphs make no font.
+    #[error(transparent)]
+    Font(#[from] FontError),
+}
+
+impl ReadError {
+    fn damaged(kind: &'static str, error: impl ToString) -> Self {
+        Self::Damaged {
+            kind,
+            message: error.to_string(),
+        }
+    }
+}
+
+/// A font, and what of its source did not come along.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Reading {
+    /// The font.
+    pub font: Font,
+    /// What is lost, a line each, for people.
+    pub lost: Vec<String>,
+}
+
+/// Legal, unique glyph names: others get one made from their number.
+#[derive(Debug, Default)]
+struct Names {
+    taken: BTreeSet<Name>,
+    changed: Vec<String>,
+}
+
+impl Names {
+    /// The glyph's name, or `glyphN` where the given one is illegal, missing or taken.
+    fn claim(&mut self, wanted: &str, number: usize) -> Name {
+        if let Ok(name) = Name::new(wanted)
+            && self.taken.insert(name.clone())
+        {
+            return name;
+        }
+        if !wanted.is_empty() {
+            self.changed.push(wanted.to_owned());
+        }
+        let mut made = (0..).filter_map(|k| {
+            let tail = if k == 0 {
+                String::new()
+            } else {
+                format!(".{k}")
+            };
+            Name::new(format!("glyph{number:05}{tail}")).ok()
+        });
+        let name = made
+            .find(|n| !self.taken.contains(n))
+            .unwrap_or_else(Name::notdef);
+        self.taken.insert(name.clone());
+        name
+    }
+
+    fn lost(&self) -> Option<String> {
+        let n = self.changed.len();
+        let some = self
+            .changed
+            .iter()
+            .take(5)
+            .cloned()
+            .collect::<Vec<_>>()
+            .join(", ");
+        (n > 0).then(|| format!("{n} glyph names that are illegal or not unique: {some}"))
+    }
+}
+
+/// An empty `.notdef`.
+fn notdef() -> Glyph {
+    Glyph::new(Name::notdef(), Vec::new(), 500.0)
+}

@@ -127,6 +127,9 @@ pub struct Font {
     /// OpenType features in feature-file syntax, except kerning and mark attachment: those follow
     /// from [`Self::kerning`] and the glyphs' anchors when a font is written.
     pub features: String,
+    /// Tag → binary tables that came with a font file and go into the next one as they are.
+    /// They win over what would be built: glyph ids and characters must not have changed.
+    pub carried: BTreeMap<[u8; 4], Vec<u8>>,
 }
 
 impl Font {
@@ -163,6 +166,7 @@ impl Font {
             glyphs,
             kerning: Kerning::default(),
             features: String::new(),
+            carried: BTreeMap::new(),
         })
     }
 

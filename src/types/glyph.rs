@@ -36,6 +36,12 @@ impl Name {
         }
     }
 
+    /// The name of every font's first glyph, `.notdef`.
+    #[must_use]
+    pub fn notdef() -> Self {
+        Self(".notdef".to_owned())
+    }
+
     /// The name.
     #[must_use]
     pub fn as_str(&self) -> &str {

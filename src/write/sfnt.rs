@@ -4,6 +4,7 @@ use super::numbers::{count, to_i16, to_u16};
 use super::{WriteError, layout, names, os2};
 use crate::types::{Font, Glyph};
 use kurbo::Rect;
+use std::collections::BTreeMap;
 use write_fonts::read::TopLevelTable;
 use write_fonts::tables::cmap::Cmap;
 use write_fonts::tables::gasp::{Gasp, GaspRange, GaspRangeBehavior};
@@ -12,7 +13,7 @@ use write_fonts::tables::hhea::Hhea;
 use write_fonts::tables::hmtx::{Hmtx, LongMetric};
 use write_fonts::tables::maxp::Maxp;
 use write_fonts::tables::post::Post;
-use write_fonts::types::{FWord, Fixed, GlyphId, LongDateTime, UfWord};
+use write_fonts::types::{FWord, Fixed, GlyphId, LongDateTime, Tag, UfWord};
 use write_fonts::validate::Validate;
 use write_fonts::{FontBuilder, FontWrite};
 
@@ -28,6 +29,7 @@ pub(super) struct Common {
     pub(super) maxp: Maxp,
     pub(super) post: Post,
     builder: FontBuilder<'static>,
+    carried: BTreeMap<[u8; 4], Vec<u8>>,
 }
 
 /// Builds the shared tables. `extents` holds each glyph's box as it stands in the file, whole units.
@@ -40,6 +42,7 @@ pub(super) fn common(font: &Font, extents: &[Option<Rect>]) -> Result<Common, Wr
     add(&mut builder, "name", &names::table(&font.info)?)?;
     add(&mut builder, "cmap", &cmap(font)?)?;
     let features = layout::compile(font)?;
+    let carried = font.carried.clone();
     if let Some(gsub) = &features.gsub {
         add(&mut builder, "GSUB", gsub)?;
     }
@@ -54,6 +57,7 @@ pub(super) fn common(font: &Font, extents: &[Option<Rect>]) -> Result<Common, Wr
         maxp: Maxp::new(count(font.glyphs().len(), "the number of glyphs")?),
         post: post(font)?,
         builder,
+        carried,
     })
 }
 
@@ -67,6 +71,9 @@ impl Common {
         add(&mut self.builder, "maxp", &self.maxp)?;
         add(&mut self.builder, "post", &self.post)?;
         outlines(&mut self.builder)?;
+        for (tag, table) in self.carried {
+            self.builder.add_raw(Tag::new(&tag), table);
+        }
         Ok(self.builder.build())
     }
 }

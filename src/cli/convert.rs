@@ -1,0 +1,149 @@
+//! `khatt convert`: a font or drawings in one format become another.
+
+use super::failure::{Failure, chain};
+use super::staged::Staged;
+use super::{Common, Outcome, files};
+use clap::Args;
+use clap::builder::PossibleValuesParser;
+use khatt::pipeline::convert::{Options, Outlines, convert};
+use khatt::quadratic::Method;
+use khatt::read::{self, Reading};
+use khatt::write::{FORMATS, Format, format};
+use std::ffi::OsStr;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Converts a font or SVG drawings into another format
+#[derive(Debug, Args)]
+pub(crate) struct Convert {
+    /// TTF, OTF, WOFF2 or SVG file, UFO folder, or a folder of SVG files
+    #[arg(value_name = "IN")]
+    input: PathBuf,
+    /// Where it goes; the ending says the format, no ending is a folder of SVG files
+    #[arg(short, long, value_name = "OUT")]
+    output: PathBuf,
+    /// Largest error of converted outlines, in thousandths of the em [default: 0.5]
+    #[arg(long, value_name = "UNITS", value_parser = super::trace::positive)]
+    tolerance: Option<f64>,
+    /// How cubics become quadratics; `khatt methods` lists the ways
+    #[arg(long, value_name = "METHOD", hide_possible_values = true, value_parser = PossibleValuesParser::new(Method::all().iter().map(Method::key)))]
+    quadratic: Option<String>,
+    /// Convert outlines that the format could store as they are, too
+    #[arg(long)]
+    optimize: bool,
+    /// Place of a variable font on an axis, as in wght=700
+    #[arg(long, value_name = "AXIS=VALUE", value_parser = axis)]
+    location: Vec<(String, f64)>,
+}
+
+impl Convert {
+    pub(crate) fn run(&self, common: &Common) -> Outcome {
+        let target = self.format()?;
+        let Reading { font, mut lost } = self.read()?;
+        if matches!(target.name, "ufo" | "svg") && !font.carried.is_empty() {
+            let tags: Vec<_> = font
+                .carried
+                .keys()
+                .map(|t| String::from_utf8_lossy(t).trim().to_owned())
+                .collect();
+            lost.push(format!("compiled tables ({})", tags.join(", ")));
+        }
+        let files = convert(&font, target, &self.options())
+            .map_err(|e| Failure::at(files::name(&self.input), &e))?;
+        let mut staged = Staged::default();
+        staged.add(&self.output, &files)?;
+        staged.commit()?;
+        for line in lost.iter().filter(|_| !common.quiet) {
+            eprintln!("not carried over: {line}");
+        }
+        Ok(())
+    }
+
+    fn format(&self) -> Result<&'static Format, Failure> {
+        let ending = self
+            .output
+            .extension()
+            .and_then(OsStr::to_str)
+            .map(str::to_ascii_lowercase);
+        let name = ending.as_deref().unwrap_or("svg");
+        let known = format(name).filter(|f| f.name != "svg" || ending.is_none());
+        known.ok_or_else(|| {
+            let all: Vec<_> = FORMATS.iter().filter_map(|f| f.extension).collect();
+            let name = self.output.display();
+            Failure::new(format!(
+                "{name}: give a name that ends in .{}, or a folder for SVG files",
+                all.join(", .")
+            ))
+        })
+    }
+
+    fn read(&self) -> Result<Reading, Failure> {
+        let name = files::name(&self.input);
+        let fail = |e: &read::ReadError| Failure::new(format!("{name}: {}", chain(e)));
+        let is_ufo = self.input.join("metainfo.plist").exists();
+        if is_ufo {
+            return read::ufo(&self.input).map_err(|e| fail(&e));
+        }
+        if self.input.is_dir() {
+            return read::svg(&drawings(&self.input)?).map_err(|e| fail(&e));
+        }
+        let bytes = files::read(&self.input)?;
+        let ending = self
+            .input
+            .extension()
+            .and_then(OsStr::to_str)
+            .unwrap_or_default();
+        let reading = if ending.eq_ignore_ascii_case("svg") {
+            read::svg(&[(name.clone(), bytes)])
+        } else {
+            read::font(&bytes, &self.location)
+        };
+        reading.map_err(|e| fail(&e))
+    }
+
+    fn options(&self) -> Options {
+        let mut options = Options::default();
+        options.tolerance = self.tolerance.unwrap_or(options.tolerance);
+        if let Some(method) = Method::all()
+            .into_iter()
+            .find(|m| self.quadratic.as_deref() == Some(m.key()))
+        {
+            options.quadratic = method;
+        }
+        if self.optimize {
+            options.outlines = Outlines::All;
+        }
+        options
+    }
+}
+
+/// The SVG files of a folder, by name.
+fn drawings(folder: &Path) -> Result<Vec<(String, Vec<u8>)>, Failure> {
+    let fail = |e: &std::io::Error| Failure::at(folder.display(), e);
+    let mut paths = Vec::new();
+    for entry in fs::read_dir(folder).map_err(|e| fail(&e))? {
+        let path = entry.map_err(|e| fail(&e))?.path();
+        if path
+            .extension()
+            .is_some_and(|e| e.eq_ignore_ascii_case("svg"))
+        {
+            paths.push(path);
+        }
+    }
+    paths.sort();
+    paths
+        .iter()
+        .map(|p| Ok((p.display().to_string(), files::read(p)?)))
+        .collect()
+}
+
+/// `wght=700`
+fn axis(text: &str) -> Result<(String, f64), String> {
+    let (tag, value) = text.split_once('=').ok_or("write it as AXIS=VALUE")?;
+    let value: f64 = value.parse().map_err(|_| format!("{value} is no number"))?;
+    if value.is_finite() {
+        Ok((tag.to_owned(), value))
+    } else {
+        Err("must be finite".to_owned())
+    }
+}

@@ -1,0 +1,107 @@
+//! A font as it was read → the files of another format.
+
+use crate::quadratic::{self, QuadraticError, merge};
+use crate::types::{Files, Font, Glyph, Outline};
+use crate::write::{Curves, Format, WriteError};
+use kurbo::PathEl;
+use rayon::prelude::*;
+use thiserror::Error;
+
+/// Why a font cannot be converted.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum ConvertError {
+    /// A glyph has no quadratic form.
+    #[error("glyph {glyph}: {source}")]
+    Quadratic {
+        /// the glyph's name
+        glyph: String,
+        /// why
+        source: QuadraticError,
+    },
+    /// The format cannot hold the font.
+    #[error(transparent)]
+    Write(#[from] WriteError),
+}
+
+/// How outlines change their kind.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Options {
+    /// Largest error, thousandths of the em.
+    pub tolerance: f64,
+    /// Cubic → quadratic.
+    pub quadratic: quadratic::Method,
+    /// Whether outlines of the right kind are converted all the same.
+    pub outlines: Outlines,
+}
+
+/// Which outlines are converted.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum Outlines {
+    /// Those that the format cannot store.
+    #[default]
+    Needed,
+    /// All of them: quadratics are optimised again.
+    All,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        /// Half a unit of 1000: a quarter of a pixel at 500 px an em.
+        const TOLERANCE: f64 = 0.5;
+        Self {
+            tolerance: TOLERANCE,
+            quadratic: quadratic::Method::default(),
+            outlines: Outlines::default(),
+        }
+    }
+}
+
+/// The font in the format's curves, written.
+///
+/// # Errors
+/// An outline cannot be converted within the tolerance, or the format cannot hold the font.
+pub fn convert(font: &Font, format: &Format, options: &Options) -> Result<Files, ConvertError> {
+    let units = options.tolerance * f64::from(font.info.units_per_em) / 1000.0;
+    let one = |g: &Glyph| outline(g, format.curves, units, options);
+    let outlines: Vec<Outline> = font
+        .glyphs()
+        .par_iter()
+        .map(one)
+        .collect::<Result<_, _>>()?;
+    let mut next = outlines.into_iter();
+    let changed =
+        font.try_map_outlines(|_| Ok::<_, ConvertError>(next.next().unwrap_or_default()))?;
+    Ok((format.write)(&changed)?)
+}
+
+fn outline(
+    glyph: &Glyph,
+    curves: Curves,
+    units: f64,
+    options: &Options,
+) -> Result<Outline, ConvertError> {
+    let has = |kind: fn(&PathEl) -> bool| {
+        glyph
+            .outline
+            .contours()
+            .iter()
+            .any(|c| c.elements().iter().any(kind))
+    };
+    let (cubic, quad) = (
+        has(|e| matches!(e, PathEl::CurveTo(..))),
+        has(|e| matches!(e, PathEl::QuadTo(..))),
+    );
+    let all = options.outlines == Outlines::All;
+    match curves {
+        Curves::Quadratic if cubic || all => options
+            .quadratic
+            .convert(&glyph.outline, units)
+            .map_err(|source| ConvertError::Quadratic {
+                glyph: glyph.name.to_string(),
+                source,
+            }),
+        Curves::Cubic if quad => Ok(merge::merge(&glyph.outline, units)),
+        _ => Ok(glyph.outline.clone()),
+    }
+}

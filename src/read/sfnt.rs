@@ -1,0 +1,318 @@
+//! TTF, OTF, WOFF2 → Font, with every table that is not an outline carried along.
+
+use super::{Names, ReadError, Reading};
+use crate::types::{Component, Font, Glyph, Info, Metrics, Outline};
+use kurbo::{Affine, BezPath};
+use skrifa::instance::{Location, Size};
+use skrifa::metrics::GlyphMetrics;
+use skrifa::outline::{DrawSettings, OutlineGlyphFormat, OutlinePen};
+use skrifa::raw::TableProvider;
+use skrifa::raw::tables::glyf::{
+    Anchor, Component as StoredComponent, CompositeGlyphFlags, Glyph as Stored,
+};
+use skrifa::raw::types::F2Dot14;
+use skrifa::string::StringId;
+use skrifa::{FontRef, GlyphId, MetadataProvider, OutlineGlyphCollection};
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+
+/// Seconds from the epoch of font files, 1904, to that of Unix, 1970.
+const EPOCH_1904: i64 = 2_082_844_800;
+
+/// Outlines and what is rebuilt with them.
+const REBUILT: [&[u8; 4]; 12] = [
+    b"glyf", b"loca", b"CFF ", b"CFF2", b"VORG", b"head", b"maxp", b"hhea", b"hmtx", b"post",
+    b"gasp", b"vmtx",
+];
+
+/// What is lost, by what it was for.
+const LOST: [(&str, &[&[u8; 4]]); 3] = [
+    (
+        "hinting",
+        &[
+            b"fpgm", b"prep", b"cvt ", b"cvar", b"hdmx", b"LTSH", b"VDMX", b"PCLT",
+        ],
+    ),
+    (
+        "variation axes",
+        &[
+            b"fvar", b"gvar", b"avar", b"HVAR", b"VVAR", b"MVAR", b"STAT",
+        ],
+    ),
+    ("the signature", &[b"DSIG"]),
+];
+
+#[derive(Default)]
+struct Pen(Vec<BezPath>);
+
+impl Pen {
+    fn draw(&mut self, f: impl FnOnce(&mut BezPath)) {
+        if let Some(path) = self.0.last_mut() {
+            f(path);
+        }
+    }
+}
+
+impl OutlinePen for Pen {
+    fn move_to(&mut self, x: f32, y: f32) {
+        self.0.push(BezPath::new());
+        self.draw(|p| p.move_to((f64::from(x), f64::from(y))));
+    }
+    fn line_to(&mut self, x: f32, y: f32) {
+        self.draw(|p| p.line_to((f64::from(x), f64::from(y))));
+    }
+    fn quad_to(&mut self, cx: f32, cy: f32, x: f32, y: f32) {
+        let (c, e) = ((f64::from(cx), f64::from(cy)), (f64::from(x), f64::from(y)));
+        self.draw(|p| p.quad_to(c, e));
+    }
+    fn curve_to(&mut self, ax: f32, ay: f32, bx: f32, by: f32, x: f32, y: f32) {
+        let (a, b) = (
+            (f64::from(ax), f64::from(ay)),
+            (f64::from(bx), f64::from(by)),
+        );
+        self.draw(|p| p.curve_to(a, b, (f64::from(x), f64::from(y))));
+    }
+    fn close(&mut self) {
+        self.draw(BezPath::close_path);
+    }
+}
+
+/// A font from the bytes of a TrueType, OpenType or WOFF2 file; a variable one at the given places
+/// on its axes (tag, value), else at its default; there composites stay, elsewhere they are resolved.
+///
+/// # Errors
+/// The bytes are no font with outlines, or it has no such axis.
+pub fn font(bytes: &[u8], location: &[(String, f64)]) -> Result<Reading, ReadError> {
+    let plain: Cow<'_, [u8]> = if bytes.starts_with(b"wOF2") {
+        let unpacked = wuff::decompress_woff2(bytes);
+        Cow::Owned(unpacked.map_err(|e| ReadError::damaged("WOFF2", format!("{e:?}")))?)
+    } else {
+        Cow::Borrowed(bytes)
+    };
+    let source = FontRef::from_index(&plain, 0).map_err(|e| ReadError::damaged("a font", e))?;
+    let at = place(&source, location)?;
+    let mut names = Names::default();
+    let glyphs = glyphs(&source, &at, &mut names)?;
+    if glyphs.iter().all(|g| g.outline.is_empty()) {
+        return Err(ReadError::Empty);
+    }
+    let mut font = Font::new(info(&source, &at), glyphs)?;
+    font.carried = carried(&source);
+    let mut lost = lost(&source);
+    lost.extend(names.lost());
+    Ok(Reading { font, lost })
+}
+
+fn place(font: &FontRef<'_>, location: &[(String, f64)]) -> Result<Location, ReadError> {
+    let axes = font.axes();
+    for (tag, _) in location {
+        if !axes.iter().any(|a| a.tag().to_string() == *tag) {
+            let known: Vec<_> = axes.iter().map(|a| a.tag().to_string()).collect();
+            return Err(ReadError::Axis(tag.clone(), known.join(", ")));
+        }
+    }
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "axis values are stored with 16 bits before the point"
+    )]
+    let settings = location.iter().map(|(tag, v)| (tag.as_str(), *v as f32));
+    Ok(axes.location(settings))
+}
+
+fn glyphs(font: &FontRef<'_>, at: &Location, names: &mut Names) -> Result<Vec<Glyph>, ReadError> {
+    let count = font
+        .maxp()
+        .map_err(|e| ReadError::damaged("a font", e))?
+        .num_glyphs();
+    let mut chars: BTreeMap<GlyphId, Vec<char>> = BTreeMap::new();
+    for (code, id) in font.charmap().mappings() {
+        chars.entry(id).or_default().extend(char::from_u32(code));
+    }
+    let (outlines, metrics) = (
+        font.outline_glyphs(),
+        font.glyph_metrics(Size::unscaled(), at),
+    );
+    let given = font.glyph_names();
+    let glyph = |n: u16| {
+        let id = GlyphId::from(n);
+        let wanted = given
+            .get(id)
+            .map(|s| s.as_str().to_owned())
+            .unwrap_or_default();
+        let wanted = if n == 0 {
+            ".notdef"
+        } else if wanted == ".notdef" {
+            ""
+        } else {
+            &wanted
+        };
+        let name = names.claim(wanted, usize::from(n));
+        let mut glyph = Glyph::new(
+            name,
+            chars.remove(&id).unwrap_or_default(),
+            advance(&metrics, id),
+        );
+        glyph.outline = outline(&outlines, id, at)?;
+        Ok(glyph)
+    };
+    let mut glyphs = (0..count)
+        .map(glyph)
+        .collect::<Result<Vec<_>, ReadError>>()?;
+    if at.coords().iter().all(|c| c.to_bits() == 0) {
+        compose(font, &mut glyphs);
+    }
+    Ok(glyphs)
+}
+
+/// Makes components again of what a `glyf` table stores as such, where they are plain: placed by
+/// offsets, of glyphs with contours of their own.
+fn compose(font: &FontRef<'_>, glyphs: &mut [Glyph]) {
+    let (Ok(loca), Ok(glyf)) = (font.loca(None), font.glyf()) else {
+        return;
+    };
+    let stored = |i: usize| {
+        loca.get_glyf(GlyphId::new(u32::try_from(i).ok()?), &glyf)
+            .ok()?
+    };
+    for i in 0..glyphs.len() {
+        let Some(Stored::Composite(composite)) = stored(i) else {
+            continue;
+        };
+        let part = |c: StoredComponent| {
+            let base = usize::try_from(c.glyph.to_u32()).ok()?;
+            let Anchor::Offset { x, y } = c.anchor else {
+                return None;
+            };
+            let simple = matches!(stored(base), Some(Stored::Simple(_)));
+            let t = c.transform;
+            let f = |v: F2Dot14| f64::from(v.to_f32());
+            let place = Affine::new([
+                f(t.xx),
+                f(t.yx),
+                f(t.xy),
+                f(t.yy),
+                f64::from(x),
+                f64::from(y),
+            ]);
+            let plain = simple
+                && !c
+                    .flags
+                    .contains(CompositeGlyphFlags::SCALED_COMPONENT_OFFSET);
+            plain.then(|| {
+                Some(Component {
+                    base: glyphs.get(base)?.name.clone(),
+                    place,
+                })
+            })?
+        };
+        let parts: Option<Vec<Component>> = composite.components().map(part).collect();
+        if let Some(parts) = parts {
+            glyphs[i].outline = Outline::EMPTY;
+            glyphs[i].components = parts;
+        }
+    }
+}
+
+fn advance(metrics: &GlyphMetrics<'_>, id: GlyphId) -> f64 {
+    metrics.advance_width(id).map_or(0.0, f64::from).max(0.0)
+}
+
+/// A glyph's outline, outer contours counter-clockwise; nothing where the file has none. Of
+/// fractions in CFF the reader keeps the whole units only.
+fn outline(
+    all: &OutlineGlyphCollection<'_>,
+    id: GlyphId,
+    at: &Location,
+) -> Result<Outline, ReadError> {
+    let Some(glyph) = all.get(id) else {
+        return Ok(Outline::EMPTY);
+    };
+    let clockwise = all.format() == Some(OutlineGlyphFormat::Glyf);
+    let mut pen = Pen::default();
+    let drawn = glyph.draw(DrawSettings::unhinted(Size::unscaled(), at), &mut pen);
+    drawn.map_err(|e| ReadError::damaged("a font", format!("glyph {id}: {e}")))?;
+    let contours = pen.0.into_iter().filter(|p| p.segments().next().is_some());
+    let contours = contours.map(|p| if clockwise { p.reverse_subpaths() } else { p });
+    Outline::new(contours.collect())
+        .map_err(|e| ReadError::damaged("a font", format!("glyph {id}: {e}")))
+}
+
+fn info(font: &FontRef<'_>, at: &Location) -> Info {
+    let text = |id: StringId| {
+        let s = font
+            .localized_strings(id)
+            .english_or_first()
+            .map(|s| s.to_string());
+        s.filter(|s| !s.is_empty())
+    };
+    let default = Info::default();
+    let m = font.metrics(Size::unscaled(), at);
+    let (head, os2) = (font.head().ok(), font.os2().ok());
+    let units = |v: Option<f32>| v.map_or(0.0, f64::from);
+    let revision = head.as_ref().map_or(1.0, |h| h.font_revision().to_f64());
+    Info {
+        family: text(StringId::TYPOGRAPHIC_FAMILY_NAME)
+            .or_else(|| text(StringId::FAMILY_NAME))
+            .unwrap_or(default.family),
+        style: text(StringId::TYPOGRAPHIC_SUBFAMILY_NAME)
+            .or_else(|| text(StringId::SUBFAMILY_NAME))
+            .unwrap_or(default.style),
+        version: version(revision),
+        units_per_em: m.units_per_em.clamp(16, 16384),
+        weight: os2
+            .as_ref()
+            .map_or(400, |t| t.us_weight_class().clamp(1, 1000)),
+        italic_angle: f64::from(m.italic_angle),
+        created: head.map_or(0, |h| h.created().as_secs().saturating_sub(EPOCH_1904)),
+        copyright: text(StringId::COPYRIGHT_NOTICE),
+        designer: text(StringId::DESIGNER),
+        manufacturer: text(StringId::MANUFACTURER),
+        license: text(StringId::LICENSE_DESCRIPTION),
+        license_url: text(StringId::LICENSE_URL),
+        vendor_url: text(StringId::VENDOR_URL),
+        vendor_id: os2.map_or(default.vendor_id, |t| t.ach_vend_id().to_be_bytes()),
+        metrics: Metrics {
+            ascender: f64::from(m.ascent),
+            descender: f64::from(m.descent).min(0.0),
+            line_gap: f64::from(m.leading),
+            x_height: units(m.x_height),
+            cap_height: units(m.cap_height),
+        },
+    }
+}
+
+/// Major version and thousandths.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "clamped to 16 bits before"
+)]
+fn version(revision: f64) -> (u16, u16) {
+    let r = revision.clamp(0.0, 32767.0);
+    (
+        r.trunc() as u16,
+        (r.fract() * 1000.0).round().min(999.0) as u16,
+    )
+}
+
+fn carried(font: &FontRef<'_>) -> BTreeMap<[u8; 4], Vec<u8>> {
+    let gone =
+        |tag: &[u8; 4]| REBUILT.contains(&tag) || LOST.iter().any(|(_, tags)| tags.contains(&tag));
+    let records = font.table_directory().table_records().iter();
+    let tags = records.map(|r| r.tag()).filter(|t| !gone(&t.to_be_bytes()));
+    tags.filter_map(|t| Some((t.to_be_bytes(), font.table_data(t)?.as_bytes().to_vec())))
+        .collect()
+}
+
+fn lost(font: &FontRef<'_>) -> Vec<String> {
+    let has = |tag: &&[u8; 4]| font.table_data(skrifa::Tag::new(tag)).is_some();
+    let line = |(what, tags): &(&str, &[&[u8; 4]])| {
+        let there: Vec<_> = tags
+            .iter()
+            .filter(|t| has(t))
+            .map(|t| String::from_utf8_lossy(*t).trim().to_owned())
+            .collect();
+        (!there.is_empty()).then(|| format!("{what} ({})", there.join(", ")))
+    };
+    LOST.iter().filter_map(line).collect()
+}

@@ -1,0 +1,222 @@
+//! SVG drawings → Font, a glyph each.
+
+use super::{Names, ReadError, Reading, notdef};
+use crate::types::{Font, Glyph, Info, Metrics, Outline};
+use kurbo::{Affine, BezPath, Point, Shape};
+use std::path::Path as FilePath;
+use usvg::tiny_skia_path::{Path, PathSegment, Point as PathPoint};
+use usvg::{FillRule, Node, Options, Tree};
+
+/// Units an em of the font that drawings make.
+const EM: f64 = 1000.0;
+
+/// A font of drawings, one glyph each, named and encoded by the file's name: `A_.svg` (a `_` after a
+/// capital is not part of it) is A, `uni0628.svg` is beh, `beh-ar.init.svg` is an alternate.
+///
+/// Where the view box begins above zero, the user space is the em itself, baseline at y = 0, one
+/// font unit a user unit; else the box stands on the baseline and its height is the em. Fills and
+/// expanded strokes count, whatever their colour.
+///
+/// # Errors
+/// A file is no SVG, or nothing is drawn in any of them.
+pub fn svg(files: &[(String, Vec<u8>)]) -> Result<Reading, ReadError> {
+    let (mut names, mut lost) = (Names::default(), Vec::new());
+    let mut glyphs = Vec::new();
+    let mut reach = (0.0_f64, 0.0_f64);
+    for (path, bytes) in files {
+        let stem = FilePath::new(path)
+            .file_stem()
+            .map_or_else(String::new, |s| s.to_string_lossy().into_owned());
+        let wanted = glyph_name(&stem);
+        let drawing = drawing(bytes, path, &mut lost)?;
+        reach = (
+            reach.0.max(drawing.top),
+            reach.1.min(drawing.top - drawing.height),
+        );
+        let chars = character(&wanted).into_iter().collect();
+        let mut glyph = Glyph::new(names.claim(&wanted, glyphs.len() + 1), chars, drawing.width);
+        glyph.outline = drawing.outline;
+        glyphs.push(glyph);
+    }
+    if glyphs.iter().all(|g| g.outline.is_empty()) {
+        return Err(ReadError::Empty);
+    }
+    let first = notdef();
+    match glyphs.iter().position(|g| g.name == first.name) {
+        Some(i) => glyphs[..=i].rotate_right(1),
+        None => glyphs.insert(0, first),
+    }
+    let metrics = Metrics {
+        ascender: reach.0,
+        descender: reach.1,
+        ..Metrics::default()
+    };
+    let font = Font::new(
+        Info {
+            metrics,
+            ..Info::default()
+        },
+        glyphs,
+    )?;
+    lost.extend(names.lost());
+    Ok(Reading { font, lost })
+}
+
+struct Drawing {
+    outline: Outline,
+    width: f64,
+    top: f64,
+    height: f64,
+}
+
+/// What stands in one file, in font units, y up.
+fn drawing(bytes: &[u8], file: &str, lost: &mut Vec<String>) -> Result<Drawing, ReadError> {
+    let bad = |e: &dyn ToString| ReadError::damaged("an SVG", format!("{file}: {}", e.to_string()));
+    let tree = Tree::from_data(bytes, &Options::default()).map_err(|e| bad(&e))?;
+    let size = tree.size();
+    let (w, h) = (f64::from(size.width()), f64::from(size.height()));
+    let [x, y, bw, bh] = view_box(bytes).unwrap_or([0.0, 0.0, w, h]);
+    // From the picture's pixels, y down, to the user space, and from there to the em.
+    let user = Affine::translate((x, y)) * Affine::scale_non_uniform(bw / w, bh / h);
+    let (scale, base) = if y < 0.0 {
+        (1.0, 0.0)
+    } else {
+        (EM / bh, y + bh)
+    };
+    let place = Affine::scale(scale) * Affine::translate((-x, base)) * Affine::FLIP_Y * user;
+    let mut contours = Vec::new();
+    collect(tree.root(), place, &mut contours, (file, lost));
+    let outline = Outline::new(contours).map_err(|e| bad(&e))?;
+    Ok(Drawing {
+        outline,
+        width: bw * scale,
+        top: scale * (base - y),
+        height: bh * scale,
+    })
+}
+
+/// The root's view box, if it has a good one.
+fn view_box(bytes: &[u8]) -> Option<[f64; 4]> {
+    let text = std::str::from_utf8(bytes).ok()?;
+    let document = usvg::roxmltree::Document::parse(text).ok()?;
+    let given = document.root_element().attribute("viewBox")?;
+    let numbers: Vec<f64> = given
+        .split([' ', ',', '\n', '\t'])
+        .filter(|s| !s.is_empty())
+        .map_while(|s| s.parse().ok())
+        .collect();
+    let four: [f64; 4] = numbers.try_into().ok()?;
+    (four.iter().all(|v| v.is_finite()) && four[2] > 0.0 && four[3] > 0.0).then_some(four)
+}
+
+fn collect(
+    group: &usvg::Group,
+    place: Affine,
+    out: &mut Vec<BezPath>,
+    (file, lost): (&str, &mut Vec<String>),
+) {
+    for node in group.children() {
+        match node {
+            Node::Group(g) => collect(g, place, out, (file, lost)),
+            Node::Path(p) if p.is_visible() => {
+                let t = p.abs_transform();
+                let own = Affine::new([t.sx, t.ky, t.kx, t.sy, t.tx, t.ty].map(f64::from));
+                if let Some(fill) = p.fill() {
+                    out.extend(contours(p.data(), place * own, fill.rule()));
+                }
+                let stroked = p
+                    .stroke()
+                    .and_then(|s| p.data().stroke(&s.to_tiny_skia(), 1.0));
+                if let Some(path) = stroked {
+                    out.extend(contours(&path, place * own, FillRule::NonZero));
+                }
+            }
+            Node::Path(_) => {}
+            Node::Image(_) => lost.push(format!("a picture in {file}")),
+            Node::Text(_) => lost.push(format!("text in {file}")),
+        }
+    }
+}
+
+/// A path's contours, closed, run so that what its rule fills is filled by winding, outside counter-clockwise.
+fn contours(path: &Path, place: Affine, rule: FillRule) -> Vec<BezPath> {
+    let mut out: Vec<BezPath> = Vec::new();
+    let p = |q: PathPoint| place * Point::new(f64::from(q.x), f64::from(q.y));
+    for segment in path.segments() {
+        if let PathSegment::MoveTo(a) = segment {
+            let mut begun = BezPath::new();
+            begun.move_to(p(a));
+            out.push(begun);
+            continue;
+        }
+        let Some(open) = out.last_mut() else { continue };
+        match segment {
+            PathSegment::LineTo(a) => open.line_to(p(a)),
+            PathSegment::QuadTo(a, b) => open.quad_to(p(a), p(b)),
+            PathSegment::CubicTo(a, b, c) => open.curve_to(p(a), p(b), p(c)),
+            PathSegment::MoveTo(_) | PathSegment::Close => {}
+        }
+    }
+    out.retain(|c| c.segments().next().is_some() && c.is_finite());
+    out.iter_mut().for_each(BezPath::close_path);
+    let reversed = match rule {
+        FillRule::NonZero => {
+            let all = out.iter().map(Shape::area).sum::<f64>() < 0.0;
+            vec![all; out.len()]
+        }
+        FillRule::EvenOdd => (0..out.len())
+            .map(|i| {
+                let start = out[i]
+                    .elements()
+                    .first()
+                    .and_then(kurbo::PathEl::end_point)
+                    .unwrap_or_default();
+                let inside = out
+                    .iter()
+                    .enumerate()
+                    .filter(|(j, c)| *j != i && c.winding(start) != 0)
+                    .count();
+                (out[i].area() < 0.0) != (inside % 2 == 1)
+            })
+            .collect(),
+    };
+    out.into_iter()
+        .zip(reversed)
+        .map(|(c, r)| if r { c.reverse_subpaths() } else { c })
+        .collect()
+}
+
+/// The glyph that a file's stem names: no `_` behind capitals, a leading one is a dot.
+fn glyph_name(stem: &str) -> String {
+    let mut out = String::new();
+    let mut before = ' ';
+    for (i, c) in stem.chars().enumerate() {
+        match c {
+            '_' if i == 0 => out.push('.'),
+            '_' if before.is_ascii_uppercase() => {}
+            c => out.push(c),
+        }
+        before = c;
+    }
+    out
+}
+
+/// The character that a glyph name stands for: itself, `uniXXXX`, `uXXXXX`, or `space`.
+fn character(name: &str) -> Option<char> {
+    let mut chars = name.chars();
+    if let (Some(c), None) = (chars.next(), chars.next()) {
+        return Some(c);
+    }
+    let hex = |digits: &str| {
+        u32::from_str_radix(digits, 16)
+            .ok()
+            .and_then(char::from_u32)
+    };
+    match name.strip_prefix("uni").filter(|d| d.len() == 4) {
+        Some(digits) => hex(digits),
+        None => name
+            .strip_prefix('u')
+            .filter(|d| (4..=6).contains(&d.len()))
+            .and_then(hex),
+    }
+}

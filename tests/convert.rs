@@ -1,0 +1,228 @@
+//! Reading back what was written, conversions between formats, and readers under attack.
+
+use khatt::pipeline::convert::{Options, convert};
+use khatt::quadratic::{Method, merge::merge, split::Split};
+use khatt::read::{self, ReadError, Reading};
+use khatt::types::{Font, Glyph, Info, Metrics, Name, Outline};
+use khatt::write::format;
+use kurbo::{Affine, BezPath, Circle, ParamCurve, ParamCurveNearest, PathSeg, Shape};
+use proptest::prelude::*;
+use std::{fs, io::Write};
+
+fn path(svg: &str) -> BezPath {
+    BezPath::from_svg(svg).expect("a path")
+}
+
+fn glyph(name: &str, chars: &[char], contours: Vec<BezPath>) -> Glyph {
+    let name = Name::new(name).expect("a name");
+    let mut glyph = Glyph::new(name, chars.to_vec(), 640.0);
+    glyph.outline = Outline::new(contours).expect("contours");
+    glyph
+}
+
+/// A ring, a stem with a corner, an accent of a component, an alternate without a character.
+fn font() -> Font {
+    let hole = Circle::new((320.0, 300.0), 180.0)
+        .to_path(1e-3)
+        .reverse_subpaths();
+    let ring = vec![Circle::new((320.0, 300.0), 280.0).to_path(1e-3), hole];
+    let stem = path("M100 0L200 0L200 500C200 600 160 700 100 700Z");
+    let info = Info {
+        family: "Small".to_owned(),
+        metrics: Metrics {
+            ascender: 800.0,
+            descender: -200.0,
+            ..Metrics::default()
+        },
+        ..Info::default()
+    };
+    let glyphs = vec![
+        glyph(".notdef", &[], vec![]),
+        glyph("O", &['O'], ring.clone()),
+        glyph("beh-ar", &['ب', 'ى'], vec![stem.clone()]),
+        glyph("l.alt", &[], vec![Affine::translate((30.0, 0.0)) * stem]),
+    ];
+    Font::new(info, glyphs).expect("a font")
+}
+
+/// The largest distance of samples of `a` from `b`, either way.
+fn apart(a: &Outline, b: &Outline) -> f64 {
+    let one = |a: &Outline, b: &Outline| {
+        let segs: Vec<PathSeg> = b.to_path().segments().collect();
+        let dots = a
+            .to_path()
+            .segments()
+            .flat_map(|s| (0..16).map(move |i| s.eval(f64::from(i) / 16.0)))
+            .collect::<Vec<_>>();
+        let near = |p| {
+            segs.iter()
+                .map(|s| s.nearest(p, 1e-6).distance_sq)
+                .fold(f64::INFINITY, f64::min)
+        };
+        dots.into_iter().map(near).fold(0.0, f64::max).sqrt()
+    };
+    one(a, b).max(one(b, a))
+}
+
+fn written(name: &str) -> Vec<u8> {
+    let format = format(name).expect("a format");
+    let files = convert(&font(), format, &Options::default()).expect("files");
+    files.0.values().next().expect("a file").clone()
+}
+
+fn same(reading: &Reading, tolerance: f64) {
+    let (a, b) = (font(), &reading.font);
+    for g in a.glyphs().iter().filter(|g| !g.outline.is_empty()) {
+        let other = b.glyph(g.name.as_str()).expect("every glyph");
+        assert!((g.advance - other.advance).abs() < 1.0, "{}", g.name);
+        let off = apart(&g.outline, &other.outline);
+        assert!(off <= tolerance, "{}: {off} > {tolerance}", g.name);
+        let area = |o: &Outline| o.to_path().area();
+        assert!(
+            area(&g.outline) * area(&other.outline) >= 0.0,
+            "{} runs the other way",
+            g.name
+        );
+    }
+}
+
+#[test]
+fn compiled_fonts_come_back() {
+    for (name, tolerance) in [("otf", 1.1), ("ttf", 1.3), ("woff2", 1.3)] {
+        let reading = read::font(&written(name), &[]).expect(name);
+        same(&reading, tolerance);
+        assert_eq!(reading.font.info.family, "Small");
+        let beh = reading.font.glyph("beh-ar").expect("beh");
+        assert_eq!(beh.codepoints, ['ب', 'ى'], "{name}");
+    }
+}
+
+#[test]
+fn every_table_but_outlines_comes_through() {
+    let before = read::font(&written("otf"), &[]).expect("a font").font;
+    let ttf = convert(&before, format("ttf").expect("ttf"), &Options::default()).expect("files");
+    let after = read::font(&ttf.0[""], &[]).expect("a font").font;
+    assert!(
+        before.carried.contains_key(b"cmap"),
+        "{:?}",
+        before.carried.keys()
+    );
+    for (tag, table) in &before.carried {
+        assert_eq!(after.carried.get(tag), Some(table), "{tag:?}");
+    }
+}
+
+#[test]
+fn a_ufo_comes_back() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let files = convert(&font(), format("ufo").expect("ufo"), &Options::default()).expect("files");
+    for (name, content) in &files.0 {
+        let to = folder.path().join("small.ufo").join(name);
+        fs::create_dir_all(to.parent().expect("a parent")).expect("folders");
+        let mut file = fs::File::create(to).expect("a file");
+        file.write_all(content).expect("written");
+    }
+    same(
+        &read::ufo(&folder.path().join("small.ufo")).expect("a UFO"),
+        0.6,
+    );
+}
+
+#[test]
+fn drawings_come_back() {
+    let files = convert(&font(), format("svg").expect("svg"), &Options::default()).expect("files");
+    let drawings: Vec<_> = files.0.into_iter().collect();
+    let reading = read::svg(&drawings).expect("drawings");
+    same(&reading, 0.05);
+    assert_eq!(reading.font.glyph("O").expect("O").codepoints, ['O']);
+}
+
+#[test]
+fn strokes_transforms_and_view_boxes_count() {
+    let svg = r#"<svg xmlns="http://www.w3.org/2000/svg" width="48" height="48" viewBox="0 0 24 24">
+        <g transform="translate(12 12)"><path d="M-6 0H6" stroke="black" stroke-width="4" fill="none"/></g></svg>"#;
+    let reading = read::svg(&[("A_.svg".to_owned(), svg.into())]).expect("a drawing");
+    let bounds = reading
+        .font
+        .glyph("A")
+        .expect("A")
+        .outline
+        .bounds()
+        .expect("ink");
+    // 12 by 4 user units in a box of 24 that is 1000 units high
+    let near = |a: f64, b: f64| (a - b).abs() < 0.01;
+    assert!(
+        near(bounds.width(), 500.0) && near(bounds.height(), 4000.0 / 24.0),
+        "{bounds:?}"
+    );
+    assert!(
+        near(bounds.center().x, 500.0) && near(bounds.center().y, 500.0),
+        "{bounds:?}"
+    );
+}
+
+#[test]
+fn quadratics_merge_into_few_cubics() {
+    let font = font();
+    let ring = &font.glyph("O").expect("O").outline;
+    let quads = Method::Split(Split::default())
+        .convert(ring, 0.3)
+        .expect("quadratics");
+    let before = quads.to_path().segments().count();
+    let merged = merge(&quads, 0.5);
+    assert!(apart(&merged, &quads) < 0.55, "{}", apart(&merged, &quads));
+    let pieces = merged.to_path().segments().count();
+    assert!(pieces * 2 <= before, "{pieces} of {before} pieces");
+    assert!(
+        merged
+            .to_path()
+            .segments()
+            .all(|s| matches!(s, PathSeg::Cubic(_)))
+    );
+}
+
+#[test]
+fn what_is_no_font_is_named() {
+    assert!(matches!(
+        read::font(b"", &[]),
+        Err(ReadError::Damaged { .. })
+    ));
+    assert!(matches!(
+        read::font(b"wOF2 and no more", &[]),
+        Err(ReadError::Damaged { .. })
+    ));
+    assert!(matches!(
+        read::svg(&[("x.svg".to_owned(), b"<svg".to_vec())]),
+        Err(ReadError::Damaged { .. })
+    ));
+    let empty = br#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 9 9"/>"#;
+    assert!(matches!(
+        read::svg(&[("x.svg".to_owned(), empty.to_vec())]),
+        Err(ReadError::Empty)
+    ));
+    let axis = read::font(&written("ttf"), &[("wght".to_owned(), 700.0)]);
+    assert!(matches!(axis, Err(ReadError::Axis(..))), "{axis:?}");
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(60))]
+
+    #[test]
+    fn damaged_fonts_do_not_panic(which in 0..3usize, hits in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..12), keep in 0.0..1.0f64) {
+        let mut bytes = written(["ttf", "otf", "woff2"][which]);
+        for (at, value) in hits {
+            let i = at.index(bytes.len());
+            bytes[i] = value;
+        }
+        let _ = read::font(&bytes, &[]);
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, clippy::cast_precision_loss, reason = "a part of a length")]
+        bytes.truncate((keep * bytes.len() as f64) as usize);
+        let _ = read::font(&bytes, &[]);
+    }
+
+    #[test]
+    fn odd_drawings_do_not_panic(d in "[MLCQZAmlhv0-9eE., -]{0,60}", tail in "[<>/a-z \"=0-9]{0,30}", view in "[0-9. e-]{0,16}") {
+        let svg = format!("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"{view}\"><path d=\"{d}\" fill-rule=\"evenodd\" stroke=\"red\"/>{tail}</svg>");
+        let _ = read::svg(&[("a.svg".to_owned(), svg.into_bytes())]);
+    }
+}
