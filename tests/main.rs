@@ -2,8 +2,8 @@
 
 mod cli;
 mod common;
-mod demo;
 mod convert;
+mod demo;
 mod detectors;
 mod fitters;
 mod fonts;
