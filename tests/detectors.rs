@@ -20,6 +20,36 @@ fn found(method: &Method, shape: &Shape) -> Vec<Point> {
     corners.iter().map(point).collect()
 }
 
+/// What a published method is known not to do: key, property, why. Taken off as soon as it does it.
+const FAILS: &[(&str, &str, &str)] = &[
+    (
+        "srm05",
+        "smooth",
+        "a slope changes its sign at every extremum of a round shape",
+    ),
+    (
+        "srm05",
+        "noise",
+        "noise of a part of a pixel on a straight side changes the slope's sign everywhere",
+    ),
+];
+
+/// Runs `check` over all methods but those known to fail; those must fail indeed.
+fn each_but(property: &str, check: impl Fn(&Method) + std::panic::RefUnwindSafe) {
+    each(|m| {
+        if FAILS.iter().any(|f| (f.0, f.1) == (m.key(), property)) {
+            let caught = std::panic::catch_unwind(|| check(m));
+            assert!(
+                caught.is_err(),
+                "{} no longer fails at {property}: take it off the list",
+                m.key()
+            );
+        } else {
+            check(m);
+        }
+    });
+}
+
 fn polygons() -> Vec<(Shape, Vec<Point>)> {
     let table: [(&str, &[(f64, f64)]); 4] = [
         (
@@ -84,7 +114,7 @@ fn corners_of_polygons_are_found() {
 
 #[test]
 fn smooth_rings_have_none() {
-    each(|m| {
+    each_but("smooth", |m| {
         for shape in smooth().iter().filter(|s| s.ring) {
             assert_eq!(found(m, shape), [], "{} on {}", m.key(), shape.name);
         }
@@ -148,7 +178,7 @@ fn a_larger_picture_has_the_same_corners() {
 
 #[test]
 fn noise_makes_no_crowd_and_loses_no_right_angle() {
-    each(|m| {
+    each_but("noise", |m| {
         let (square, corners) = polygons().swap_remove(0);
         for seed in 1..4 {
             let here = found(m, &noisy(&square, 0.1, seed));

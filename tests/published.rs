@@ -2,8 +2,13 @@
 
 use crate::common::shapes::{Dice, Shape, open, polygon, ring};
 use khatt::corner::angle::Angle;
+use khatt::fit::gc2::Gc2;
+use khatt::fit::gc2::basis::weights;
+use khatt::fit::gc2::knots::{Insertion, Stop};
+use khatt::fit::gc2::tension::{End, Tension};
 use khatt::fit::judge::points_to_curve;
 use khatt::fit::periodic::Periodic;
+use khatt::fit::timmer::{Scheme, Timmer};
 use khatt::fit::wls::{Joint, Wls};
 use khatt::fit::{FitError, Fitter, Method};
 use khatt::types::Contour;
@@ -225,6 +230,133 @@ fn lumilios93_adds_control_points_until_the_tolerance_is_met() {
     );
 }
 
+// ---- rasheed05
+
+/// [rasheed05 sec. 3.2]: with equal intervals and no tension the basis is the uniform B-spline's.
+#[test]
+fn rasheed05_basis_is_one_four_one_in_the_uniform_case() {
+    for w in weights(&Tension::none(8, End::Periodic)) {
+        let own = 1.0 - w.lambda - w.mu;
+        for (got, want) in [
+            (w.lambda, 1.0 / 6.0),
+            (own, 2.0 / 3.0),
+            (w.mu, 1.0 / 6.0),
+            (w.mu_slope, 0.5),
+        ] {
+            assert!((got - want).abs() < 1e-15, "{got} {want}");
+        }
+    }
+}
+
+/// A D of about 850 points, as chains of pixels: its outer ring cut at the two corners, and its counter.
+fn letter_d() -> Vec<Shape> {
+    let bow = |rx: f64, ry: f64, y: f64| {
+        move |t: f64| {
+            let a = std::f64::consts::PI * (t - 0.5);
+            ((60.0 + rx * a.cos()).round(), (y + ry * a.sin()).round())
+        }
+    };
+    let mut outer = open("bow", 900, bow(90.0, 110.0, 110.0));
+    let mut counter = open("counter", 700, bow(55.0, 78.0, 110.0));
+    outer.points.dedup();
+    counter.points.dedup();
+    vec![outer, counter]
+}
+
+/// [rasheed05 tables 4.1-4.60]: all six insertions end; a larger threshold takes fewer knots; on a D they
+/// are no more than the thesis's own (314, 155, 47 by algorithm 4.1 … 618, 324, 220 by 4.5).
+#[test]
+fn rasheed05_knots_fall_with_the_threshold() {
+    for insertion in Insertion::ALL {
+        let median = |epsilon: f64, stop: Stop| {
+            let count = |seed: u64| -> usize {
+                let gc2 = Gc2 {
+                    insertion,
+                    stop,
+                    seed,
+                    ..Gc2::default()
+                };
+                let fit = |s: &Shape| {
+                    gc2.fit(s.span(), epsilon)
+                        .expect("legal options")
+                        .parameters
+                        / 2
+                        - 2
+                };
+                letter_d().iter().map(fit).sum()
+            };
+            let mut counts: Vec<usize> = (1..=9).map(count).collect();
+            counts.sort_unstable();
+            counts[4]
+        };
+        let [one, two, three] = [1.0, 2.0, 3.0].map(|e| median(e, Stop::Chance));
+        assert!(
+            one >= two && two >= three,
+            "{insertion:?}: {one} {two} {three}"
+        );
+        assert!(
+            one <= 137 && two <= 68 && three <= 47,
+            "{insertion:?}: {one} {two} {three}"
+        );
+        assert!(
+            median(1.0, Stop::Tolerance) >= one,
+            "{insertion:?}: chance stops earlier"
+        );
+    }
+}
+
+/// [rasheed05 sec. 4.3]: a seed fixes the curve, and another seed gives another.
+#[test]
+fn rasheed05_chance_is_repeatable() {
+    let shape = bean();
+    let with = |seed| {
+        Gc2 {
+            seed,
+            ..Gc2::default()
+        }
+        .fit(shape.span(), 0.5)
+        .expect("legal options")
+    };
+    assert_eq!(with(3), with(3));
+    assert_ne!(with(3).path, with(4).path);
+}
+
+/// [rasheed05 fig. 3.5-3.6]: point tension pulls the curve to the polygon of its knots.
+#[test]
+fn rasheed05_tension_tightens_the_curve() {
+    let shape = bean();
+    let length = |point_tension| {
+        let gc2 = Gc2 {
+            point_tension,
+            stop: Stop::Chance,
+            ..Gc2::default()
+        };
+        gc2.fit(shape.span(), 30.0)
+            .expect("legal options")
+            .path
+            .perimeter(1e-6)
+    };
+    let lengths = [0.0, 10.0, 50.0, 1e6].map(length);
+    assert!(lengths.windows(2).all(|w| w[1] < w[0]), "{lengths:?}");
+}
+
+/// [rasheed05 sec. 3.3]: all three schemes follow a smooth shape.
+#[test]
+fn rasheed05_timmer_schemes_follow_a_shape() {
+    let shape = bean();
+    for scheme in [Scheme::Gc1, Scheme::Gc2, Scheme::Curvature] {
+        let timmer = Timmer {
+            scheme,
+            ..Timmer::default()
+        };
+        let fitted = timmer.fit(shape.span(), 0.5).expect("legal options");
+        assert!(
+            points_to_curve(&shape.points, &fitted.path).max_px <= 0.5,
+            "{scheme:?}"
+        );
+    }
+}
+
 // ---- options
 
 /// A wrong option is an error that names method and option.
@@ -245,6 +377,10 @@ fn bad_options_are_clear_errors() {
         ("periodic", "power = 5"),
         ("periodic", "weight_ratio = 0.5"),
         ("periodic", "step = 2.0"),
+        ("gc2", "point_tension = -4.0"),
+        ("gc2", "interval_tension = 0.0"),
+        ("timmer", "alpha = 0.0"),
+        ("timmer", "beta = -1.0"),
     ];
     let shape = bean();
     for (key, line) in cases {

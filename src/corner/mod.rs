@@ -8,6 +8,7 @@
 
 pub mod angle;
 pub mod sides;
+pub mod srm05;
 
 use crate::types::Contour;
 use serde::{Deserialize, Serialize};
@@ -27,6 +28,8 @@ pub enum Method {
     Sides(sides::Sides),
     /// Jumps of direction between two chords.
     Angle(angle::Angle),
+    /// Changes of slope along a chain of pixels.
+    Srm05(srm05::Srm05),
 }
 
 impl Default for Method {
@@ -42,6 +45,7 @@ impl Method {
         vec![
             Self::Sides(sides::Sides::default()),
             Self::Angle(angle::Angle::default()),
+            Self::Srm05(srm05::Srm05::default()),
         ]
     }
 
@@ -51,6 +55,7 @@ impl Method {
         match self {
             Self::Sides(_) => "sides",
             Self::Angle(_) => "angle",
+            Self::Srm05(_) => "srm05",
         }
     }
 
@@ -60,6 +65,7 @@ impl Method {
         match self {
             Self::Sides(_) => "crossings of the two fitted sides (default)",
             Self::Angle(_) => "jumps of direction between two chords [samavati98 sec. 3]",
+            Self::Srm05(_) => "changes of slope along a chain of pixels [rasheed05 sec. 2.1]",
         }
     }
 
@@ -69,6 +75,7 @@ impl Method {
         match self {
             Self::Sides(d) => d,
             Self::Angle(d) => d,
+            Self::Srm05(d) => d,
         }
     }
 }

@@ -7,10 +7,12 @@
 //! A room a method, each a struct of options that implements [`Fitter`]; [`Method`] is the menu.
 //! No method reports its own residual as the error: the judge measures all of them alike.
 
+pub mod gc2;
 pub mod joint;
 pub mod judge;
 mod path;
 pub mod periodic;
+pub mod timmer;
 pub mod wls;
 
 use crate::types::{Fitted, Span};
@@ -55,6 +57,10 @@ pub enum Method {
     Wls(wls::Wls),
     /// B-splines at the least orthogonal distance.
     Periodic(periodic::Periodic),
+    /// Splines with tension through knots inserted by chance.
+    Gc2(gc2::Gc2),
+    /// Timmer's cubics through knots inserted by chance.
+    Timmer(timmer::Timmer),
 }
 
 impl Default for Method {
@@ -71,6 +77,8 @@ impl Method {
             Self::Joint(joint::Joint::default()),
             Self::Wls(wls::Wls::default()),
             Self::Periodic(periodic::Periodic::default()),
+            Self::Gc2(gc2::Gc2::default()),
+            Self::Timmer(timmer::Timmer::default()),
         ]
     }
 
@@ -81,6 +89,8 @@ impl Method {
             Self::Joint(_) => "joint",
             Self::Wls(_) => "wls",
             Self::Periodic(_) => "periodic",
+            Self::Gc2(_) => "gc2",
+            Self::Timmer(_) => "timmer",
         }
     }
 
@@ -95,6 +105,8 @@ impl Method {
             Self::Periodic(_) => {
                 "B-spline at the least orthogonal distance, by BFGS [lumilios93 sec. 4]"
             }
+            Self::Gc2(_) => "tension spline through knots by chance [rasheed05 sec. 3.1, 4.3]",
+            Self::Timmer(_) => "Timmer cubic through knots by chance [rasheed05 sec. 3.3]",
         }
     }
 
@@ -105,6 +117,8 @@ impl Method {
             Self::Joint(f) => f,
             Self::Wls(f) => f,
             Self::Periodic(f) => f,
+            Self::Gc2(f) => f,
+            Self::Timmer(f) => f,
         }
     }
 }

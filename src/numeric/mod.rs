@@ -1,6 +1,7 @@
 //! Mathematics without pictures; imports nothing of ours.
 
 pub mod assignment;
+pub mod banded;
 pub mod bspline;
 pub mod chain;
 pub mod distance;

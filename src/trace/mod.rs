@@ -1,12 +1,13 @@
-//! Picture → Contours at half coverage, subpixel.
+//! Picture → Contours: at half coverage, subpixel, or along the boundary pixels.
 //!
 //! | takes | gives |
 //! |---|---|
 //! | [`Gray`], px, y down, 1 = ink | [`Contour`]s, px, y up, origin at the picture's bottom left, ink on the left |
 //!
-//! The contours come in the order in which a reader meets them, row by row from the top. They neither
+//! What follows holds for [`Boundary::Iso`]. The contours come in the order in which a reader meets them, row by row from the top. They neither
 //! cross nor touch. Every ink component and every hole above the speckle limit is there.
 
+mod chain;
 mod iso;
 #[cfg(test)]
 mod tests;
@@ -22,6 +23,19 @@ pub struct Options {
     pub level: f64,
     /// Ink and holes of a smaller area are dust, px².
     pub speckle_px2: f64,
+    /// What the contour runs along.
+    pub boundary: Boundary,
+}
+
+/// What a contour runs along.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+#[non_exhaustive]
+pub enum Boundary {
+    /// The line of equal coverage between the pixels' centres.
+    Iso,
+    /// The centres of the boundary pixels, 8-connected: the chain code of [rasheed05 sec. 4.1.1].
+    Chain,
 }
 
 impl Default for Options {
@@ -30,6 +44,7 @@ impl Default for Options {
             level: 0.5,
             // a blot of 2 × 2 px: no scanner resolves a drawn mark that small
             speckle_px2: 4.0,
+            boundary: Boundary::Iso,
         }
     }
 }
@@ -37,7 +52,10 @@ impl Default for Options {
 /// The contours of a picture's ink.
 #[must_use]
 pub fn trace(gray: &Gray, options: &Options) -> Vec<Contour> {
-    let rings = iso::rings(gray, options.level);
+    let rings = match options.boundary {
+        Boundary::Iso => iso::rings(gray, options.level),
+        Boundary::Chain => chain::rings(gray, options.level),
+    };
     let contours = rings.into_iter().filter_map(|r| Contour::new(r).ok());
     contours
         .filter(|c| c.area().abs() >= options.speckle_px2)

@@ -159,7 +159,7 @@ pub(crate) fn hard() -> Vec<Shape> {
             &[(0.0, 0.0), (80.0, 0.0), (80.0, 2.0), (0.0, 2.0)],
         ),
     ];
-    out.extend(smooth().iter().step_by(2).map(|s| noisy(s, 0.3, 7)));
+    out.extend(smooth().iter().step_by(3).map(|s| noisy(s, 0.3, 7)));
     out
 }
 
