@@ -4,7 +4,7 @@ use super::build::{Built, World};
 use super::letter::Letter;
 use super::problem::Problem;
 use super::project::Project;
-use super::report::Report;
+use super::report::{Report, deviations};
 use super::watch::Stage;
 use crate::assemble::names;
 use crate::types::{Files, Font};
@@ -56,7 +56,7 @@ pub fn outputs(
     }
     if let Some(path) = &project.output.proof {
         let woff2 = woff2.map_or_else(|| web_font(&quadratic), Ok);
-        let page = proof_page(built, &woff2.map_err(|e| vec![e.into()])?);
+        let page = proof_page(built, &quadratic, &woff2.map_err(|e| vec![e.into()])?);
         files.push((path.clone(), Files::single(page.into_bytes())));
     }
     Ok(Outputs { files, report })
@@ -93,13 +93,13 @@ pub fn proof(project: &Project, built: &Built, world: World<'_>) -> Result<Strin
     let font = quadratic(project, &built.font, world)?;
     let _time = world.watch.enter(Stage::Write);
     let woff2 = web_font(&font).map_err(|e| vec![e.into()])?;
-    Ok(proof_page(built, &woff2))
+    Ok(proof_page(built, &font, &woff2))
 }
 
-/// The proof of a font whose text is set in `woff2`.
-fn proof_page(built: &Built, woff2: &Files) -> String {
+/// The proof of a font whose text is set in `woff2`, with the deviations of the outlines that are compiled.
+fn proof_page(built: &Built, compiled: &Font, woff2: &Files) -> String {
     let entries: Vec<Entry> = (built.letters.iter())
-        .filter_map(|letter| entry(&built.font, letter))
+        .filter_map(|letter| entry(&built.font, compiled, letter))
         .collect();
     page::page(&Proof {
         info: &built.font.info,
@@ -109,7 +109,7 @@ fn proof_page(built: &Built, woff2: &Files) -> String {
 }
 
 /// A letter beside the glyph that became of it.
-fn entry(font: &Font, letter: &Letter) -> Option<Entry> {
+fn entry(font: &Font, compiled: &Font, letter: &Letter) -> Option<Entry> {
     let identity = names::identify(&letter.cell.label).ok()?;
     let glyph = font.glyph(identity.name.as_str())?;
     Some(Entry {
@@ -117,6 +117,11 @@ fn entry(font: &Font, letter: &Letter) -> Option<Entry> {
         index: letter.cell.index,
         gray: letter.cell.gray.clone(),
         frame: letter.frame_in(font)?,
+        edge: deviations(
+            font,
+            letter,
+            &compiled.glyph(identity.name.as_str())?.outline,
+        )?,
         glyph: glyph.clone(),
         text: identity.chars.iter().collect(),
     })

@@ -7,8 +7,8 @@ use super::project::GateTable;
 use crate::assemble::{Note, names};
 use crate::numeric::distance::Polyline;
 use crate::trace;
-use crate::types::{Font, Outline};
-use kurbo::{Point, flatten};
+use crate::types::{Contour, Font, Outline};
+use kurbo::{BezPath, Point, flatten};
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -113,7 +113,7 @@ fn row(built: &Built, compiled: &Font, letter: &Letter) -> Option<Row> {
     let identity = names::identify(&letter.cell.label).ok()?;
     let glyph = built.font.glyph(identity.name.as_str())?;
     let shape = compiled.glyph(identity.name.as_str())?;
-    let (max_error, rms_error) = errors(&edge(&built.font, letter)?, &shape.outline);
+    let (max_error, rms_error) = errors(&deviations(&built.font, letter, &shape.outline)?);
     let b = letter.cell.in_sheet;
     let contours = glyph.outline.contours();
     let nodes = contours.iter().map(|c| c.segments().count());
@@ -132,37 +132,42 @@ fn row(built: &Built, compiled: &Font, letter: &Letter) -> Option<Row> {
     })
 }
 
-/// The scanned edge of a letter where its glyph stands, font units.
-fn edge(font: &Font, letter: &Letter) -> Option<Vec<Point>> {
+/// The scanned edge of a letter where its glyph stands, contour by contour, font units; with each point
+/// its distance to `outline`. `None` where the font has no such glyph.
+pub(super) fn deviations(
+    font: &Font,
+    letter: &Letter,
+    outline: &Outline,
+) -> Option<Vec<Vec<(Point, f64)>>> {
     let map = letter.frame_in(font)?.to_units();
+    let lines: Vec<Polyline> = outline.contours().iter().filter_map(chords).collect();
+    let distance = |p: Point| {
+        let each = lines.iter().map(|line| line.nearest(p).distance);
+        each.fold(f64::INFINITY, f64::min)
+    };
     let contours = trace::trace(&letter.cell.gray, &trace::Options::default());
-    let points = contours.iter().flat_map(|c| c.points().to_vec());
-    Some(points.map(|p| map * p).collect())
+    let ring = |c: &Contour| {
+        let points = c.points().iter().map(|&p| map * p);
+        points.map(|p| (p, distance(p))).collect()
+    };
+    Some(contours.iter().map(ring).collect())
 }
 
-/// Largest and root mean square distance of points to an outline.
+fn chords(contour: &BezPath) -> Option<Polyline> {
+    let mut chords = Vec::new();
+    flatten(contour, CHORD, |el| chords.extend(el.end_point()));
+    chords.extend(chords.first().copied());
+    Polyline::new(chords)
+}
+
+/// Largest and root mean square of the distances.
 #[expect(
     clippy::cast_precision_loss,
     reason = "letters have fewer points than 2^52"
 )]
-fn errors(points: &[Point], outline: &Outline) -> (f64, f64) {
-    let lines: Vec<Polyline> = (outline.contours().iter())
-        .filter_map(|contour| {
-            let mut chords = Vec::new();
-            flatten(contour, CHORD, |el| chords.extend(el.end_point()));
-            chords.extend(chords.first().copied());
-            Polyline::new(chords)
-        })
-        .collect();
-    let distance = |p: &Point| {
-        let each = lines.iter().map(|line| line.nearest(*p).distance);
-        each.fold(f64::INFINITY, f64::min)
-    };
-    let all: Vec<f64> = points
-        .iter()
-        .map(distance)
-        .filter(|d| d.is_finite())
-        .collect();
+fn errors(edge: &[Vec<(Point, f64)>]) -> (f64, f64) {
+    let all = edge.iter().flatten().map(|(_, d)| *d);
+    let all: Vec<f64> = all.filter(|d| d.is_finite()).collect();
     let max = all.iter().copied().fold(0.0, f64::max);
     let squares: f64 = all.iter().map(|d| d * d).sum();
     (max, (squares / all.len().max(1) as f64).sqrt())

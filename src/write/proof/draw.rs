@@ -114,11 +114,11 @@ fn guides(advance: f64, info: &Info) -> String {
 }
 
 /// A point that a round line cap makes visible.
-fn dot(out: &mut String, p: Point) {
+pub(super) fn dot(out: &mut String, p: Point) {
     push(out, format_args!("M{:.1} {:.1}h0", p.x, p.y));
 }
 
-fn stroke(out: &mut String, a: Point, b: Point) {
+pub(super) fn stroke(out: &mut String, a: Point, b: Point) {
     push(
         out,
         format_args!("M{:.1} {:.1}L{:.1} {:.1}", a.x, a.y, b.x, b.y),

@@ -4,12 +4,14 @@
 //! escaped by the template.
 
 mod draw;
+mod shapes;
 mod text;
 
 use crate::types::{Frame, Glyph, Gray, Info};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use draw::{Drawn, picture};
+use kurbo::Point;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 /// A cell and the glyph that became of it.
@@ -23,6 +25,8 @@ pub struct Entry {
     pub gray: Gray,
     /// From the picture's px (y up) to font units.
     pub frame: Frame,
+    /// The scanned edge, contour by contour, font units; with each point its distance to the compiled outline.
+    pub edge: Vec<Vec<(Point, f64)>>,
     /// The glyph as it stands in the font, cubics.
     pub glyph: Glyph,
     /// What text it stands for: one character, or the parts of a ligature.
@@ -48,6 +52,9 @@ const LAYERS: &[(&str, &str, bool)] = &[
     ("nodes", "Nodes", true),
     ("handles", "Handles", true),
     ("guides", "Baseline and advance", true),
+    ("extrema", "Corners and extrema", false),
+    ("comb", "Curvature comb", false),
+    ("heat", "Deviation", false),
 ];
 
 /// The page.
@@ -105,6 +112,11 @@ fn controls() -> Markup {
             @for (i, (key, label, on)) in LAYERS.iter().enumerate() {
                 label { input type="checkbox" data-layer=(key) checked[*on]; kbd { (i + 1) } " " (label) }
             }
+            label { "Order " select id="order" {
+                option value="page" { "as on the page" }
+                option value="worst" { "worst first" }
+                option value="name" { "by name" }
+            } }
             label { "Size " input type="range" id="size" min="120" max="900" value="240"; }
         }
     }
@@ -112,23 +124,30 @@ fn controls() -> Markup {
 
 fn cell(entry: &Entry, info: &Info) -> Markup {
     let drawn = Drawn::new(entry, info);
+    let worst = entry.edge.iter().flatten().map(|(_, d)| *d);
+    let worst = worst.filter(|d| d.is_finite()).fold(0.0, f64::max);
+    let worst = format!("{worst:.2}");
     let name = entry.glyph.name.as_str();
     html! {
-        figure id=(format!("glyph-{name}")) data-name=(name) {
+        figure id=(format!("glyph-{name}")) data-name=(name) data-worst=(worst) {
             svg viewBox=(drawn.view_box) role="img" aria-label=(name) {
                 g.scan { image href=(picture(&entry.gray)) transform=(drawn.picture) width=(entry.gray.width()) height=(entry.gray.height()) {} }
                 path.guides d=(drawn.guides) {}
                 path.fill d=(drawn.path) {}
                 path.outline d=(drawn.path) {}
+                path.comb d=(shapes::comb(&entry.glyph.outline, info)) {}
+                @for (class, d) in shapes::heat(&entry.edge, info) { path class={ "heat " (class) } d=(d) {} }
                 path.handles d=(drawn.handles) {}
                 path.nodes.off d=(drawn.off_curve) {}
                 path.nodes d=(drawn.on_curve) {}
+                path.extrema d=(shapes::extrema(&entry.glyph.outline)) {}
+                path.extrema.corner d=(shapes::corners(&entry.glyph.outline)) {}
             }
             figcaption {
                 b { (name) } " "
                 span.sample lang=(text::language(&entry.text)) { (entry.text) }
                 br;
-                small { (entry.sheet) ", cell " (entry.index + 1) " · " (drawn.count) " nodes · advance " (drawn.advance) }
+                small { (entry.sheet) ", cell " (entry.index + 1) " · " (drawn.count) " nodes · advance " (drawn.advance) " · worst " (worst) " units" }
             }
         }
     }

@@ -18,3 +18,12 @@ document.querySelector("main").addEventListener("click", (event) => {
   const figure = event.target.closest("figure");
   if (figure) { figure.classList.toggle("large"); figure.scrollIntoView({ block: "nearest" }); }
 });
+const main = document.querySelector("main");
+const onPage = [...main.children];
+const orders = {
+  page: () => 0,
+  worst: (a, b) => b.dataset.worst - a.dataset.worst,
+  name: (a, b) => a.dataset.name.localeCompare(b.dataset.name, "en"),
+};
+document.getElementById("order").addEventListener("change", (event) =>
+  main.append(...[...onPage].sort(orders[event.target.value])));

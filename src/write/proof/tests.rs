@@ -15,6 +15,11 @@ fn entry(name: &str, text: &str) -> Entry {
             baseline_px: 0.0,
             origin_px: 0.0,
         },
+        edge: vec![vec![
+            (Point::new(0.0, 0.0), 0.1),
+            (Point::new(100.0, 0.0), 3.0),
+            (Point::new(0.0, 100.0), 0.7),
+        ]],
         glyph,
         text: text.to_owned(),
     }
@@ -51,4 +56,14 @@ fn every_cell_has_picture_outline_and_nodes_and_nothing_comes_from_outside() {
         assert!(!page.contains(outside), "{outside}");
     }
     assert!(page.contains("dir=\"rtl\""), "Arabic runs right to left");
+}
+
+#[test]
+fn layers_show_corners_comb_and_deviation() {
+    let page = proof(&[entry("a", "a")]);
+    for class in ["extrema corner", "comb", "heat bad", "heat fair"] {
+        assert!(page.contains(&format!("class=\"{class}\"")), "{class}");
+    }
+    assert!(page.contains("data-worst=\"3.00\""));
+    assert_eq!(page.matches("data-layer=").count(), LAYERS.len());
 }
