@@ -12,6 +12,8 @@ use kurbo::{BezPath, CubicBez, PathEl, Point, Vec2};
 pub enum Join {
     /// An end of an open chain: its place is given, its direction free.
     End,
+    /// An end of an open chain whose place is known only roughly.
+    Loose,
     /// Place and direction are given, the handle's length is free.
     Clamped,
     /// One direction for both sides.
@@ -29,6 +31,12 @@ impl Join {
     #[must_use]
     pub const fn is_smooth(self) -> bool {
         matches!(self, Self::Smooth | Self::Horizontal | Self::Vertical)
+    }
+
+    /// Whether it is an end of an open chain.
+    #[must_use]
+    pub const fn is_end(self) -> bool {
+        matches!(self, Self::End | Self::Loose)
     }
 
     /// Whether the place is given.

@@ -201,7 +201,7 @@ impl Refit {
                     None if fixed => Slot::Fixed,
                     None => free(),
                 });
-            let turning = |join: Join| matches!(join, Join::End | Join::Corner);
+            let turning = |join: Join| matches!(join, Join::End | Join::Loose | Join::Corner);
             let (arrive, leave) = match node.join {
                 Join::Smooth => {
                     let one = chain.line_beside(i).map_or_else(&mut free, Slot::Along);

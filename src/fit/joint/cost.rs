@@ -21,7 +21,7 @@ const CUBIC: f64 = 4.0;
 pub(super) fn node(join: Join, before: Option<Kind>, after: Option<Kind>) -> f64 {
     let line = before == Some(Kind::Line) || after == Some(Kind::Line);
     match join {
-        Join::End | Join::Clamped => 0.0,
+        Join::End | Join::Loose | Join::Clamped => 0.0,
         Join::Horizontal | Join::Vertical => EXTREMUM,
         Join::Smooth if line => BESIDE_LINE,
         Join::Smooth => SMOOTH,

@@ -4,7 +4,7 @@
 use super::cost;
 use crate::numeric::chain::{Chain, Join, Kind, Node};
 use crate::numeric::refit::{Foot, Refit, Sample, Scale, Stop};
-use kurbo::{CubicBez, ParamCurve, ParamCurveDeriv, Vec2};
+use kurbo::{CubicBez, ParamCurve, ParamCurveDeriv, Point, Vec2};
 
 /// Nodes on each side of a change that are refitted with it.
 const AROUND: usize = 2;
@@ -66,6 +66,28 @@ impl Work<'_> {
             enough: f64::INFINITY,
         };
         self.refit.run(&mut self.chain, data, self.scale, stop);
+    }
+
+    /// Lets the ends of an open chain give way: where they were put may be wrong by more than the noise of the points,
+    /// and no structure should pay for it.
+    pub(super) fn loosen(&mut self) {
+        for node in &mut self.chain.nodes {
+            if node.join == Join::End {
+                node.join = Join::Loose;
+            }
+        }
+    }
+
+    /// Puts the ends back to where they are given.
+    pub(super) fn pin(&mut self, [start, end]: [Point; 2]) {
+        let last = self.chain.nodes.len() - 1;
+        for (i, at) in [(0, start), (last, end)] {
+            let node = &mut self.chain.nodes[i];
+            if node.join == Join::Loose {
+                node.join = Join::End;
+                node.point = at;
+            }
+        }
     }
 
     /// Tries all changes until none helps.
@@ -187,7 +209,7 @@ impl Work<'_> {
         };
         for k in 0..count {
             let mut node = self.chain.nodes[(start + k) % n];
-            if (k == 0 || k + 1 == count) && node.join != Join::End {
+            if (k == 0 || k + 1 == count) && !node.join.is_end() {
                 node.join = Join::Clamped;
             }
             w.chain.nodes.push(node);
@@ -264,7 +286,7 @@ fn changes(w: &Window, at: usize) -> Vec<Change> {
     let chain = &w.chain;
     let node = &chain.nodes[at];
     let least = if chain.is_ring() { 3 } else { 2 };
-    if !node.join.is_fixed() && chain.nodes.len() > least {
+    if !node.join.is_fixed() && !node.join.is_end() && chain.nodes.len() > least {
         let kinds = [chain.kind(chain.before(at)), chain.kind(chain.after(at))];
         out.push(Change::Drop(at, Kind::Cubic));
         if kinds.contains(&Some(Kind::Line)) {
@@ -281,7 +303,7 @@ fn changes(w: &Window, at: usize) -> Vec<Change> {
     if at < chain.kinds.len() && chain.kinds[at] == Kind::Cubic {
         let (a, b) = chain.ends(at);
         let d = chain.direction(at);
-        let bends = |v: Vec2, fixed: Join| fixed != Join::End && d.cross(v).abs() > STRAIGHT;
+        let bends = |v: Vec2, join: Join| !join.is_end() && d.cross(v).abs() > STRAIGHT;
         let lines = [chain.before(a), chain.after(b)]
             .into_iter()
             .any(|s| chain.kind(s) == Some(Kind::Line));

@@ -122,8 +122,10 @@ impl Joint {
             refit: Refit::default(),
             stale: Vec::new(),
         };
+        work.loosen();
         work.settle(8, 0.1);
         work.improve();
+        work.pin([s.at[0], s.at[s.len() - 1]]);
         // Each sample's foot is near that of its neighbour among the few.
         let near = |k: usize| indices.partition_point(|&i| i < k).min(indices.len() - 1);
         work.feet = (0..all.len()).map(|k| work.feet[near(k)]).collect();

@@ -15,6 +15,10 @@ const TURN_END: f64 = 0.3;
 const ROUNDS: usize = 4;
 /// Usual length of a handle, chords, and its spread.
 const HANDLE: (f64, f64) = (0.37, 0.4);
+/// Deviation of a given end from where the curve ends, sigmas: corners are found less exactly than sides.
+const LOOSE: f64 = 3.0;
+/// What a given end that lies astray costs at most, nats.
+const ASTRAY: f64 = 6.0;
 /// Distances from which the cost grows linearly only, sigmas.
 const ROBUST: f64 = 4.0;
 
@@ -60,28 +64,42 @@ impl Lines {
         ((0.5 * (xx + yy) - half).max(0.0), Vec2::from_angle(turn))
     }
 
+    /// Centre of samples `i..=j`.
+    fn middle(&self, i: usize, j: usize) -> Point {
+        let m = (j - i + 1) as f64;
+        let [x, y] = [0, 1].map(|k| (self.sums[j + 1][k] - self.sums[i][k]) / m);
+        self.origin + Vec2::new(x, y)
+    }
+
     /// Cost of a line from `a` to `b`: what the samples and the directions of both candidates say against it.
     pub(super) fn cost(&self, s: &Samples, sigma: f64, a: &Candidate, b: &Candidate) -> f64 {
         let (i, j) = (a.index, b.index);
         let chord = s.point(j) - s.point(i);
-        let (squares, direction, m) = if a.join == Join::End && b.join == Join::End {
-            let u = chord / chord.hypot().max(1e-12);
-            let off = |k| (s.point(k) - s.point(i)).cross(u);
-            ((i..=j).map(|k| off(k) * off(k)).sum(), u, 0.0)
+        let (squares, direction) = self.best(i, j);
+        let direction = if direction.dot(chord) < 0.0 {
+            -direction
         } else {
-            let (q, u) = self.best(i, j);
-            (q, if u.dot(chord) < 0.0 { -u } else { u }, 1.0)
+            direction
         };
-        debug_assert!(self.origin.is_finite(), "samples are finite");
+        let middle = self.middle(i, j);
+        let ends = [a, b].into_iter().filter(|c| c.join == Join::End);
+        let astray = ends.map(|c| {
+            let off = (s.point(c.index) - middle).cross(direction) / place(Join::End, sigma);
+            (0.5 * off * off).min(ASTRAY)
+        });
+        let astray: f64 = astray.sum();
         let turn: f64 = [a, b]
             .iter()
             .map(|c| {
+                if c.join == Join::End {
+                    return 0.0;
+                }
                 let off = direction.cross(c.heading).atan2(direction.dot(c.heading))
                     / slack(c.join).max(0.5 * TURN);
                 0.5 * off * off
             })
             .sum();
-        0.5 * squares / (sigma * sigma * super::cost::CORRELATION) + m * turn
+        0.5 * squares / (sigma * sigma * super::cost::CORRELATION) + astray + turn
     }
 }
 
@@ -254,7 +272,8 @@ impl<'a> Trial<'a> {
 /// How far a node may lie beside its sample, px.
 const fn place(join: Join, sigma: f64) -> f64 {
     match join {
-        Join::End | Join::Clamped => 0.0,
+        Join::End | Join::Loose => LOOSE * sigma,
+        Join::Clamped => 0.0,
         _ => sigma,
     }
 }
