@@ -146,6 +146,8 @@ fn pages_and_names_that_do_not_match_name_the_cells_and_write_nothing() {
         ("unknown-name", "H o l E e I N c beh-ra.init", page(&[])),
         ("blank", LETTERS, png(600, 600, |_, _| 0)),
         ("text", LETTERS, b"no picture".to_vec()),
+        ("truncated", LETTERS, truncated_jpeg()),
+        ("huge", LETTERS, huge_png()),
     ];
     for (name, glyphs, picture) in cases {
         let dir = project(glyphs, &picture);
@@ -158,6 +160,66 @@ fn pages_and_names_that_do_not_match_name_the_cells_and_write_nothing() {
         );
         approved::check("cli", &format!("build-{name}"), &transcript(&args, &out));
     }
+}
+
+/// The first half of a JPEG of the page.
+fn truncated_jpeg() -> Vec<u8> {
+    let picture = image::load_from_memory(&page(&[])).expect("a picture");
+    let mut bytes = std::io::Cursor::new(Vec::new());
+    let written = picture.write_to(&mut bytes, image::ImageFormat::Jpeg);
+    written.expect("a picture in memory");
+    let bytes = bytes.into_inner();
+    bytes[..bytes.len() / 2].to_vec()
+}
+
+/// The header of a PNG of 60,000 × 60,000 px, and nothing else.
+fn huge_png() -> Vec<u8> {
+    let mut chunk = b"IHDR".to_vec();
+    chunk.extend(60_000_u32.to_be_bytes());
+    chunk.extend(60_000_u32.to_be_bytes());
+    chunk.extend([8, 0, 0, 0, 0]);
+    let crc = chunk.iter().fold(!0_u32, |crc, &byte| {
+        (0..8).fold(crc ^ u32::from(byte), |c, _| {
+            (c >> 1) ^ if c & 1 == 1 { 0xEDB8_8320 } else { 0 }
+        })
+    });
+    let header = [
+        &b"\x89PNG\r\n\x1a\n\0\0\0\r"[..],
+        &chunk,
+        &(!crc).to_be_bytes(),
+    ];
+    header.concat()
+}
+
+#[test]
+fn a_picture_that_is_not_there_is_named() {
+    let dir = project(LETTERS, &page(&[]));
+    fs::remove_file(dir.path().join("page.png")).expect("a file");
+    let args = ["build", "font.toml"];
+    let out = khatt(dir.path(), &args);
+    assert_eq!(out.status.code(), Some(1));
+    approved::check("cli", "build-no-picture", &transcript(&args, &out));
+}
+
+#[test]
+fn what_a_killed_build_left_is_swept_away_and_what_a_living_one_writes_is_not() {
+    let dir = project(LETTERS, &page(&[]));
+    fs::create_dir_all(dir.path().join("out")).expect("a folder");
+    // no process has number 0 in a process table, and this one lives
+    let (dead, living) = (".khatt-0-x", format!(".khatt-{}-x", std::process::id()));
+    for name in [dead, &living] {
+        fs::write(dir.path().join("out").join(name), "half").expect("a file");
+    }
+    let out = khatt(dir.path(), &["build", "font.toml"]);
+    assert_eq!(
+        out.status.code(),
+        Some(0),
+        "{}",
+        String::from_utf8_lossy(&out.stderr)
+    );
+    let left: Vec<String> = files(&dir.path().join("out")).into_keys().collect();
+    let temporary: Vec<_> = left.iter().filter(|k| k.starts_with(".khatt-")).collect();
+    assert_eq!(temporary, [&living]);
 }
 
 #[test]

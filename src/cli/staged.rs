@@ -11,9 +11,10 @@ use std::ffi::OsStr;
 use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+use std::process;
 use tempfile::{Builder, TempDir, TempPath};
 
-/// How temporary names begin.
+/// How temporary names begin; the number of the process follows.
 const PREFIX: &str = ".khatt-";
 
 /// Outputs on the disk under temporary names.
@@ -122,7 +123,7 @@ fn exchange(a: &Path, b: &Path) -> io::Result<()> {
             done => return Ok(done?),
         }
     }
-    let aside = Builder::new().prefix(PREFIX).tempdir_in(parent(b))?;
+    let aside = Builder::new().prefix(&own_prefix()).tempdir_in(parent(b))?;
     let old = aside.path().join("old");
     fs::rename(b, &old)?;
     fs::rename(a, b).inspect_err(|_| fs::rename(&old, b).unwrap_or_default())?;
@@ -133,14 +134,14 @@ fn file(target: &Path, content: &[u8]) -> io::Result<Temporary> {
     if target.is_dir() {
         return Err(io::Error::other("is a folder; give the name of a file"));
     }
-    let mut file = builder(target, 0o666)?.tempfile_in(parent(target))?;
+    let mut file = builder(&own_prefix(), target, 0o666)?.tempfile_in(parent(target))?;
     file.write_all(content)?;
     Ok(Temporary::File(file.into_temp_path()))
 }
 
 fn folder(target: &Path, files: &Files) -> io::Result<Temporary> {
     refuse_foreign(target, files)?;
-    let folder = builder(target, 0o777)?.tempdir_in(parent(target))?;
+    let folder = builder(&own_prefix(), target, 0o777)?.tempdir_in(parent(target))?;
     for (name, content) in &files.0 {
         let path = folder.path().join(name);
         fs::create_dir_all(parent(&path))?;
@@ -151,10 +152,11 @@ fn folder(target: &Path, files: &Files) -> io::Result<Temporary> {
 
 /// Temporary names beside `target`, whose folder is made. `mode` is cut by the user's mask, as for
 /// anything that a program makes.
-fn builder(target: &Path, mode: u32) -> io::Result<Builder<'static, 'static>> {
+fn builder<'a>(prefix: &'a str, target: &Path, mode: u32) -> io::Result<Builder<'a, 'static>> {
     fs::create_dir_all(parent(target))?;
+    sweep(parent(target))?;
     let mut builder = Builder::new();
-    builder.prefix(PREFIX);
+    builder.prefix(prefix);
     #[cfg(unix)]
     {
         use std::os::unix::fs::PermissionsExt;
@@ -163,6 +165,37 @@ fn builder(target: &Path, mode: u32) -> io::Result<Builder<'static, 'static>> {
     #[cfg(not(unix))]
     let _ = mode;
     Ok(builder)
+}
+
+/// How this process' temporary names begin.
+fn own_prefix() -> String {
+    format!("{PREFIX}{}-", process::id())
+}
+
+/// Deletes what a process left that was killed while it wrote. Only Linux tells which processes live.
+fn sweep(folder: &Path) -> io::Result<()> {
+    if !Path::new("/proc/self").exists() {
+        return Ok(());
+    }
+    for entry in fs::read_dir(folder)? {
+        let entry = entry?;
+        let name = entry.file_name();
+        let owner = name
+            .to_str()
+            .and_then(|n| n.strip_prefix(PREFIX)?.split('-').next());
+        let owner = owner.filter(|o| !o.is_empty() && o.bytes().all(|b| b.is_ascii_digit()));
+        if owner.is_some_and(|pid| !Path::new("/proc").join(pid).exists()) {
+            let path = entry.path();
+            // somebody else may have deleted it in the meantime
+            let gone = if path.is_dir() {
+                fs::remove_dir_all(path)
+            } else {
+                fs::remove_file(path)
+            };
+            gone.unwrap_or_default();
+        }
+    }
+    Ok(())
 }
 
 /// A folder is replaced only when nothing in it is of another kind than what replaces it.

@@ -12,14 +12,14 @@ Image.MAX_IMAGE_PIXELS = None
 
 
 def measure(command):
-    """Seconds and megabytes at most of a command."""
+    """Seconds, processor seconds, megabytes at most and messages of a command."""
     start = time.perf_counter()
     child = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
     stderr = child.stderr.read().decode()
     _, status, usage = os.wait4(child.pid, 0)
     if status:
         sys.exit(f"{command[0]} failed:\n{stderr}")
-    return time.perf_counter() - start, usage.ru_maxrss / 1024, stderr
+    return time.perf_counter() - start, usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024, stderr
 
 
 def main():
@@ -44,8 +44,8 @@ def main():
         print(f"{page}: {gray.width * gray.height / 1e6:.1f} Mpx")
         for name, command in rows.items():
             runs = [measure(command) for _ in range(args.runs)]
-            seconds, megabytes, stderr = min(runs)
-            print(f"{name}: {seconds:.2f} s, {megabytes:.0f} MB")
+            seconds, processor, megabytes, stderr = min(runs)
+            print(f"{name}: {seconds:.2f} s, {processor:.2f} s of processor, {megabytes:.0f} MB")
             print("".join(f"    {line}\n" for line in stderr.splitlines() if "glyphs in" in line), end="")
 
 
