@@ -5,7 +5,7 @@ use super::labels::skips;
 use super::problem::{Place, Problem};
 use super::project::SheetTable;
 use super::watch::Stage;
-use crate::scan::{self, Cut, Reason};
+use crate::scan::{self, Cut};
 use crate::types::{Label, Sheet};
 use std::collections::BTreeSet;
 
@@ -38,7 +38,7 @@ pub(super) fn cut(
     }
 }
 
-/// Names without a letter and letters without a name.
+/// Names without a letter.
 fn gaps(sheet: &str, labels: &[Label], cut: &Cut) -> Vec<Problem> {
     let drawn: BTreeSet<usize> = cut.cells.iter().map(|c| c.index).collect();
     let named = labels.iter().enumerate().filter(|(_, label)| !skips(label));
@@ -50,14 +50,7 @@ fn gaps(sheet: &str, labels: &[Label], cut: &Cut) -> Vec<Problem> {
             label: Some(label.0.clone()),
         })
     });
-    let rest = cut.rejected.iter();
-    let unnamed = rest.filter(|r| r.reason == Reason::Unnamed).count();
-    let unnamed = (unnamed > 0).then(|| Problem::Unnamed {
-        sheet: sheet.to_owned(),
-        names: labels.len(),
-        pieces: unnamed,
-    });
-    empty.chain(unnamed).collect()
+    empty.collect()
 }
 
 /// The picture that a table names.

@@ -70,16 +70,6 @@ pub enum Problem {
     /// A cell that should hold something is empty.
     #[error("{0}: the cell is empty")]
     Empty(Place),
-    /// Letters beyond the last name.
-    #[error("{sheet}: {pieces} pieces of ink lie in cells after the last of {names} names")]
-    Unnamed {
-        /// the page
-        sheet: String,
-        /// how many names it has
-        names: usize,
-        /// how much ink has none
-        pieces: usize,
-    },
     /// A cell's label names no glyph.
     #[error("{place}: {source}")]
     Label {
@@ -147,7 +137,6 @@ impl Problem {
         Some(match self {
             Self::File { .. } => "paths start from the project file's folder",
             Self::Empty(_) => "draw the letter, or write _ in `glyphs` to skip the cell",
-            Self::Unnamed { .. } => "name these cells too, or skip them with _",
             Self::Label { .. } => {
                 "give a character, an AGL name, uniXXXX, or a name such as beh-ar.init"
             }

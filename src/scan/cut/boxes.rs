@@ -194,7 +194,7 @@ fn name(
                     names: labels.len(),
                 });
             }
-            None => rejected.extend(parts.iter().map(|&i| (i, Reason::Unnamed))),
+            None => rejected.extend(parts.iter().map(|&i| (i, Reason::Dirt))),
         }
     }
     Ok(Layer {

@@ -227,7 +227,7 @@ fn name(
                         names: labels.len(),
                     });
                 }
-                None => rejected.extend(parts.iter().map(|&i| (i, Reason::Unnamed))),
+                None => rejected.extend(parts.iter().map(|&i| (i, Reason::Dirt))),
             }
         }
     }

@@ -6,6 +6,7 @@ mod boxes;
 mod free;
 mod grid;
 mod guides;
+mod odd;
 mod rows;
 mod window;
 
@@ -65,14 +66,12 @@ pub struct Rejected {
 pub enum Reason {
     /// A printed line.
     Line,
-    /// Too little ink for a letter, and one piece more than there are names.
+    /// Too little ink for a letter, and no name is left for it.
     Dirt,
     /// It lies outside all cells.
     Outside,
     /// Its cell is marked to be skipped.
     Skipped,
-    /// Its cell is beyond the last name.
-    Unnamed,
     /// The edge of the scan: it touches the picture's border and is far larger than a letter.
     Border,
 }
@@ -140,7 +139,7 @@ pub fn cut(page: &Page, labels: &[Label], options: &Options) -> Result<Cut, Scan
     let upright = Affine::rotate_about(-skew_deg.to_radians(), middle);
     all.par_iter_mut().for_each(|c| c.stand(upright));
 
-    let source = page.sheet.source.as_str();
+    let (source, whole) = (page.sheet.source.as_str(), all.len());
     let layer = match options.layout {
         Layout::Grid(rows, columns) => grid::place(
             &all,
@@ -162,6 +161,8 @@ pub fn cut(page: &Page, labels: &[Label], options: &Options) -> Result<Cut, Scan
     let guides = guides::measure(&layer, &all, page, options)?;
     let mut warnings = guides.warnings;
     let inked: Vec<&Slot> = layer.slots.iter().filter(|s| !s.parts.is_empty()).collect();
+    let picture = Rect::new(0.0, 0.0, gray.width() as f64, gray.height() as f64);
+    warnings.extend(odd::warnings(&inked, &all, picture, whole));
     let empty = layer.slots.iter().filter(|s| s.parts.is_empty());
     warnings
         .extend(empty.map(|s| Warning::of(s, "the cell is empty: draw the letter or name it _")));

@@ -1,5 +1,7 @@
 //! Picture files → [`Sheet`]s: decoded, turned as the file says, grey, ink made 1.
 
+mod pdf;
+
 use super::error::{MAX_PIXELS, ScanError};
 use super::header;
 use crate::types::{Gray, Sheet};
@@ -34,7 +36,7 @@ pub enum Polarity {
 }
 
 /// The pages of a file in order, almost always one: PNG, JPEG, TIFF, BMP, GIF, WebP, PNM or PCX of 8 or
-/// 16 bit. `source` names the file in messages.
+/// 16 bit, or the scans inside a PDF. `source` names the file in messages.
 ///
 /// Ink is 1 − luma (or luma, see [`Polarity`]), black and white of the file being 1 and 0: levels and noise
 /// stay as they were scanned. Transparency lies over white paper; where colour says nothing, opacity is the ink.
@@ -42,18 +44,40 @@ pub enum Polarity {
 /// # Errors
 /// The content is no picture of these kinds, ends too early, is damaged, or is larger than a page can be.
 pub fn load(bytes: &[u8], source: &str, polarity: Polarity) -> Result<Vec<Sheet>, ScanError> {
-    let pages = header::tiff_pages(bytes);
-    if pages.is_empty() {
-        return Ok(vec![load_page(bytes, source, polarity)?]);
-    }
-    let named = pages.iter().zip(1..);
-    named
-        .map(|(page, n)| load_page(page, &format!("{source}, page {n}"), polarity))
+    let pictures = if pdf::is_pdf(bytes) {
+        pdf::pages(bytes, source)?
+    } else {
+        let pages = header::tiff_pages(bytes);
+        let files: Vec<&[u8]> = if pages.is_empty() {
+            vec![bytes]
+        } else {
+            pages.iter().map(Vec::as_slice).collect()
+        };
+        let decoded = files
+            .into_iter()
+            .map(|f| Ok((decode(f, source)?, header::dpi(f))));
+        decoded.collect::<Result<_, ScanError>>()?
+    };
+    let several = pictures.len() > 1;
+    let name = |n: usize| {
+        if several {
+            format!("{source}, page {n}")
+        } else {
+            source.to_owned()
+        }
+    };
+    let sheets = pictures.into_iter().zip(1..);
+    sheets
+        .map(|((image, dpi), n)| sheet(image, dpi, &name(n), polarity))
         .collect()
 }
 
-fn load_page(bytes: &[u8], source: &str, polarity: Polarity) -> Result<Sheet, ScanError> {
-    let image = decode(bytes, source)?;
+fn sheet(
+    image: DynamicImage,
+    dpi: Option<f64>,
+    source: &str,
+    polarity: Polarity,
+) -> Result<Sheet, ScanError> {
     let (width, height) = (image.width() as usize, image.height() as usize);
     let mut samples = ink(image);
     if light_on_dark(&samples, width, polarity) {
@@ -65,7 +89,7 @@ fn load_page(bytes: &[u8], source: &str, polarity: Polarity) -> Result<Sheet, Sc
     })?;
     Ok(Sheet {
         gray,
-        dpi: header::dpi(bytes),
+        dpi,
         source: source.to_owned(),
     })
 }

@@ -216,3 +216,72 @@ fn what_is_no_whole_picture_is_refused_with_its_name() {
     huge[29..33].copy_from_slice(&(!crc).to_be_bytes());
     assert!(matches!(no(&huge), ScanError::Large { width: 60_000, .. }));
 }
+
+/// A PDF file of one page of 144 × 108 points with one picture.
+fn pdf_file(entries: &str, data: &[u8]) -> Vec<u8> {
+    let mut out = b"%PDF-1.4\n".to_vec();
+    let stream = [format!("<< /Type /XObject /Subtype /Image /Width 40 /Height 30 {entries} /Length {} >>\nstream\n", data.len()).as_bytes(), data, b"\nendstream"].concat();
+    let objects: [Vec<u8>; 4] = [
+        b"<< /Type /Catalog /Pages 2 0 R >>".to_vec(),
+        b"<< /Type /Pages /Kids [3 0 R] /Count 1 >>".to_vec(),
+        b"<< /Type /Page /Parent 2 0 R /MediaBox [0 0 144 108] /Resources << /XObject << /Im0 4 0 R >> >> >>".to_vec(),
+        stream,
+    ];
+    let mut at = Vec::new();
+    for (i, body) in objects.iter().enumerate() {
+        at.push(out.len());
+        out.extend([format!("{} 0 obj\n", i + 1).as_bytes(), body, b"\nendobj\n"].concat());
+    }
+    let start = out.len();
+    out.extend(b"xref\n0 5\n0000000000 65535 f \n");
+    out.extend(
+        at.iter()
+            .flat_map(|a| format!("{a:010} 00000 n \n").into_bytes()),
+    );
+    out.extend(
+        format!("trailer\n<< /Size 5 /Root 1 0 R >>\nstartxref\n{start}\n%%EOF\n").into_bytes(),
+    );
+    out
+}
+
+#[test]
+fn a_pdf_gives_the_scan_of_its_page() {
+    let grey = picture();
+    let plain = pdf_file("/ColorSpace /DeviceGray /BitsPerComponent 8", grey.as_raw());
+    let jpeg = encoded(&DynamicImage::ImageLuma8(grey.clone()), ImageFormat::Jpeg);
+    let jpeg = pdf_file(
+        "/ColorSpace /DeviceGray /BitsPerComponent 8 /Filter /DCTDecode",
+        &jpeg,
+    );
+    let bits: Vec<u8> = grey
+        .as_raw()
+        .chunks(8)
+        .map(|b| b.iter().fold(0, |s, &v| s << 1 | u8::from(v < 128)))
+        .collect();
+    let bilevel = pdf_file(
+        "/ColorSpace /DeviceGray /BitsPerComponent 1 /Decode [1 0]",
+        &bits,
+    );
+    for (i, file) in [plain, jpeg, bilevel].iter().enumerate() {
+        let sheet = one(file);
+        assert_eq!(
+            (sheet.gray.width(), sheet.gray.height()),
+            (40, 30),
+            "file {i}"
+        );
+        assert!(
+            (sheet.dpi.unwrap() - 20.0).abs() < 1e-9,
+            "40 px on two inches"
+        );
+        assert!(
+            sheet.gray.at(12, 10) > 0.8 && sheet.gray.at(30, 20) < 0.25,
+            "file {i}"
+        );
+    }
+    let short = pdf_file(
+        "/ColorSpace /DeviceGray /BitsPerComponent 8",
+        &grey.as_raw()[..100],
+    );
+    assert!(load(&short, "short.pdf", Polarity::Auto).is_err());
+    assert!(load(b"%PDF-1.4 and nothing", "empty.pdf", Polarity::Auto).is_err());
+}

@@ -1,0 +1,54 @@
+//! What a user should look at: letters that may be torn, joined or cut off.
+
+use super::{Slot, Warning};
+use crate::scan::components::Component;
+use kurbo::Rect;
+
+/// A letter larger than this many usual letters may be two, or hold a line.
+const LARGE: f64 = 2.5;
+
+/// Warns of the cells whose ink is odd; pieces from `freed` on were cut off a printed box.
+pub(super) fn warnings(
+    slots: &[&Slot],
+    all: &[Component],
+    picture: Rect,
+    freed: usize,
+) -> Vec<Warning> {
+    let bounds = |s: &Slot, of: fn(&Component) -> Rect| {
+        let boxes = s.parts.iter().map(|&i| of(&all[i]));
+        boxes.reduce(|a, b| a.union(b)).unwrap_or(Rect::ZERO)
+    };
+    let size = |s: &Slot| {
+        let b = bounds(s, |c| c.upright);
+        b.width().max(b.height())
+    };
+    let mut sizes: Vec<f64> = slots.iter().map(|s| size(s)).collect();
+    sizes.sort_by(f64::total_cmp);
+    let usual = sizes.get(sizes.len() / 2).copied().unwrap_or(0.0);
+    let mut out = Vec::new();
+    for slot in slots {
+        let b = bounds(slot, |c| c.bounds);
+        if b.x0 <= picture.x0 || b.y0 <= picture.y0 || b.x1 >= picture.x1 || b.y1 >= picture.y1 {
+            out.push(Warning::of(
+                slot,
+                "its ink reaches the picture's edge: scan the whole page",
+            ));
+        }
+        if slot.parts.iter().any(|&i| i >= freed) {
+            out.push(Warning::of(
+                slot,
+                "its ink touches the printed box: what lies along the line is left out",
+            ));
+        }
+        if size(slot) > LARGE * usual {
+            let times = size(slot) / usual;
+            out.push(Warning::of(
+                slot,
+                format!(
+                    "it is {times:.1} times as large as the usual letter: two letters or a line?"
+                ),
+            ));
+        }
+    }
+    out
+}
