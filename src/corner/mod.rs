@@ -7,8 +7,11 @@
 //! A room a method, each a struct of options that implements [`Detector`]; [`Method`] is the menu.
 
 pub mod angle;
+mod beside;
 pub mod sides;
 pub mod srm05;
+
+pub use beside::sharpen;
 
 use crate::types::Contour;
 use serde::{Deserialize, Serialize};

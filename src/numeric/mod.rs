@@ -3,10 +3,14 @@
 pub mod assignment;
 pub mod banded;
 pub mod bspline;
+pub mod cast;
 pub mod chain;
+pub mod coverage;
 pub mod distance;
+pub mod levels;
 pub mod minimise;
 pub mod refit;
 pub mod shortest;
+pub mod side;
 pub mod skyline;
 pub mod turns;

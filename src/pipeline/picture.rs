@@ -3,7 +3,7 @@
 use crate::{
     corner,
     fit::{self, FitError},
-    trace,
+    refine, trace,
     types::{Contour, Fitted, Gray},
 };
 use kurbo::{Affine, BezPath, PathEl};
@@ -40,9 +40,32 @@ impl Default for Options {
 /// # Errors
 /// An option of the fitter is outside its range.
 pub fn trace_picture(gray: &Gray, options: &Options) -> Result<Vec<BezPath>, FitError> {
-    let contours = trace::trace(gray, &options.trace);
-    let fits = contours.iter().map(|c| fit_contour(c, options));
+    let edges = edges(gray, options);
+    let fits = edges
+        .iter()
+        .map(|(contour, corners)| fit_contour(contour, corners, options));
     fits.collect()
+}
+
+/// The contours of a picture's ink with their corners sharp, and the corners' indices.
+#[must_use]
+pub fn edges(gray: &Gray, options: &Options) -> Vec<(Contour, Vec<usize>)> {
+    let coverage = trace::level(gray);
+    let contours = trace::trace(&coverage, &options.trace);
+    let detector = options.corners.detector();
+    if options.trace.boundary == trace::Boundary::Chain {
+        // the boundary that the papers start from is taken as it is
+        let found = contours.into_iter().map(|c| {
+            let at = detector.corners(&c);
+            (c, at)
+        });
+        return found.collect();
+    }
+    let sharp = contours
+        .iter()
+        .map(|c| corner::sharpen(c, &detector.corners(c)));
+    let sharp: Vec<_> = sharp.collect();
+    refine::contours(&coverage, &sharp)
 }
 
 /// The map from the curves' space (y up) to the picture's (y down).
@@ -55,9 +78,12 @@ pub fn to_picture(gray: &Gray) -> Affine {
     Affine::new([1.0, 0.0, 0.0, -1.0, 0.0, gray.height() as f64])
 }
 
-fn fit_contour(contour: &Contour, options: &Options) -> Result<BezPath, FitError> {
-    let corners = options.corners.detector().corners(contour);
-    let spans = contour.cut(&corners);
+fn fit_contour(
+    contour: &Contour,
+    corners: &[usize],
+    options: &Options,
+) -> Result<BezPath, FitError> {
+    let spans = contour.cut(corners);
     let fitter = options.fit.fitter();
     let pieces: Result<Vec<Fitted>, FitError> = spans
         .iter()

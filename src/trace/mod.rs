@@ -8,12 +8,20 @@
 //! cross nor touch. Every ink component and every hole above the speckle limit is there.
 
 mod chain;
+mod edge;
 mod iso;
+mod levels;
 #[cfg(test)]
 mod tests;
 
-use crate::types::{Contour, Gray};
+use crate::{
+    numeric::cast::index,
+    types::{Contour, Gray},
+};
+use kurbo::Point;
 use serde::{Deserialize, Serialize};
+
+pub use levels::level;
 
 /// Options of the contour tracer.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -49,7 +57,12 @@ impl Default for Options {
     }
 }
 
-/// The contours of a picture's ink.
+/// Distance between neighbouring points, px: a little denser than the pixels they come from.
+const SPACING_PX: f64 = 0.8;
+/// Even the smallest ring has this many points.
+const MIN_POINTS: usize = 16;
+
+/// The contours of a picture's ink, evenly sampled, with the blur of the picture's edges.
 #[must_use]
 pub fn trace(gray: &Gray, options: &Options) -> Vec<Contour> {
     let rings = match options.boundary {
@@ -57,7 +70,31 @@ pub fn trace(gray: &Gray, options: &Options) -> Vec<Contour> {
         Boundary::Chain => chain::rings(gray, options.level),
     };
     let contours = rings.into_iter().filter_map(|r| Contour::new(r).ok());
-    contours
-        .filter(|c| c.area().abs() >= options.speckle_px2)
-        .collect()
+    let large = contours.filter(|c| c.area().abs() >= options.speckle_px2);
+    if matches!(options.boundary, Boundary::Chain) {
+        return large.collect();
+    }
+    let even: Vec<Contour> = large
+        .filter_map(|c| Contour::new(even(c.points())).ok())
+        .collect();
+    let blur = edge::blur_px(gray, &even);
+    even.into_iter().map(|c| c.with_blur(blur)).collect()
+}
+
+/// The same ring with points [`SPACING_PX`] apart.
+fn even(ring: &[Point]) -> Vec<Point> {
+    let edges = || ring.iter().zip(ring.iter().cycle().skip(1));
+    let length: f64 = edges().map(|(a, b)| a.distance(*b)).sum();
+    let n = index(length / SPACING_PX).max(MIN_POINTS);
+    let step = length / n as f64;
+    let mut out = Vec::with_capacity(n);
+    let mut passed = 0.0;
+    for (a, b) in edges() {
+        let d = a.distance(*b);
+        while out.len() < n && out.len() as f64 * step < passed + d {
+            out.push(a.lerp(*b, (out.len() as f64 * step - passed) / d));
+        }
+        passed += d;
+    }
+    out
 }

@@ -31,9 +31,13 @@ pub enum ContourError {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Contour {
     points: Vec<Point>,
+    blur_px: f64,
 }
 
 impl Contour {
+    /// What a pixel alone blurs an edge: the standard deviation of a box of 1 px.
+    pub const PIXEL_BLUR_PX: f64 = 0.288_675_134_594_812_9;
+
     /// A ring through `points` in order. Neighbours that coincide, and a repeated first point, count once.
     ///
     /// # Errors
@@ -49,7 +53,10 @@ impl Contour {
         if points.len() < 3 {
             Err(ContourError::Short(points.len()))
         } else {
-            Ok(Self { points })
+            Ok(Self {
+                points,
+                blur_px: Self::PIXEL_BLUR_PX,
+            })
         }
     }
 
@@ -57,6 +64,20 @@ impl Contour {
     #[must_use]
     pub fn points(&self) -> &[Point] {
         &self.points
+    }
+
+    /// The same ring, from a picture whose edges are blurred by a Gaussian of standard deviation
+    /// `blur_px`, the pixel's own box included; never less than [`Contour::PIXEL_BLUR_PX`].
+    #[must_use]
+    pub fn with_blur(mut self, blur_px: f64) -> Self {
+        self.blur_px = blur_px.max(Self::PIXEL_BLUR_PX);
+        self
+    }
+
+    /// How far the picture's edges are blurred, px: corners are rounded within about twice this.
+    #[must_use]
+    pub const fn blur_px(&self) -> f64 {
+        self.blur_px
     }
 
     /// Signed area, px²: positive for an outer ring, negative for a hole.

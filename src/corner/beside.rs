@@ -1,0 +1,125 @@
+//! The clear stretches of contour beside a corner, and the corner as the crossing of its two sides.
+
+use crate::{
+    numeric::side::{Meeting, Place, Side},
+    types::Contour,
+};
+use kurbo::Point;
+
+/// Longest stretch that a side is taken from, px.
+const REACH_PX: f64 = 16.0;
+
+/// How far from a corner its rounding by the picture's blur is felt, px: the bilinear surface reaches
+/// 1 px, and a Gaussian's edge is straight again to 1 % of a pixel after one and a half deviations.
+pub(super) fn clearance_px(contour: &Contour) -> f64 {
+    1.05 + 1.5 * contour.blur_px()
+}
+
+/// A contour with some of its points said to be corners.
+pub(super) struct Corners<'a> {
+    points: &'a [Point],
+    clear: f64,
+    /// strictly increasing
+    at: &'a [usize],
+}
+
+impl<'a> Corners<'a> {
+    pub(super) fn new(contour: &'a Contour, at: &'a [usize]) -> Self {
+        Self {
+            points: contour.points(),
+            clear: clearance_px(contour),
+            at,
+        }
+    }
+
+    /// The meeting of the sides of corner number `k`; nothing where they do not meet near it.
+    pub(super) fn meeting(&self, k: usize) -> Option<Meeting> {
+        let n = self.at.len();
+        let i = self.at[k];
+        let mut before = self.stretch(i, self.at[(k + n - 1) % n], Place::Before);
+        before.reverse();
+        let after = self.stretch(i, self.at[(k + 1) % n], Place::After);
+        let before = Side::beside(&before, Place::Before)?;
+        let after = Side::beside(&after, Place::After)?;
+        before.meet(&after, self.points[i], 3.0 * self.clear)
+    }
+
+    /// Points from corner `i` towards the corner `stop`, outside both their clearances, nearest first; of
+    /// a stretch that has none, its middle.
+    fn stretch(&self, i: usize, stop: usize, place: Place) -> Vec<Point> {
+        let n = self.points.len();
+        let step = if place == Place::After { 1 } else { n - 1 };
+        let (mut d, mut j) = (0.0, i);
+        let mut walk = Vec::new();
+        while d <= REACH_PX + 2.0 * self.clear && walk.len() < n {
+            let next = (j + step) % n;
+            d += self.points[j].distance(self.points[next]);
+            walk.push((d, self.points[next]));
+            j = next;
+            if j == stop {
+                break;
+            }
+        }
+        let end = if j == stop { d } else { f64::INFINITY };
+        let within = |from: f64, to: f64| -> Vec<Point> {
+            let inside = walk.iter().filter(|(d, _)| (from..=to).contains(d));
+            inside.map(|(_, p)| *p).collect()
+        };
+        let out = within(self.clear, (end - self.clear).min(self.clear + REACH_PX));
+        if out.len() >= 2 || walk.is_empty() {
+            return out;
+        }
+        let end = end.min(d);
+        let out = within(0.3 * end, 0.7 * end);
+        if out.len() >= 2 {
+            return out;
+        }
+        [Some(self.points[i]), walk.last().map(|w| w.1)]
+            .into_iter()
+            .flatten()
+            .collect()
+    }
+
+    /// Whether a point is inside the clearance of the corner it is next to, on a stretch long enough to
+    /// do without it.
+    fn rounded(&self, to_corner: f64, stretch: f64) -> bool {
+        to_corner < self.clear.min(stretch * 0.3)
+    }
+}
+
+/// The contour with each corner moved to where its sides meet and the rounded points beside it left
+/// out, and the corners' new indices.
+///
+/// A corner whose sides do not meet near it stays where it is.
+#[must_use]
+pub fn sharpen(contour: &Contour, corners: &[usize]) -> (Contour, Vec<usize>) {
+    let all = Corners::new(contour, corners);
+    let n = all.points.len();
+    let mut points = Vec::with_capacity(n);
+    let mut indices = Vec::with_capacity(corners.len());
+    for (k, &i) in corners.iter().enumerate() {
+        let next = corners[(k + 1) % corners.len()];
+        let count = (next + n - i - 1) % n + 1;
+        let place = |j: usize| all.points[(i + j) % n];
+        let lengths: Vec<f64> = (0..count)
+            .scan(0.0, |d, j| {
+                *d += place(j).distance(place(j + 1));
+                Some(*d)
+            })
+            .collect();
+        let length = lengths.last().copied().unwrap_or(0.0);
+        indices.push(points.len());
+        points.push(all.meeting(k).map_or(place(0), |m| m.apex));
+        for (j, d) in lengths.iter().enumerate().take(count - 1) {
+            if !all.rounded(d.min(length - d), length) {
+                points.push(place(j + 1));
+            }
+        }
+    }
+    match Contour::new(points) {
+        Ok(c) if c.points().len() > 2 && !indices.is_empty() => {
+            (c.with_blur(contour.blur_px()), indices)
+        }
+        _ => (contour.clone(), corners.to_vec()),
+    }
+}

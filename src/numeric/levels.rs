@@ -1,0 +1,131 @@
+//! Levels of ink and paper that vary over a picture, and the coverage between them.
+
+use super::cast::{index, single};
+
+/// Spread of the neighbourhood a level is the mean of, px. Print and paper grain vary within a few
+/// pixels: 8 px follows them less well, and percentiles of a window are led astray by the edge itself.
+const SPREAD_PX: f64 = 2.0;
+/// Side of a square in which pixels are summed before they are averaged, px.
+const BLOCK: usize = 2;
+/// Weight of the picture's own level against a neighbourhood of nothing but sure pixels, no unit: it
+/// decides where a stroke is too thin to hold any.
+const GLOBAL_WEIGHT: f32 = 0.004;
+/// Ink and paper closer than this are no edge, coverage.
+const CONTRAST: f32 = 0.2;
+
+/// What a pixel says of the levels: ink value times weight, ink weight, paper value times weight, paper
+/// weight. Also sums of these over pixels.
+pub type Votes = [f32; 4];
+
+/// Where each value lies between the paper's level (0) and the ink's (1) around it.
+///
+/// `values` run row by row, `width` a row; `votes` are asked once for each index. A level is the Gaussian
+/// mean of the votes around, and where there are next to none, of all.
+#[must_use]
+pub fn normalised(values: &[f32], width: usize, votes: impl Fn(usize) -> Votes) -> Vec<f32> {
+    let w = width.max(1);
+    let h = values.len() / w;
+    let (columns, rows) = (w.div_ceil(BLOCK), h.div_ceil(BLOCK));
+    let mut sums = vec![[0.0f32; 4]; columns * rows];
+    for i in 0..w * h {
+        let s = &mut sums[i / w / BLOCK * columns + i % w / BLOCK];
+        let v = votes(i);
+        (0..4).for_each(|k| s[k] += v[k]);
+    }
+    let total = sums.iter().fold([0.0f64; 4], |t, s| {
+        std::array::from_fn(|i| t[i] + f64::from(s[i]))
+    });
+    let mean = |sum: f64, count: f64, none: f64| if count > 0.0 { sum / count } else { none };
+    let ink = single(mean(total[0], total[1], 1.0));
+    let paper = single(mean(total[2], total[3], 0.0));
+    if ink - paper < CONTRAST {
+        return values.to_vec();
+    }
+    let sums = blurred(&sums, columns, rows);
+    let full = (BLOCK * BLOCK) as f32;
+    let levels: Vec<(f32, f32)> = sums
+        .iter()
+        .map(|s| {
+            let local = |sum: f32, count: f32, global: f32| {
+                (sum / full + GLOBAL_WEIGHT * global) / (count / full + GLOBAL_WEIGHT)
+            };
+            let (i, p) = (local(s[0], s[1], ink), local(s[2], s[3], paper));
+            if i - p < CONTRAST {
+                (ink, paper)
+            } else {
+                (i, p)
+            }
+        })
+        .collect();
+    let field = Coarse {
+        levels: &levels,
+        columns,
+        rows,
+    };
+    let level = |(k, v): (usize, &f32)| {
+        let (i, p) = field.at(k % w, k / w);
+        (v - p) / (i - p)
+    };
+    values.iter().enumerate().map(level).collect()
+}
+
+/// Gaussian sums over the blocks of a picture.
+fn blurred(sums: &[Votes], columns: usize, rows: usize) -> Vec<Votes> {
+    let sigma = SPREAD_PX / BLOCK as f64;
+    let radius = index((4.0 * sigma).ceil());
+    let kernel: Vec<f32> = (0..=radius)
+        .map(|i| single((-0.5 * (i as f64 / sigma).powi(2)).exp()))
+        .collect();
+    let norm = 1.0 / (2.0 * kernel.iter().sum::<f32>() - kernel[0]);
+    let add = |to: &mut [Votes], from: &[Votes], k: f32| {
+        for (t, f) in to.iter_mut().zip(from) {
+            (0..4).for_each(|i| t[i] += k * f[i]);
+        }
+    };
+    // along rows, then along columns: `step` apart within lines of `len`
+    let pass = |from: &[Votes], line: usize, step: usize| {
+        let mut to = vec![[0.0f32; 4]; from.len()];
+        for (to, from) in to
+            .chunks_exact_mut(line.max(1))
+            .zip(from.chunks_exact(line.max(1)))
+        {
+            for (d, k) in kernel.iter().map(|k| k * norm).enumerate() {
+                let d = (d * step).min(line);
+                add(&mut to[d..], from, k);
+                if d > 0 {
+                    add(to, &from[d..], k);
+                }
+            }
+        }
+        to
+    };
+    let across = pass(sums, columns, 1);
+    pass(&across, columns * rows, columns)
+}
+
+/// Levels a block, read between the blocks' centres.
+struct Coarse<'a> {
+    levels: &'a [(f32, f32)],
+    columns: usize,
+    rows: usize,
+}
+
+impl Coarse<'_> {
+    fn at(&self, x: usize, y: usize) -> (f32, f32) {
+        let place = |i: usize, n: usize| {
+            let f = (i as f32 + 0.5) / BLOCK as f32 - 0.5;
+            let low = index(f64::from(f)).min(n - 1);
+            (low, (low + 1).min(n - 1), (f - low as f32).clamp(0.0, 1.0))
+        };
+        let (x0, x1, tx) = place(x, self.columns);
+        let (y0, y1, ty) = place(y, self.rows);
+        let at = |x: usize, y: usize| self.levels[y * self.columns + x];
+        let mix =
+            |a: (f32, f32), b: (f32, f32), t: f32| (a.0 + t * (b.0 - a.0), a.1 + t * (b.1 - a.1));
+        mix(
+            mix(at(x0, y0), at(x1, y0), tx),
+            mix(at(x0, y1), at(x1, y1), tx),
+            ty,
+        )
+    }
+}

@@ -1,0 +1,113 @@
+//! How a picture differs from the blurred fill of polygons, and how far an edge must move for it.
+
+use crate::{
+    numeric::{
+        cast::index,
+        coverage::{Coverage, blurred},
+        levels::{Votes, normalised},
+    },
+    types::{Contour, Gray},
+};
+use kurbo::Point;
+use std::f64::consts::TAU;
+
+/// The neighbourhood that moves an edge is at least this wide, px: narrower, it would hang on the one
+/// pixel that happens to be next.
+const MIN_SPREAD_PX: f64 = 0.6;
+
+/// Deviation of the average along the contour, in points a pixel of the lens' blur.
+const AVERAGE: f64 = 5.0;
+/// A pixel whose model is within this of ink or paper tells their level, coverage.
+const SURE: f32 = 0.1;
+
+/// Picture minus model.
+pub(super) struct Residual {
+    /// picture minus model, row by row from the top
+    off: Vec<f32>,
+    width: usize,
+    height: usize,
+    /// deviation of the lens' blur alone, px
+    lens: f64,
+    /// deviation of the neighbourhood's weights, px
+    spread: f64,
+    /// shift of a straight edge, px, for a weighted mean difference of 1
+    gain: f64,
+}
+
+impl Residual {
+    /// The picture against the fill of `rings`, both blurred by `blur_px` with the pixel's own box.
+    pub(super) fn new<'r>(
+        gray: &Gray,
+        rings: impl Iterator<Item = &'r [Point]>,
+        blur_px: f64,
+    ) -> Self {
+        let mut coverage = Coverage::new(gray.width(), gray.height());
+        rings.for_each(|r| coverage.add(r));
+        let pixel = Contour::PIXEL_BLUR_PX;
+        let lens = (blur_px * blur_px - pixel * pixel).max(0.0).sqrt();
+        let model = blurred(&coverage.samples(), gray.width(), lens);
+        let spread = blur_px.max(MIN_SPREAD_PX);
+        // a straight edge moved by 1 px changes the pixels by its own profile's slope, a Gaussian of
+        // `blur_px`, of which the weights see one of both deviations together
+        let gain = TAU.sqrt() * blur_px.hypot(spread);
+        // with the edges known, pixels up to them say what ink and paper are
+        let seen = normalised(gray.samples(), gray.width(), |i| {
+            votes(gray.samples()[i], model[i])
+        });
+        let off = seen.iter().zip(&model).map(|(s, m)| s - m).collect();
+        Self {
+            off,
+            width: gray.width(),
+            height: gray.height(),
+            lens,
+            spread,
+            gain,
+        }
+    }
+
+    /// Weights by which shifts of neighbouring points are averaged, from the point itself outwards.
+    ///
+    /// The iso-contour is off by what changes slowly along it; what changes fast is the grain, which a lens
+    /// makes worse to undo. Without a lens there is nothing to average.
+    pub(super) fn kernel(&self) -> Vec<f64> {
+        let sigma = self.lens * AVERAGE;
+        let weight = |i: usize| (-0.5 * (i as f64 / sigma.max(0.1)).powi(2)).exp();
+        (0..=index(2.5 * sigma)).map(weight).collect()
+    }
+
+    /// How far outwards an edge through `p` must move, px; linear, good for fractions of a pixel.
+    pub(super) fn shift(&self, p: Point) -> f64 {
+        let (w, h) = (self.width, self.height);
+        let (cx, cy) = (p.x - 0.5, h as f64 - p.y - 0.5);
+        let reach = 2.5 * self.spread;
+        let span = |c: f64, n: usize| index((c - reach).ceil())..index(c + reach + 1.0).min(n);
+        let weight = |d: f64| (-0.5 * (d / self.spread).powi(2)).exp();
+        let columns: Vec<(usize, f64)> = span(cx, w).map(|x| (x, weight(x as f64 - cx))).collect();
+        let (mut sum, mut total) = (0.0, 0.0);
+        for y in span(cy, h) {
+            let wy = weight(y as f64 - cy);
+            let row = &self.off[y * w..(y + 1) * w];
+            for &(x, wx) in &columns {
+                sum += wx * wy * f64::from(row[x]);
+                total += wx * wy;
+            }
+        }
+        if total > 0.0 {
+            self.gain * sum / total
+        } else {
+            0.0
+        }
+    }
+}
+
+/// What a pixel of value `seen` says of ink and paper, the model's part of the other taken off.
+fn votes(seen: f32, model: f32) -> Votes {
+    let weight = |away: f32| (1.0 - away / SURE).clamp(0.0, 1.0);
+    let (ink, paper) = (weight(1.0 - model), weight(model));
+    [
+        ink * (seen + 1.0 - model),
+        ink,
+        paper * (seen - model),
+        paper,
+    ]
+}

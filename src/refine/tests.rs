@@ -1,0 +1,117 @@
+use super::*;
+use crate::numeric::{
+    cast::index,
+    coverage::{Coverage, blurred},
+};
+
+/// The picture of a polygon through a lens.
+fn picture(ring: &[Point], size: usize, lens: f64) -> Gray {
+    let mut c = Coverage::new(size, size);
+    c.add(ring);
+    Gray::new(size, size, blurred(&c.samples(), size, lens)).unwrap()
+}
+
+fn circle(centre: Point, radius: f64, n: usize) -> Vec<Point> {
+    let at =
+        |i: usize| centre + radius * Vec2::from_angle(std::f64::consts::TAU * i as f64 / n as f64);
+    (0..n).map(at).collect()
+}
+
+/// The largest distance of points from a circle.
+fn off(points: &[Point], centre: Point, radius: f64) -> f64 {
+    points
+        .iter()
+        .map(|p| (p.distance(centre) - radius).abs())
+        .fold(0.0, f64::max)
+}
+
+#[test]
+fn a_disk_comes_back_to_its_radius() {
+    for (lens, radius, limit) in [
+        (0.0, 3.0, 0.05),
+        (0.0, 9.0, 0.03),
+        (0.9, 9.0, 0.02),
+        (1.2, 5.0, 0.06),
+    ] {
+        let centre = Point::new(16.3, 15.8);
+        let gray = picture(&circle(centre, radius, 720), 32, lens);
+        let start = Contour::new(circle(centre, radius - 0.2, index(radius * 7.8))).unwrap();
+        let start = (
+            start.with_blur(Contour::PIXEL_BLUR_PX.hypot(lens)),
+            Vec::new(),
+        );
+        let got = contours(&gray, &[start]);
+        let worst = off(got[0].0.points(), centre, radius);
+        assert!(worst < limit, "lens {lens}, radius {radius}: {worst}");
+    }
+}
+
+#[test]
+fn a_square_keeps_its_corners_where_the_sides_meet() {
+    let square = [(6.3, 5.8), (26.4, 5.8), (26.4, 25.1), (6.3, 25.1)].map(Point::from);
+    for lens in [0.0, 0.9] {
+        let gray = picture(&square, 32, lens);
+        let clear = 2.5;
+        let mut points = Vec::new();
+        let mut corners = Vec::new();
+        for i in 0..4 {
+            let (a, b) = (square[i], square[(i + 1) % 4]);
+            corners.push(points.len());
+            points.push(a + Vec2::new(0.3, 0.2));
+            let n = 20;
+            let d = a.distance(b);
+            points.extend((0..=n).map(|j| {
+                a.lerp(
+                    b,
+                    (clear + (d - 2.0 * clear) * f64::from(j) / f64::from(n)) / d,
+                ) + Vec2::new(0.1, -0.1)
+            }));
+        }
+        let start = Contour::new(points)
+            .unwrap()
+            .with_blur(Contour::PIXEL_BLUR_PX.hypot(lens));
+        let (got, at) = contours(&gray, &[(start, corners)]).remove(0);
+        for (i, want) in at.iter().zip(square) {
+            assert!(
+                got.points()[*i].distance(want) < 0.02,
+                "lens {lens}: {:?} {want:?}",
+                got.points()[*i]
+            );
+        }
+    }
+}
+
+#[test]
+fn a_hairline_keeps_its_width() {
+    let line = [(4.0, 10.1), (60.0, 10.1), (60.0, 11.6), (4.0, 11.6)].map(Point::from);
+    let gray = picture(&line, 64, 0.0);
+    let wide = |y0: f64, y1: f64| {
+        let go = (0..56).map(move |i| Point::new(4.0 + f64::from(i), y0));
+        let back = (0..56).map(move |i| Point::new(60.0 - f64::from(i), y1));
+        Contour::new(go.chain(back).collect()).unwrap()
+    };
+    let got = contours(&gray, &[(wide(10.25, 11.45), Vec::new())]);
+    for p in got[0]
+        .0
+        .points()
+        .iter()
+        .filter(|p| (8.0..56.0).contains(&p.x))
+    {
+        let d = (p.y - 10.1).abs().min((p.y - 11.6).abs());
+        assert!(d < 0.06, "{p:?}");
+    }
+}
+
+#[test]
+fn nothing_runs_away() {
+    let centre = Point::new(16.0, 16.0);
+    let start = Contour::new(circle(centre, 6.0, 40)).unwrap();
+    for gray in [
+        Gray::from_fn(32, 32, |_, _| 0.0),
+        Gray::from_fn(32, 32, |x, y| ((x * 7 + y * 13) % 5) as f32 / 4.0),
+    ] {
+        let got = contours(&gray, &[(start.clone(), Vec::new())]);
+        assert!(off(got[0].0.points(), centre, 6.0) <= REACH_PX + 1e-9);
+    }
+    assert!(contours(&Gray::from_fn(0, 0, |_, _| 0.0), &[]).is_empty());
+}
