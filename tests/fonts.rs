@@ -56,7 +56,7 @@ fn shape(seed: u32) -> Outline {
         .to_path(0.1)
         .reverse_subpaths();
     ring.close_path();
-    let foot = Rect::new(120.0, -40.0 - k, 520.0, 20.5).to_path(0.1);
+    let foot = Rect::new(80.0 - 5.0 * k, -40.0 - 0.1 * k, 560.0 + k, 20.5).to_path(0.1);
     Outline::new(vec![ring, hole, foot]).expect("closed contours")
 }
 

@@ -6,10 +6,14 @@
 
 mod basics;
 mod features;
+pub mod joining;
 pub mod metrics;
 pub mod names;
 mod nearest;
 mod spacing;
+mod stroke;
+
+pub use stroke::Side;
 
 use crate::types::{Font, FontError, Glyph, Info, Label, Outline};
 use names::{Form, Identity, LabelError};
@@ -62,8 +66,8 @@ pub struct Drawn {
 pub struct Options {
     /// Room on either side of a glyph that joins nothing.
     pub sidebearing: f64,
-    /// How far the strokes of two joined letters overlap.
-    pub overlap: f64,
+    /// How the strokes of joined letters meet.
+    pub joining: joining::Options,
     /// Advance of the space; without it, from the letters.
     pub space: Option<f64>,
     /// Vertical measures; those left out are measured.
@@ -74,7 +78,7 @@ impl Default for Options {
     fn default() -> Self {
         Self {
             sidebearing: 0.05,
-            overlap: 0.02,
+            joining: joining::Options::default(),
             space: None,
             heights: metrics::Heights::default(),
         }
@@ -95,8 +99,10 @@ pub struct Note {
 pub struct Assembled {
     /// The font.
     pub font: Font,
-    /// Remarks in glyph order.
+    /// Remarks, a stage after the other, each in glyph order.
     pub notes: Vec<Note>,
+    /// How the strokes of joined letters were brought together.
+    pub joining: joining::Report,
 }
 
 /// A drawn shape whose label is understood.
@@ -106,6 +112,8 @@ struct Draft {
     codepoints: Vec<char>,
     outline: Outline,
     given: Option<(f64, f64)>,
+    /// Left and right end of the advance where a stroke joins.
+    joint: (Option<f64>, Option<f64>),
     advance: f64,
 }
 
@@ -122,9 +130,11 @@ pub fn font(
     encode(&mut drafts);
     let em = f64::from(info.units_per_em);
     info.metrics = metrics::measure(&drafts, em, &options.heights);
+    let (joining, mut notes) = joining::set(&mut drafts, em, &options.joining);
     spacing::set(&mut drafts, em, options);
     let mut glyphs = basics::glyphs(&drafts, &info, options);
-    let (features, notes) = features::text(&drafts);
+    let (features, missing) = features::text(&drafts);
+    notes.extend(missing);
     glyphs.extend(
         drafts
             .into_iter()
@@ -133,7 +143,11 @@ pub fn font(
     );
     let mut font = Font::new(info, glyphs)?;
     font.features = features;
-    Ok(Assembled { font, notes })
+    Ok(Assembled {
+        font,
+        notes,
+        joining,
+    })
 }
 
 fn glyph(draft: Draft) -> Glyph {
@@ -163,6 +177,7 @@ fn drafts(drawn: Vec<Drawn>) -> Result<Vec<Draft>, AssembleError> {
             codepoints: Vec::new(),
             outline: shape.outline,
             given: shape.advance,
+            joint: (None, None),
             advance: 0.0,
         });
     }

@@ -1,11 +1,12 @@
 use super::*;
-use kurbo::{Rect, Shape};
+use kurbo::BezPath;
 
 fn drawn(label: &str) -> Drawn {
-    let r = Rect::new(100.0, 0.0, 400.0, 500.0);
+    // a stem on a stroke that leaves it to both sides
+    let shape = "M0 0L500 0L500 60L300 60L300 500L200 500L200 60L0 60Z";
     Drawn {
         label: Label(label.to_owned()),
-        outline: Outline::new(vec![r.to_path(0.1)]).unwrap(),
+        outline: Outline::new(vec![BezPath::from_svg(shape).unwrap()]).unwrap(),
         advance: None,
     }
 }

@@ -2,3 +2,4 @@
 
 pub mod direction;
 pub mod place;
+pub mod round;

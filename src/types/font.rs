@@ -191,6 +191,16 @@ impl Font {
         Ok(font)
     }
 
+    /// The same font with every glyph changed; names, characters and order stay.
+    #[must_use]
+    pub(crate) fn map_glyphs(&self, change: impl Fn(&Glyph) -> Glyph) -> Self {
+        let glyphs = self.glyphs.iter().map(change).collect();
+        Self {
+            glyphs,
+            ..self.clone()
+        }
+    }
+
     /// A glyph's whole shape: its own contours and those of its components, placed. Components that
     /// name no glyph are left out, and so is what lies deeper than a reference can sensibly go.
     #[must_use]

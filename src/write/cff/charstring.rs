@@ -100,7 +100,12 @@ fn contours(shape: &BezPath) -> Vec<(Grid, Vec<Segment>, Grid)> {
             PathEl::LineTo(p) => line(segments, at, Grid::of(p)),
             PathEl::QuadTo(c, p) => {
                 let from = Point::new(unit(at.x), unit(at.y));
-                let lift = |end: Point| end + (c - end) * (2.0 / 3.0);
+                // a quadratic on the whole grid stays on it: half a unit is what its maker rounded by
+                let is_whole = [from, c, p].iter().all(|p| *p == p.round());
+                let lift = |end: Point| {
+                    let lifted = end + (c - end) * (2.0 / 3.0);
+                    if is_whole { lifted.round() } else { lifted }
+                };
                 curve(segments, at, [lift(from), lift(p), p]);
             }
             PathEl::CurveTo(a, b, p) => curve(segments, at, [a, b, p]),

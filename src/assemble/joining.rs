@@ -1,0 +1,313 @@
+//! Joining: the strokes of all joined letters meet at one height, in one thickness.
+//!
+//! Every form that joins is measured where its stroke ends: lower and upper edge a little inside the
+//! tip, where the end's roundness is over. The font's *contract* is the median of both edges over all
+//! of them. Each end is cut square at the measured line and given a tab that reaches across it by half
+//! the overlap; then the stroke is shifted smoothly onto the contract, near its end only. The line
+//! is the end of the advance. So at every join two strokes lie over each other with the same edges: no
+//! gap, and no step beyond what an end was too far away to be moved.
+
+use super::stroke::{self, Edges, End, Side, Tab, Warp};
+use super::{Draft, Note};
+use crate::types::Outline;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// How joins are made. Lengths are parts of the em.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct Options {
+    /// How far the strokes of two joined letters overlap.
+    pub overlap: f64,
+    /// How far an edge may be moved to meet the others.
+    pub limit: f64,
+    /// How far into the letter a moved end is felt.
+    pub reach: f64,
+    /// Lower and upper edge of every joining stroke; without it, the median of what was drawn.
+    pub edges: Option<(f64, f64)>,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self {
+            overlap: 0.02,
+            limit: 0.03,
+            reach: 0.15,
+            edges: None,
+        }
+    }
+}
+
+/// Least depth inside the tip at which a stroke is measured and cut, em: beyond the roundness that ink
+/// and blur give a square end.
+const DEPTH: f64 = 0.012;
+
+/// Thinnest and thickest stroke that can be a joining one, em.
+const THICKNESS: (f64, f64) = (0.008, 0.3);
+
+/// The most that an edge's slope is changed: a sixth of a right angle. A stroke that runs on more
+/// steeply than that is no end but a bend.
+const MOST_SHEAR: f64 = 0.27;
+
+/// Rounds in which the choice of ends and their median settle: they did in two on every font seen.
+const ROUNDS: u32 = 4;
+
+/// One join of one glyph, font units.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Join {
+    /// The glyph.
+    pub glyph: String,
+    /// The side that joins.
+    pub side: Side,
+    /// Where the advance ends: x in the drawn shape.
+    pub x: f64,
+    /// Lower and upper edge as drawn.
+    pub drawn: (f64, f64),
+    /// How far the two edges were moved.
+    pub moved: (f64, f64),
+}
+
+/// How all joining strokes meet.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Contract {
+    /// Lower and upper edge at the join, font units.
+    pub edges: (f64, f64),
+    /// How the two edges run through it, dy/dx.
+    pub slopes: (f64, f64),
+}
+
+/// What joining did.
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+pub struct Report {
+    /// What the ends were brought to; none where nothing joins.
+    pub contract: Option<Contract>,
+    /// Every join, in glyph order.
+    pub joins: Vec<Join>,
+}
+
+/// A side of a draft that joins, with the ends it could be.
+struct Joint {
+    draft: usize,
+    side: Side,
+    ends: Vec<End>,
+    chosen: usize,
+}
+
+impl Joint {
+    fn end(&self) -> Option<&End> {
+        self.ends.get(self.chosen)
+    }
+
+    /// Takes the end nearest to these edges; one that lies further in counts as further away.
+    fn choose(&mut self, (low, high): (f64, f64)) {
+        let outermost = self
+            .ends
+            .iter()
+            .map(|e| e.tip)
+            .fold(f64::INFINITY, f64::min);
+        let distance = |e: &End| {
+            (e.edges.0 - low).abs() + (e.edges.1 - high).abs() + 0.5 * (e.tip - outermost)
+        };
+        let best = (0..)
+            .zip(&self.ends)
+            .min_by(|a, b| distance(a.1).total_cmp(&distance(b.1)));
+        self.chosen = best.map_or(0, |(i, _)| i);
+    }
+}
+
+/// Joins the drafts: their outlines and, on joined sides, the ends of their advances.
+pub(super) fn set(drafts: &mut [Draft], em: f64, options: &Options) -> (Report, Vec<Note>) {
+    let mut joints = joints(drafts, em);
+    let mut notes: Vec<Note> = joints
+        .iter()
+        .filter(|j| j.ends.is_empty())
+        .filter_map(|j| drafts.get(j.draft).map(|d| no_stroke(d, j.side)))
+        .collect();
+    joints.retain(|j| !j.ends.is_empty());
+    let contract = contract(&mut joints, em, options);
+    let Some(contract) = contract else {
+        return (Report::default(), notes);
+    };
+    let mut report = Report {
+        contract: Some(contract),
+        joins: Vec::new(),
+    };
+    for joint in &joints {
+        let (Some(draft), Some(end)) = (drafts.get_mut(joint.draft), joint.end()) else {
+            continue;
+        };
+        // the other side of this draft may have been cut already: measure again where it now is
+        let now = stroke::ends(draft.outline.contours(), joint.side, DEPTH * em);
+        let same = |e: &&End| {
+            (e.tip - end.tip).abs() < 1e-3 && (e.edges.0 - end.edges.0).abs() < 0.01 * em
+        };
+        let Some(end) = now.iter().find(same) else {
+            continue;
+        };
+        let (join, note) = join(
+            draft,
+            joint.side,
+            end,
+            Terms {
+                contract,
+                em,
+                options,
+            },
+        );
+        notes.extend(note);
+        report.joins.push(join);
+    }
+    (report, notes)
+}
+
+fn joints(drafts: &[Draft], em: f64) -> Vec<Joint> {
+    let mut out = Vec::new();
+    for (draft, d) in drafts.iter().enumerate() {
+        let Some(form) = d.id.form() else { continue };
+        for (side, joined) in [
+            (Side::Left, form.joins_after()),
+            (Side::Right, form.joins_before()),
+        ] {
+            if !joined {
+                continue;
+            }
+            let is_stroke =
+                |e: &End| (THICKNESS.0 * em..THICKNESS.1 * em).contains(&(e.edges.1 - e.edges.0));
+            let mut ends = stroke::ends(d.outline.contours(), side, DEPTH * em);
+            ends.retain(is_stroke);
+            ends.sort_by(|a, b| a.tip.total_cmp(&b.tip));
+            out.push(Joint {
+                draft,
+                side,
+                ends,
+                chosen: 0,
+            });
+        }
+    }
+    out
+}
+
+fn no_stroke(draft: &Draft, side: Side) -> Note {
+    Note {
+        glyph: draft.id.name.to_string(),
+        message: format!(
+            "no stroke leaves it on the {} side, where it joins; draw the stroke out to the edge",
+            match side {
+                Side::Left => "left",
+                Side::Right => "right",
+            }
+        ),
+    }
+}
+
+/// The edges that all are to meet, and with them each joint's end. The outermost ends say first what
+/// is usual; then each joint takes the end that is most like it.
+fn contract(joints: &mut [Joint], em: f64, options: &Options) -> Option<Contract> {
+    let given = options.edges.map(|(low, high)| (low * em, high * em));
+    let edges = |joints: &[Joint]| {
+        given.or_else(|| median(&joints.iter().collect::<Vec<_>>(), |e| e.edges))
+    };
+    let mut usual = edges(joints)?;
+    for _ in 0..ROUNDS {
+        for joint in joints.iter_mut() {
+            joint.choose(usual);
+        }
+        usual = edges(joints)?;
+    }
+    // what is left of the ends' roundness leans the other way on the other side
+    let slopes = [Side::Left, Side::Right].map(|side| {
+        let of_side: Vec<&Joint> = joints.iter().filter(|j| j.side == side).collect();
+        median(&of_side, |e| e.slopes).unwrap_or_default()
+    });
+    let slopes = (
+        0.5 * (slopes[0].0 + slopes[1].0),
+        0.5 * (slopes[0].1 + slopes[1].1),
+    );
+    Some(Contract {
+        edges: (usual.0.round(), usual.1.round()),
+        slopes,
+    })
+}
+
+fn median(joints: &[&Joint], of: impl Fn(&End) -> Edges) -> Option<Edges> {
+    let middle = |one: &dyn Fn(Edges) -> f64| {
+        let mut values: Vec<f64> = joints
+            .iter()
+            .filter_map(|j| j.end())
+            .map(|e| one(of(e)))
+            .collect();
+        values.sort_by(f64::total_cmp);
+        values.get(values.len() / 2).copied()
+    };
+    Some((middle(&|e| e.0)?, middle(&|e| e.1)?))
+}
+
+/// What every end is brought to.
+#[derive(Clone, Copy)]
+struct Terms<'a> {
+    contract: Contract,
+    em: f64,
+    options: &'a Options,
+}
+
+/// Cuts and moves one end; says so where the contract is out of reach.
+fn join(draft: &mut Draft, side: Side, end: &End, terms: Terms<'_>) -> (Join, Option<Note>) {
+    let (em, options) = (terms.em, terms.options);
+    let limit = options.limit * em;
+    let Contract { edges, slopes } = terms.contract;
+    let wanted = (edges.0 - end.edges.0, edges.1 - end.edges.1);
+    let moved = (wanted.0.clamp(-limit, limit), wanted.1.clamp(-limit, limit));
+    let shear = |want: f64, have: f64| (want - have).clamp(-MOST_SHEAR, MOST_SHEAR);
+    let shears = (shear(slopes.0, end.slopes.0), shear(slopes.1, end.slopes.1));
+    let reach = options.reach * em;
+    let warp = Warp {
+        side,
+        cut: end.cut,
+        reach,
+        edges: end.edges,
+        shifts: moved,
+        shears,
+    };
+    let tab = Tab {
+        length: 0.5 * options.overlap * em,
+        slopes,
+    };
+    let contours = draft
+        .outline
+        .contours()
+        .iter()
+        .enumerate()
+        .map(|(i, path)| {
+            let cut = (i == end.contour)
+                .then(|| stroke::square(path, end, side, tab))
+                .flatten();
+            warp.contour(cut.as_ref().unwrap_or(path))
+        });
+    if let Ok(outline) = Outline::new(contours.collect()) {
+        draft.outline = outline;
+    }
+    let x = side.inward(end.cut);
+    match side {
+        Side::Left => draft.joint.0 = Some(x),
+        Side::Right => draft.joint.1 = Some(x),
+    }
+    let missed = (wanted.0 - moved.0).abs().max((wanted.1 - moved.1).abs());
+    let note = (missed > 1.0).then(|| Note {
+        glyph: draft.id.name.to_string(),
+        message: format!(
+            "its joining stroke runs from {:.0} to {:.0}, the others from {:.0} to {:.0}: a step of {missed:.0} units stays; redraw it or raise the limit",
+            end.edges.0, end.edges.1, edges.0, edges.1
+        ),
+    });
+    let glyph = draft.id.name.to_string();
+    (
+        Join {
+            glyph,
+            side,
+            x,
+            drawn: end.edges,
+            moved,
+        },
+        note,
+    )
+}

@@ -1,0 +1,424 @@
+//! The end of a stroke on one side of a glyph: found, measured, cut square, and moved.
+//!
+//! Sums are done in `u`, the distance inward from the side: `u = x` on the left, `u = -x` on the
+//! right. So one piece of code serves both.
+
+use kurbo::{BezPath, ParamCurve, PathSeg, Point};
+
+/// A side of a glyph.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Side {
+    /// Where the next letter of Arabic text joins.
+    Left,
+    /// Where the letter before joins.
+    Right,
+}
+
+impl Side {
+    /// Inward distance of an x coordinate, and an x coordinate of an inward distance.
+    pub(super) const fn inward(self, x: f64) -> f64 {
+        match self {
+            Self::Left => x,
+            Self::Right => -x,
+        }
+    }
+}
+
+/// Samples on a segment between which the contour counts as monotone.
+const SAMPLES: u32 = 16;
+
+/// Halvings of a sample interval until a crossing is known: to a millionth of it.
+const HALVINGS: u32 = 20;
+
+/// Lower and upper edge of a stroke, or something about each.
+pub(super) type Edges = (f64, f64);
+
+/// A place on a contour.
+#[derive(Debug, Clone, Copy)]
+struct Place {
+    segment: usize,
+    t: f64,
+    at: Point,
+}
+
+/// The end of a stroke, seen from one side.
+#[derive(Debug, Clone)]
+pub(super) struct End {
+    /// Index of its contour.
+    pub(super) contour: usize,
+    /// Inward distance of the outermost point.
+    pub(super) tip: f64,
+    /// Inward distance of the line at which it is measured and cut.
+    pub(super) cut: f64,
+    /// Lower and upper edge at the cut, y.
+    pub(super) edges: Edges,
+    /// How the two edges run there, dy/dx.
+    pub(super) slopes: Edges,
+    /// Where the contour crosses the cut: after the tip, and before it.
+    crossings: (Place, Place),
+}
+
+/// A contour's segments and samples in order.
+struct Walk {
+    segments: Vec<PathSeg>,
+    samples: Vec<Place>,
+}
+
+impl Walk {
+    fn of(path: &BezPath) -> Self {
+        let segments: Vec<PathSeg> = path
+            .segments()
+            .filter(|s| s.start() != s.end() || !matches!(s, PathSeg::Line(_)))
+            .collect();
+        let place = |(segment, s): (usize, &PathSeg)| {
+            let s = *s;
+            (0..SAMPLES).map(move |k| {
+                let t = f64::from(k) / f64::from(SAMPLES);
+                Place {
+                    segment,
+                    t,
+                    at: s.eval(t),
+                }
+            })
+        };
+        let samples = segments.iter().enumerate().flat_map(place).collect();
+        Self { segments, samples }
+    }
+
+    fn get(&self, i: usize) -> Option<Place> {
+        let n = self.samples.len();
+        (n > 0).then(|| self.samples.get(i % n).copied()).flatten()
+    }
+
+    /// Sample numbers of the places that lie further out than what is around them. A straight cut
+    /// counts once, at its middle.
+    fn tips(&self, side: Side) -> Vec<usize> {
+        let n = self.samples.len();
+        let u = |i: usize| self.get(i).map_or(0.0, |p| side.inward(p.at.x));
+        let level = |a: f64, b: f64| (a - b).abs() < 1e-6;
+        let mut out = Vec::new();
+        for i in 0..n {
+            // i is the first sample of a level run
+            if level(u(i + n - 1), u(i)) || u(i + n - 1) < u(i) {
+                continue;
+            }
+            let run = (0..n).take_while(|&k| level(u(i + k), u(i))).count();
+            if run < n && u(i + run) > u(i) {
+                out.push((i + run / 2) % n);
+            }
+        }
+        out
+    }
+
+    /// From a tip, forward or backward, to where the contour is `cut` inward.
+    fn cross(&self, tip: usize, cut: f64, side: Side, step: usize) -> Option<Place> {
+        let n = self.samples.len();
+        let mut i = tip;
+        for _ in 0..n {
+            let next = (i + step) % n;
+            let (here, there) = (self.get(i)?, self.get(next)?);
+            if side.inward(there.at.x) >= cut {
+                let forward = step == 1;
+                let (from, to) = if forward {
+                    (here, there)
+                } else {
+                    (there, here)
+                };
+                return self.refine(from, to, cut, side);
+            }
+            i = next;
+        }
+        None
+    }
+
+    /// Between two neighbouring samples in contour order, the place that is `cut` inward.
+    fn refine(&self, from: Place, to: Place, cut: f64, side: Side) -> Option<Place> {
+        let segment = self.segments.get(from.segment)?;
+        let (mut a, mut b) = (
+            from.t,
+            if to.segment == from.segment && to.t > from.t {
+                to.t
+            } else {
+                1.0
+            },
+        );
+        let rises = side.inward(segment.eval(b).x) >= side.inward(segment.eval(a).x);
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (a + b);
+            let is_in = side.inward(segment.eval(middle).x) >= cut;
+            if is_in == rises {
+                b = middle
+            } else {
+                a = middle
+            }
+        }
+        let t = 0.5 * (a + b);
+        Some(Place {
+            segment: from.segment,
+            t,
+            at: segment.eval(t),
+        })
+    }
+}
+
+/// Depths tried until a stroke has its thickness, in multiples of the first.
+const DEPTHS: [f64; 5] = [1.0, 1.5, 2.25, 3.4, 5.0];
+
+/// A stroke has its thickness where it grows by less than this part over a first depth more.
+const GROWTH: f64 = 0.06;
+
+/// Every stroke end on that side: each place that sticks out, measured where its roundness is over,
+/// `depth` inside at least.
+pub(super) fn ends(contours: &[BezPath], side: Side, depth: f64) -> Vec<End> {
+    let mut out = Vec::new();
+    for (contour, path) in contours.iter().enumerate() {
+        let walk = Walk::of(path);
+        for tip in walk.tips(side) {
+            out.extend(walk.end(contour, tip, side, depth));
+        }
+    }
+    out
+}
+
+impl Walk {
+    /// The stroke end behind a tip.
+    fn end(&self, contour: usize, tip: usize, side: Side, depth: f64) -> Option<End> {
+        let outermost = side.inward(self.get(tip)?.at.x);
+        let back = self.samples.len() - 1;
+        let at = |inside: f64| {
+            let cut = outermost + inside;
+            Some((
+                self.cross(tip, cut, side, 1)?,
+                self.cross(tip, cut, side, back)?,
+            ))
+        };
+        let thickness = |(a, b): (Place, Place)| (a.at.y - b.at.y).abs();
+        let mut inside = depth;
+        for times in DEPTHS {
+            inside = depth * times;
+            if thickness(at(inside + depth)?) <= (1.0 + GROWTH) * thickness(at(inside)?) {
+                break;
+            }
+        }
+        let ((after, before), (far_after, far_before)) = (at(inside)?, at(inside + depth)?);
+        let slope = |near: Place, far: Place| (far.at.y - near.at.y) / side.inward(depth);
+        let one = (after.at.y, slope(after, far_after));
+        let other = (before.at.y, slope(before, far_before));
+        let (low, high) = if one.0 <= other.0 {
+            (one, other)
+        } else {
+            (other, one)
+        };
+        Some(End {
+            contour,
+            tip: outermost,
+            cut: outermost + inside,
+            edges: (low.0, high.0),
+            slopes: (low.1, high.1),
+            crossings: (after, before),
+        })
+    }
+}
+
+/// The contour with everything beyond the cut replaced by a tab of that length, whose edges go on with
+/// the given slopes.
+pub(super) fn square(path: &BezPath, end: &End, side: Side, tab: Tab) -> Option<BezPath> {
+    let walk = Walk::of(path);
+    let (after, before) = end.crossings;
+    let mut out = BezPath::new();
+    let x = |u: f64| side.inward(u);
+    // exactly on the cut, where bisection leaves a millionth
+    let start = Point::new(x(end.cut), after.at.y);
+    let stop = Point::new(x(end.cut), before.at.y);
+    out.move_to(start);
+    let n = walk.segments.len();
+    if after.segment == before.segment && after.t < before.t {
+        append(
+            &mut out,
+            walk.segments
+                .get(after.segment)?
+                .subsegment(after.t..before.t),
+        );
+    } else {
+        append(
+            &mut out,
+            walk.segments.get(after.segment)?.subsegment(after.t..1.0),
+        );
+        let mut i = (after.segment + 1) % n;
+        while i != before.segment {
+            append(&mut out, *walk.segments.get(i)?);
+            i = (i + 1) % n;
+        }
+        append(&mut out, walk.segments.get(i)?.subsegment(0.0..before.t));
+    }
+    set_end(&mut out, stop);
+    let corner = |p: Point| {
+        let slope = if (p.y - end.edges.0).abs() < (p.y - end.edges.1).abs() {
+            tab.slopes.0
+        } else {
+            tab.slopes.1
+        };
+        let reach = x(end.cut - tab.length) - p.x;
+        Point::new(p.x + reach, p.y + slope * reach)
+    };
+    out.line_to(corner(stop));
+    out.line_to(corner(start));
+    out.close_path();
+    Some(out)
+}
+
+/// What a cut stroke is continued with.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Tab {
+    pub(super) length: f64,
+    pub(super) slopes: Edges,
+}
+
+/// Puts a path's last point, which misses by rounding, where it belongs.
+fn set_end(path: &mut BezPath, at: Point) {
+    use kurbo::PathEl;
+    match path.elements_mut().last_mut() {
+        Some(PathEl::LineTo(p) | PathEl::QuadTo(_, p) | PathEl::CurveTo(_, _, p)) => *p = at,
+        _ => {}
+    }
+}
+
+fn append(path: &mut BezPath, segment: PathSeg) {
+    match segment {
+        PathSeg::Line(l) => path.line_to(l.p1),
+        PathSeg::Quad(q) => path.quad_to(q.p1, q.p2),
+        PathSeg::Cubic(c) => path.curve_to(c.p1, c.p2, c.p3),
+    }
+}
+
+/// A smooth vertical shift of a stroke near its end: whole at the cut and beyond, fading to nothing
+/// `reach` inside; in y it blends between the shifts of the two edges, and fades a stroke's thickness
+/// beyond them, so that dots and bowls stay where they are.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Warp {
+    pub(super) side: Side,
+    pub(super) cut: f64,
+    pub(super) reach: f64,
+    pub(super) edges: Edges,
+    pub(super) shifts: Edges,
+    /// What is added to the slopes of the two edges inside the cut, felt over a third of the reach.
+    pub(super) shears: Edges,
+}
+
+impl Warp {
+    /// Where the point goes.
+    pub(super) fn apply(&self, p: Point) -> Point {
+        let inside = (self.side.inward(p.x) - self.cut) / self.reach;
+        let along = 1.0 - smooth(inside);
+        let (low, high) = self.edges;
+        let thick = (high - low).max(f64::MIN_POSITIVE);
+        let across = ((p.y - low) / thick).clamp(0.0, 1.0);
+        let blend = |(low, high): Edges| low * (1.0 - across) + high * across;
+        // x beyond the cut, with its sign; the tab outside has its slopes already
+        let run = self
+            .side
+            .inward((self.side.inward(p.x) - self.cut).max(0.0));
+        let near = 1.0 - smooth(3.0 * inside);
+        let shift = along * blend(self.shifts) + near * run * blend(self.shears);
+        let beyond = (low - p.y).max(p.y - high) / thick;
+        Point::new(p.x, p.y + shift * (1.0 - smooth(beyond)))
+    }
+
+    /// A contour with all its points shifted.
+    pub(super) fn contour(&self, path: &BezPath) -> BezPath {
+        use kurbo::PathEl;
+        let map = |el: &PathEl| match *el {
+            PathEl::MoveTo(p) => PathEl::MoveTo(self.apply(p)),
+            PathEl::LineTo(p) => PathEl::LineTo(self.apply(p)),
+            PathEl::QuadTo(a, p) => PathEl::QuadTo(self.apply(a), self.apply(p)),
+            PathEl::CurveTo(a, b, p) => {
+                PathEl::CurveTo(self.apply(a), self.apply(b), self.apply(p))
+            }
+            PathEl::ClosePath => PathEl::ClosePath,
+        };
+        path.elements().iter().map(map).collect()
+    }
+}
+
+/// 0 below 0, 1 above 1, and between them a cubic that is level at both.
+fn smooth(t: f64) -> f64 {
+    let t = t.clamp(0.0, 1.0);
+    t * t * (3.0 - 2.0 * t)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use kurbo::Shape;
+
+    /// A bowl with a stroke that leaves to the left at the baseline.
+    fn letter() -> BezPath {
+        BezPath::from_svg("M0 5C0 2 2 0 5 0L300 0L300 400L200 400L200 60L5 60C2 60 0 58 0 55Z")
+            .unwrap()
+    }
+
+    #[test]
+    fn the_stroke_is_found_on_both_sides() {
+        let mirrored = BezPath::from_svg(
+            "M0 5C0 2 -2 0 -5 0L-300 0L-300 400L-200 400L-200 60L-5 60C-2 60 0 58 0 55Z",
+        )
+        .unwrap();
+        for (path, side) in [(letter(), Side::Left), (mirrored, Side::Right)] {
+            let found = ends(&[path], side, 10.0);
+            assert_eq!(found.len(), 1, "{side:?} {found:?}");
+            let (low, high) = found[0].edges;
+            assert!(
+                low.abs() < 1e-9 && (high - 60.0).abs() < 1e-9,
+                "{side:?} {low} {high}"
+            );
+            assert!(found[0].tip.abs() < 1e-9, "{side:?}");
+        }
+    }
+
+    #[test]
+    fn a_square_end_has_straight_edges() {
+        let path = letter();
+        let end = &ends(std::slice::from_ref(&path), Side::Left, 10.0)[0];
+        let cut = square(
+            &path,
+            end,
+            Side::Left,
+            Tab {
+                length: 25.0,
+                slopes: (0.0, 0.0),
+            },
+        )
+        .unwrap();
+        let bounds = cut.bounding_box();
+        assert!((bounds.x0 - (10.0 - 25.0)).abs() < 1e-9, "{bounds:?}");
+        let wanted = 60.0 * 225.0 + 100.0 * 400.0 - 60.0 * 10.0 + 60.0 * 0.0;
+        assert!(
+            (cut.area() - wanted).abs() < 60.0 * 11.0,
+            "{} {wanted}",
+            cut.area()
+        );
+        assert!(cut.winding(Point::new(-14.0, 1.0)) != 0, "the lower corner");
+        assert!(
+            cut.winding(Point::new(-14.0, 59.0)) != 0,
+            "the upper corner"
+        );
+    }
+
+    #[test]
+    fn a_warp_moves_the_end_and_nothing_else() {
+        let warp = Warp {
+            side: Side::Left,
+            cut: 0.0,
+            reach: 100.0,
+            edges: (0.0, 60.0),
+            shifts: (10.0, -4.0),
+            shears: (0.0, 0.0),
+        };
+        let moved = |x, y| warp.apply(Point::new(x, y)).y - y;
+        assert!((moved(0.0, 0.0) - 10.0).abs() < 1e-12);
+        assert!((moved(-20.0, 60.0) + 4.0).abs() < 1e-12);
+        assert!(moved(100.0, 0.0).abs() < 1e-12);
+        assert!(moved(0.0, 200.0).abs() < 1e-12);
+    }
+}

@@ -1,0 +1,265 @@
+//! Known fonts taken apart and put together again: how near the sidebearings that we set come to the
+//! ones their designers set, and what joining does to their forms.
+//!
+//!     cargo bench --bench fonts -- [--forms] [--out DIR] FONT…
+//!
+//! Takes the shapes alone: letters, digits and signs by default, Arabic letters in all their forms with
+//! `--forms`. Prints for each font the median error of the advances in thousandths of the em, and that
+//! of the best constant sidebearing, chosen knowing the answer. With `--out` it leaves the fonts there.
+
+use harfrust::{ShapeOptions, ShaperData, UnicodeBuffer};
+use khatt::assemble::{self, Drawn, Options};
+use khatt::quadratic::Method;
+use khatt::types::{Font, Info, Label, Outline};
+use khatt::write;
+use kurbo::{Affine, BezPath};
+use skrifa::outline::{DrawSettings, OutlinePen};
+use skrifa::prelude::{LocationRef, Size};
+use skrifa::{FontRef, GlyphId, MetadataProvider};
+use std::error::Error;
+use std::path::{Path, PathBuf};
+
+const ZWJ: char = '\u{200d}';
+const TEXT: &str =
+    "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789.,;:!?'\"()[]-&@/*+=";
+/// Letters that join on both sides, and those that join the letter before them only.
+const DUAL: &str = "بتثجحخسشصضطظعغفقكلمنهيئپچگ";
+const RIGHT: &str = "اأإآدذرزوؤةى";
+const LIGATURES: &[&str] = &["لا", "لأ", "لإ", "لآ"];
+
+#[derive(Default)]
+struct Pen(BezPath);
+
+impl OutlinePen for Pen {
+    fn move_to(&mut self, x: f32, y: f32) {
+        self.0.move_to((f64::from(x), f64::from(y)));
+    }
+    fn line_to(&mut self, x: f32, y: f32) {
+        self.0.line_to((f64::from(x), f64::from(y)));
+    }
+    fn quad_to(&mut self, cx: f32, cy: f32, x: f32, y: f32) {
+        self.0
+            .quad_to((f64::from(cx), f64::from(cy)), (f64::from(x), f64::from(y)));
+    }
+    fn curve_to(&mut self, ax: f32, ay: f32, bx: f32, by: f32, x: f32, y: f32) {
+        let [ax, ay, bx, by, x, y] = [ax, ay, bx, by, x, y].map(f64::from);
+        self.0.curve_to((ax, ay), (bx, by), (x, y));
+    }
+    fn close(&mut self) {
+        self.0.close_path();
+    }
+}
+
+/// A shape of the known font, in thousandths of the em, and its advance.
+struct Truth {
+    label: String,
+    outline: Outline,
+    advance: f64,
+}
+
+/// The shape that a text takes in the font.
+fn shaped(face: &FontRef<'_>, text: &str, label: String) -> Option<Truth> {
+    let data = ShaperData::new(face);
+    let mut buffer = UnicodeBuffer::new();
+    buffer.push_str(text);
+    buffer.guess_segment_properties();
+    let shaped = data
+        .shaper(face)
+        .build()
+        .shape(buffer, ShapeOptions::default());
+    let em = f64::from(
+        face.metrics(Size::unscaled(), LocationRef::default())
+            .units_per_em,
+    );
+    let scale = 1000.0 / em;
+    let (mut x, mut contours) = (0.0, Vec::new());
+    let outlines = face.outline_glyphs();
+    for (info, place) in shaped.glyph_infos().iter().zip(shaped.glyph_positions()) {
+        if info.glyph_id == 0 {
+            return None;
+        }
+        let mut pen = Pen::default();
+        let settings = DrawSettings::unhinted(Size::unscaled(), LocationRef::default());
+        outlines
+            .get(GlyphId::new(info.glyph_id))?
+            .draw(settings, &mut pen)
+            .ok()?;
+        let at = (x + f64::from(place.x_offset), f64::from(place.y_offset));
+        contours.push(Affine::scale(scale) * Affine::translate(at) * pen.0);
+        x += f64::from(place.x_advance);
+    }
+    let paths: Vec<BezPath> = contours.iter().flat_map(subpaths).collect();
+    let frame = khatt::types::Frame {
+        units_per_px: 1.0,
+        baseline_px: 0.0,
+        origin_px: 0.0,
+    };
+    let outline = khatt::finish::place::outline(&paths, frame).ok()?;
+    (!outline.is_empty()).then(|| Truth {
+        label,
+        outline,
+        advance: x * scale,
+    })
+}
+
+fn subpaths(path: &BezPath) -> Vec<BezPath> {
+    let mut out: Vec<BezPath> = Vec::new();
+    for el in path.elements() {
+        if matches!(el, kurbo::PathEl::MoveTo(_)) {
+            out.push(BezPath::new());
+        }
+        if let Some(last) = out.last_mut() {
+            last.push(*el);
+        }
+    }
+    out
+}
+
+fn text_glyphs(face: &FontRef<'_>) -> Vec<Truth> {
+    TEXT.chars()
+        .filter_map(|c| shaped(face, &c.to_string(), c.to_string()))
+        .collect()
+}
+
+fn arabic_glyphs(face: &FontRef<'_>) -> Vec<Truth> {
+    let name = |c: char, form: &str| format!("uni{:04X}{form}", u32::from(c));
+    let mut texts = Vec::new();
+    for c in DUAL.chars().chain(RIGHT.chars()) {
+        texts.push((c.to_string(), name(c, "")));
+        texts.push((format!("{ZWJ}{c}"), name(c, ".fina")));
+        if DUAL.contains(c) {
+            texts.push((format!("{c}{ZWJ}"), name(c, ".init")));
+            texts.push((format!("{ZWJ}{c}{ZWJ}"), name(c, ".medi")));
+        }
+    }
+    for text in LIGATURES {
+        let hex: String = text
+            .chars()
+            .map(|c| format!("{:04X}", u32::from(c)))
+            .collect();
+        texts.push(((*text).to_owned(), format!("uni{hex}")));
+        texts.push((format!("{ZWJ}{text}"), format!("uni{hex}.fina")));
+    }
+    for c in "ءـ،؛؟٠١٢٣٤٥٦٧٨٩\u{64b}\u{64c}\u{64d}\u{64e}\u{64f}\u{650}\u{651}\u{652}".chars()
+    {
+        texts.push((c.to_string(), name(c, "")));
+    }
+    texts
+        .into_iter()
+        .filter_map(|(text, label)| shaped(face, &text, label))
+        .collect()
+}
+
+fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values.get(values.len() / 2).copied().unwrap_or(f64::NAN)
+}
+
+/// The median error of the constant sidebearing that suits the font best.
+fn best_constant(truth: &[Truth]) -> f64 {
+    let rooms: Vec<f64> = truth
+        .iter()
+        .filter_map(|t| t.outline.bounds().map(|b| t.advance - b.width()))
+        .collect();
+    let errors =
+        (-100..200).map(|c| median(rooms.iter().map(|r| (r - f64::from(c)).abs()).collect()));
+    errors.fold(f64::INFINITY, f64::min)
+}
+
+fn write_all(font: &Font, stem: &Path) -> Result<(), Box<dyn Error>> {
+    let quadratic = font.try_map_outlines(|g| Method::default().convert(&g.outline, 0.5))?;
+    let rounded = khatt::finish::round::font(font);
+    for format in write::FORMATS {
+        let source = if format.curves == write::Curves::Quadratic {
+            &quadratic
+        } else {
+            &rounded
+        };
+        let base = stem.with_extension(format.extension.unwrap_or(format.name));
+        for (path, bytes) in (format.write)(source)?.0 {
+            let path = if path.is_empty() {
+                base.clone()
+            } else {
+                base.join(path)
+            };
+            std::fs::create_dir_all(path.parent().unwrap_or(Path::new(".")))?;
+            std::io::Write::write_all(&mut std::fs::File::create(path)?, &bytes)?;
+        }
+    }
+    Ok(())
+}
+
+fn run(path: &Path, forms: bool, out: Option<&Path>) -> Result<(), Box<dyn Error>> {
+    let bytes = std::fs::read(path)?;
+    let face = FontRef::new(&bytes)?;
+    let truth = if forms {
+        arabic_glyphs(&face)
+    } else {
+        text_glyphs(&face)
+    };
+    let drawn = truth.iter().map(|t| Drawn {
+        label: Label(t.label.clone()),
+        outline: t.outline.clone(),
+        advance: None,
+    });
+    let stem = path
+        .file_stem()
+        .unwrap_or_default()
+        .to_string_lossy()
+        .into_owned();
+    let info = Info {
+        family: format!("Khatt {stem}"),
+        ..Info::default()
+    };
+    let built = assemble::font(drawn.collect(), info, &Options::default())?;
+    let error = |t: &Truth| {
+        built
+            .font
+            .glyph(&name_of(&t.label))
+            .map(|g| g.advance - t.advance)
+    };
+    let errors: Vec<f64> = truth.iter().filter_map(error).collect();
+    if std::env::args().any(|a| a == "--per-glyph") {
+        for (t, e) in truth.iter().zip(&errors) {
+            println!("  {} {:.0} {e:+.0}", t.label, t.advance);
+        }
+        for j in &built.joining.joins {
+            println!("  {j:?}");
+        }
+    }
+    for note in &built.notes {
+        println!("  note: {}: {}", note.glyph, note.message);
+    }
+    println!(
+        "{stem}: {} glyphs, median |advance error| {:.1}, median error {:+.1}, best constant {:.1}, contract {:?}",
+        truth.len(),
+        median(errors.iter().map(|e| e.abs()).collect()),
+        median(errors),
+        best_constant(&truth),
+        built.joining.contract,
+    );
+    out.map_or(Ok(()), |dir| write_all(&built.font, &dir.join(stem)))
+}
+
+fn name_of(label: &str) -> String {
+    assemble::names::identify(&Label(label.to_owned()))
+        .map_or_else(|_| String::new(), |i| i.name.to_string())
+}
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let mut args = std::env::args().skip(1);
+    let (mut fonts, mut forms, mut out) = (Vec::new(), false, None);
+    while let Some(arg) = args.next() {
+        match arg.as_str() {
+            "--forms" => forms = true,
+            "--out" => out = args.next().map(PathBuf::from),
+            // what cargo itself passes, and the switch that is read where it is used
+            "--bench" | "--per-glyph" => {}
+            font => fonts.push(PathBuf::from(font)),
+        }
+    }
+    for font in &fonts {
+        run(font, forms, out.as_deref())?;
+    }
+    Ok(())
+}
