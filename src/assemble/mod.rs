@@ -10,7 +10,8 @@ pub mod joining;
 pub mod metrics;
 pub mod names;
 mod nearest;
-mod spacing;
+mod profile;
+pub mod spacing;
 mod stroke;
 
 pub use stroke::Side;
@@ -21,6 +22,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use thiserror::Error;
+use unicode_normalization::char::is_combining_mark;
 
 /// Why drawn shapes make no font.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
@@ -64,8 +66,8 @@ pub struct Drawn {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Options {
-    /// Room on either side of a glyph that joins nothing.
-    pub sidebearing: f64,
+    /// Room beside letters.
+    pub spacing: spacing::Room,
     /// How the strokes of joined letters meet.
     pub joining: joining::Options,
     /// Advance of the space; without it, from the letters.
@@ -77,7 +79,7 @@ pub struct Options {
 impl Default for Options {
     fn default() -> Self {
         Self {
-            sidebearing: 0.05,
+            spacing: spacing::Room::default(),
             joining: joining::Options::default(),
             space: None,
             heights: metrics::Heights::default(),
@@ -117,6 +119,13 @@ struct Draft {
     advance: f64,
 }
 
+impl Draft {
+    /// Whether it is a sign that stands above or below letters.
+    fn is_mark(&self) -> bool {
+        matches!(self.id.chars[..], [c] if is_combining_mark(c))
+    }
+}
+
 /// Builds the font of these shapes, in their order.
 ///
 /// # Errors
@@ -131,7 +140,8 @@ pub fn font(
     let em = f64::from(info.units_per_em);
     info.metrics = metrics::measure(&drafts, em, &options.heights);
     let (joining, mut notes) = joining::set(&mut drafts, em, &options.joining);
-    spacing::set(&mut drafts, em, options);
+    let stroke = joining.contract.map(|c| c.edges.1 - c.edges.0);
+    spacing::set(&mut drafts, &info, stroke, options);
     let mut glyphs = basics::glyphs(&drafts, &info, options);
     let (features, missing) = features::text(&drafts);
     notes.extend(missing);

@@ -1,28 +1,235 @@
 //! Room between letters: where each outline stands in its advance.
+//!
+//! Sides that join end where the stroke was cut. Where the page says a glyph's advance, it counts.
+//! Else the room beside a glyph follows from areas, as in the letter-spacing methods of Fry and of
+//! Sousa: the white that a letter has on a side already, between its extreme and its ink, is taken from
+//! the room that its font wants. How much that is follows from the white inside letters, between the
+//! stems of n and u, and from how heavy the stems are:
+//!
+//! ```text
+//! room = a·counter + b·x-height + c·stem − d·white(0.3 x) + e·white(0.5 x) − f·least
+//! ```
+//!
+//! where white(D) is the mean distance from the side's extreme to the ink over the scan lines from the
+//! baseline to the x-height (cap height for capitals, figures and signs), no deeper than D, and least
+//! the smallest such distance. The weights were found by least absolute deviations over the
+//! sidebearings of 32 upright text fonts of 11 families, each family weighing as the root of its
+//! number; with a family held out, the median error of its advances is 17 thousandths of the em.
+//! Leaning fonts are set upright before they are measured.
 
+use super::features::is_arabic;
+use super::profile::{Profile, median, white};
 use super::{Draft, Options};
+use crate::types::Info;
 use kurbo::Affine;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
-/// Places every draft and sets its advance.
-pub(super) fn set(drafts: &mut [Draft], em: f64, options: &Options) {
-    for draft in drafts {
-        let (left, right) = ends(draft, em, options);
-        draft.outline = draft.outline.transformed(Affine::translate((-left, 0.0)));
-        draft.advance = (right - left).max(0.0).round();
+/// How digits are set.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Figures {
+    /// Each with the room that suits it.
+    #[default]
+    Proportional,
+    /// All as wide as the widest, centred.
+    Tabular,
+}
+
+/// How much room letters get. Lengths are parts of the em.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct Room {
+    /// The same room on every side that joins nothing, instead of the optical rule.
+    pub sidebearing: Option<f64>,
+    /// Added on every side that joins nothing.
+    pub tracking: f64,
+    /// How digits are set.
+    pub figures: Figures,
+}
+
+/// Weights of counter and x-height for small letters, capitals, figures and signs.
+const KINDS: [(f64, f64); 4] = [
+    (0.302, -0.019),
+    (0.264, 0.016),
+    (0.269, 0.025),
+    (0.231, 0.078),
+];
+/// Weights of stem, shallow and deep white, and least distance.
+const WEIGHTS: [f64; 4] = [0.17, -1.023, 0.361, -0.296];
+/// How deep the two whites look, parts of the x-height.
+const DEPTHS: (f64, f64) = (0.3, 0.5);
+/// Room beside letters of a joining script, part of the thickness of its joining stroke.
+const OF_STROKE: f64 = 0.6;
+/// Room where neither counters nor joining strokes tell, em.
+const UNKNOWN: f64 = 0.05;
+
+/// What a font's letters say about the room they want, font units.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Rhythm {
+    counter: f64,
+    stem: f64,
+    x_height: f64,
+    cap_height: f64,
+    slant: f64,
+}
+
+impl Rhythm {
+    /// From n and u, or from whatever small letter or capital has two stems; none in a font without.
+    pub(super) fn of(drafts: &[Draft], info: &Info) -> Option<Self> {
+        let em = f64::from(info.units_per_em);
+        let x = info.metrics.x_height;
+        let cap = info.metrics.cap_height;
+        let x_height = if x > 0.0 { x } else { 0.7 * cap };
+        let cap_height = if cap > 0.0 { cap } else { x_height / 0.7 };
+        let slant = (-info.italic_angle).to_radians().tan();
+        let counters = |letters: &str, zone: (f64, f64)| -> Vec<(f64, f64)> {
+            let of = |d: &Draft| {
+                let wanted = d.codepoints.first().is_some_and(|c| letters.contains(*c));
+                let profile = wanted
+                    .then(|| Profile::of(&d.outline, em, slant, 0.5 * x_height))
+                    .flatten()?;
+                profile.counter((zone.0 * x_height, zone.1 * x_height))
+            };
+            drafts.iter().filter_map(of).collect()
+        };
+        let mut found = [counters("n", (0.2, 0.6)), counters("u", (0.4, 0.8))].concat();
+        if found.is_empty() {
+            found = counters("hmodbqpUHON", (0.3, 0.7));
+        }
+        let mean = found.iter().map(|f| f.0).sum::<f64>() / found.iter().map(|_| 1.0).sum::<f64>();
+        let stem = median(found.iter().map(|f| f.1))?;
+        Some(Self {
+            counter: mean,
+            stem,
+            x_height,
+            cap_height,
+            slant,
+        })
+    }
+
+    /// The heights between which a character's sides are looked at.
+    pub(super) fn zone(&self, c: char) -> (f64, f64) {
+        (
+            0.0,
+            if c.is_lowercase() {
+                self.x_height
+            } else {
+                self.cap_height
+            },
+        )
+    }
+
+    /// Left and right end of the advance by the optical rule, in the outline's own x.
+    fn ends(&self, draft: &Draft, c: char, em: f64) -> Option<(f64, f64)> {
+        let profile = self.profile(draft, em)?;
+        let kind = match c {
+            c if c.is_lowercase() => 0,
+            c if c.is_uppercase() => 1,
+            c if c.is_numeric() => 2,
+            _ => 3,
+        };
+        let (of_counter, of_height) = KINDS.get(kind).copied()?;
+        let [stem, shallow, deep, least] = WEIGHTS;
+        let base = of_counter * self.counter + of_height * self.x_height + stem * self.stem;
+        let depths = (DEPTHS.0 * self.x_height, DEPTHS.1 * self.x_height);
+        let room = |distances: Vec<Option<f64>>| {
+            let w = white(&distances, depths);
+            base + shallow * w.shallow + deep * w.deep + least * w.least
+        };
+        let zone = self.zone(c);
+        let (left, right) = profile.extremes;
+        Some((
+            left - room(profile.left(zone)),
+            right + room(profile.right(zone)),
+        ))
+    }
+
+    /// A draft's upright profile.
+    pub(super) fn profile(&self, draft: &Draft, em: f64) -> Option<Profile> {
+        Profile::of(&draft.outline, em, self.slant, 0.5 * self.x_height)
     }
 }
 
-/// Left and right end of the advance in the outline's own x: at the joint where a side joins, else
-/// where the page says, else a sidebearing away from the ink.
-fn ends(draft: &Draft, em: f64, options: &Options) -> (f64, f64) {
-    let free = options.sidebearing * em;
-    let ink = draft
-        .outline
-        .bounds()
-        .map_or((0.0, 0.0), |r| (r.x0 - free, r.x1 + free));
-    let (left, right) = draft.given.unwrap_or(ink);
-    (
-        draft.joint.0.unwrap_or(left),
-        draft.joint.1.unwrap_or(right),
-    )
+/// Places every draft and sets its advance. `stroke` is the thickness of the joining strokes.
+pub(super) fn set(drafts: &mut [Draft], info: &Info, stroke: Option<f64>, options: &Options) {
+    let em = f64::from(info.units_per_em);
+    let rhythm = Rhythm::of(drafts, info);
+    let terms = Terms {
+        em,
+        rhythm,
+        stroke,
+        room: &options.spacing,
+    };
+    for draft in drafts.iter_mut() {
+        let (left, right) = terms.ends(draft);
+        draft.outline = draft.outline.transformed(Affine::translate((-left, 0.0)));
+        draft.advance = (right - left).max(0.0).round();
+    }
+    if options.spacing.figures == Figures::Tabular {
+        tabular(drafts);
+    }
+}
+
+struct Terms<'a> {
+    em: f64,
+    rhythm: Option<Rhythm>,
+    stroke: Option<f64>,
+    room: &'a Room,
+}
+
+impl Terms<'_> {
+    /// Left and right end of the advance in the outline's own x.
+    fn ends(&self, draft: &Draft) -> (f64, f64) {
+        let (left, right) = draft.given.unwrap_or_else(|| self.free(draft));
+        (
+            draft.joint.0.unwrap_or(left),
+            draft.joint.1.unwrap_or(right),
+        )
+    }
+
+    /// The ends where neither page nor stroke says them. Marks stand above others and take no room.
+    fn free(&self, draft: &Draft) -> (f64, f64) {
+        let Some(ink) = draft.outline.bounds() else {
+            return (0.0, 0.0);
+        };
+        if draft.is_mark() {
+            let middle = 0.5 * (ink.x0 + ink.x1);
+            return (middle, middle);
+        }
+        let add = self.room.tracking * self.em;
+        let first = draft.id.chars.first().copied().filter(|c| !is_arabic(*c));
+        let optical = match (self.room.sidebearing, first, &self.rhythm) {
+            (None, Some(c), Some(rhythm)) => rhythm.ends(draft, c, self.em),
+            _ => None,
+        };
+        let same = self
+            .room
+            .sidebearing
+            .map(|s| s * self.em)
+            .or(self.stroke.map(|s| OF_STROKE * s))
+            .unwrap_or(UNKNOWN * self.em);
+        let (left, right) = optical.unwrap_or((ink.x0 - same, ink.x1 + same));
+        (left - add, right + add)
+    }
+}
+
+/// Digits of one script all as wide as the widest, their ink centred as it was.
+fn tabular(drafts: &mut [Draft]) {
+    for script in [is_arabic as fn(char) -> bool, |c| !is_arabic(c)] {
+        let is_one = |d: &Draft| {
+            matches!(d.id.chars[..], [c] if c.is_numeric() && script(c))
+                && d.id.alternates().next().is_none()
+        };
+        let widest = drafts
+            .iter()
+            .filter(|d| is_one(d))
+            .map(|d| d.advance)
+            .fold(0.0, f64::max);
+        for draft in drafts.iter_mut().filter(|d| is_one(d)) {
+            let shift = 0.5 * (widest - draft.advance);
+            draft.outline = draft.outline.transformed(Affine::translate((shift, 0.0)));
+            draft.advance = widest;
+        }
+    }
 }
