@@ -7,6 +7,7 @@
 mod basics;
 mod features;
 pub mod joining;
+mod marks;
 pub mod metrics;
 pub mod names;
 mod nearest;
@@ -16,7 +17,7 @@ mod stroke;
 
 pub use stroke::Side;
 
-use crate::types::{Font, FontError, Glyph, Info, Label, Outline};
+use crate::types::{Anchor, Font, FontError, Glyph, Info, Label, Outline};
 use names::{Form, Identity, LabelError};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -145,12 +146,12 @@ pub fn font(
     let mut glyphs = basics::glyphs(&drafts, &info, options);
     let (features, missing) = features::text(&drafts);
     notes.extend(missing);
-    glyphs.extend(
-        drafts
-            .into_iter()
-            .filter(|d| !basics::is_basic(d))
-            .map(glyph),
-    );
+    let anchors = marks::anchors(&drafts, em);
+    let letters = drafts
+        .into_iter()
+        .zip(anchors)
+        .filter(|(d, _)| !basics::is_basic(d));
+    glyphs.extend(letters.map(|(draft, anchors)| glyph(draft, anchors)));
     let mut font = Font::new(info, glyphs)?;
     font.features = features;
     Ok(Assembled {
@@ -160,9 +161,10 @@ pub fn font(
     })
 }
 
-fn glyph(draft: Draft) -> Glyph {
+fn glyph(draft: Draft, anchors: Vec<Anchor>) -> Glyph {
     Glyph {
         outline: draft.outline,
+        anchors,
         ..Glyph::new(draft.id.name, draft.codepoints, draft.advance)
     }
 }

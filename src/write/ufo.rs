@@ -3,6 +3,7 @@
 //! Features stand in `features.fea`; kerning and marks do not: compilers derive them from
 //! `kerning.plist` and the anchors, as our own writers do, so that a change to either counts.
 
+use super::layout::{self, Class};
 use super::{WriteError, names};
 use crate::types::{Files, Font, Glyph, Info};
 use kurbo::{BezPath, PathEl, Point, Vec2};
@@ -62,6 +63,16 @@ fn convert(font: &Font) -> Result<norad::Font, WriteError> {
         .collect();
     ufo.lib
         .insert("public.glyphOrder".to_owned(), Value::Array(order));
+    let categories = font
+        .glyphs()
+        .iter()
+        .filter_map(category)
+        .collect::<Dictionary>();
+    if !categories.is_empty() {
+        let categories = Value::Dictionary(categories);
+        ufo.lib
+            .insert("public.openTypeCategories".to_owned(), categories);
+    }
     for (prefix, groups) in [
         ("public.kern1.", &font.kerning.first),
         ("public.kern2.", &font.kerning.second),
@@ -85,6 +96,16 @@ fn convert(font: &Font) -> Result<norad::Font, WriteError> {
         ufo.kerning.entry(first).or_default().insert(second, value);
     }
     Ok(ufo)
+}
+
+/// A glyph's name and what GDEF says of it.
+fn category(glyph: &Glyph) -> Option<(String, Value)> {
+    let word = match layout::class(glyph)? {
+        Class::Base => "base",
+        Class::Ligature => "ligature",
+        Class::Mark => "mark",
+    };
+    Some((glyph.name.to_string(), Value::from(word)))
 }
 
 fn info(info: &Info) -> FontInfo {
