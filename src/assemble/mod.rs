@@ -64,7 +64,7 @@ pub struct Drawn {
 }
 
 /// How shapes become a font. Lengths are parts of the em.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Options {
     /// Room beside letters.
@@ -75,17 +75,6 @@ pub struct Options {
     pub space: Option<f64>,
     /// Vertical measures; those left out are measured.
     pub heights: metrics::Heights,
-}
-
-impl Default for Options {
-    fn default() -> Self {
-        Self {
-            spacing: spacing::Room::default(),
-            joining: joining::Options::default(),
-            space: None,
-            heights: metrics::Heights::default(),
-        }
-    }
 }
 
 /// Something that a user should know about a font that was built all the same.

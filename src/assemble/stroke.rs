@@ -3,7 +3,7 @@
 //! Sums are done in `u`, the distance inward from the side: `u = x` on the left, `u = -x` on the
 //! right. So one piece of code serves both.
 
-use kurbo::{BezPath, ParamCurve, PathSeg, Point};
+use kurbo::{BezPath, ParamCurve, PathEl, PathSeg, Point};
 
 /// A side of a glyph.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
@@ -277,10 +277,9 @@ pub(super) struct Tab {
 
 /// Puts a path's last point, which misses by rounding, where it belongs.
 fn set_end(path: &mut BezPath, at: Point) {
-    use kurbo::PathEl;
-    match path.elements_mut().last_mut() {
-        Some(PathEl::LineTo(p) | PathEl::QuadTo(_, p) | PathEl::CurveTo(_, _, p)) => *p = at,
-        _ => {}
+    let last = path.elements_mut().last_mut();
+    if let Some(PathEl::LineTo(p) | PathEl::QuadTo(_, p) | PathEl::CurveTo(_, _, p)) = last {
+        *p = at;
     }
 }
 
@@ -327,7 +326,6 @@ impl Warp {
 
     /// A contour with all its points shifted.
     pub(super) fn contour(&self, path: &BezPath) -> BezPath {
-        use kurbo::PathEl;
         let map = |el: &PathEl| match *el {
             PathEl::MoveTo(p) => PathEl::MoveTo(self.apply(p)),
             PathEl::LineTo(p) => PathEl::LineTo(self.apply(p)),

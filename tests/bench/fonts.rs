@@ -7,10 +7,13 @@
 //! `--forms`. Prints for each font the median error of the advances in thousandths of the em, and that
 //! of the best constant sidebearing, chosen knowing the answer. With `--out` it leaves the fonts there.
 
+#![expect(clippy::print_stdout, reason = "a benchmark prints its table")]
+
 use harfrust::{ShapeOptions, ShaperData, UnicodeBuffer};
 use khatt::assemble::{self, Drawn, Options};
+use khatt::finish::{place, round};
 use khatt::quadratic::Method;
-use khatt::types::{Font, Info, Label, Outline};
+use khatt::types::{Font, Frame, Info, Label, Outline};
 use khatt::write;
 use kurbo::{Affine, BezPath};
 use skrifa::outline::{DrawSettings, OutlinePen};
@@ -50,6 +53,9 @@ impl OutlinePen for Pen {
     }
 }
 
+/// The shapes to take out of a font.
+type Glyphs = fn(&FontRef<'_>) -> Vec<Truth>;
+
 /// A shape of the known font, in thousandths of the em, and its advance.
 struct Truth {
     label: String,
@@ -74,7 +80,7 @@ fn shaped(face: &FontRef<'_>, text: &str, label: String) -> Option<Truth> {
     let scale = 1000.0 / em;
     let (mut x, mut contours) = (0.0, Vec::new());
     let outlines = face.outline_glyphs();
-    for (info, place) in shaped.glyph_infos().iter().zip(shaped.glyph_positions()) {
+    for (info, position) in shaped.glyph_infos().iter().zip(shaped.glyph_positions()) {
         if info.glyph_id == 0 {
             return None;
         }
@@ -84,18 +90,21 @@ fn shaped(face: &FontRef<'_>, text: &str, label: String) -> Option<Truth> {
             .get(GlyphId::new(info.glyph_id))?
             .draw(settings, &mut pen)
             .ok()?;
-        let at = (x + f64::from(place.x_offset), f64::from(place.y_offset));
+        let at = (
+            x + f64::from(position.x_offset),
+            f64::from(position.y_offset),
+        );
         contours.push(Affine::scale(scale) * Affine::translate(at) * pen.0);
-        x += f64::from(place.x_advance);
+        x += f64::from(position.x_advance);
     }
     let paths: Vec<BezPath> = contours.iter().flat_map(subpaths).collect();
-    let frame = khatt::types::Frame {
+    let frame = Frame {
         units_per_px: 1.0,
         baseline_px: 0.0,
         origin_px: 0.0,
     };
-    let outline = khatt::finish::place::outline(&paths, frame).ok()?;
-    (!outline.is_empty()).then(|| Truth {
+    let outline = place::outline(&paths, frame).ok()?;
+    (!outline.is_empty()).then_some(Truth {
         label,
         outline,
         advance: x * scale,
@@ -168,7 +177,7 @@ fn best_constant(truth: &[Truth]) -> f64 {
 
 fn write_all(font: &Font, stem: &Path) -> Result<(), Box<dyn Error>> {
     let quadratic = font.try_map_outlines(|g| Method::default().convert(&g.outline, 0.5))?;
-    let rounded = khatt::finish::round::font(font);
+    let rounded = round::font(font);
     for format in write::FORMATS {
         let source = if format.curves == write::Curves::Quadratic {
             &quadratic
@@ -189,14 +198,10 @@ fn write_all(font: &Font, stem: &Path) -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-fn run(path: &Path, forms: bool, out: Option<&Path>) -> Result<(), Box<dyn Error>> {
+fn run(path: &Path, glyphs: Glyphs, out: Option<&Path>) -> Result<(), Box<dyn Error>> {
     let bytes = std::fs::read(path)?;
     let face = FontRef::new(&bytes)?;
-    let truth = if forms {
-        arabic_glyphs(&face)
-    } else {
-        text_glyphs(&face)
-    };
+    let truth = glyphs(&face);
     let drawn = truth.iter().map(|t| Drawn {
         label: Label(t.label.clone()),
         outline: t.outline.clone(),
@@ -219,14 +224,6 @@ fn run(path: &Path, forms: bool, out: Option<&Path>) -> Result<(), Box<dyn Error
             .map(|g| g.advance - t.advance)
     };
     let errors: Vec<f64> = truth.iter().filter_map(error).collect();
-    if std::env::args().any(|a| a == "--per-glyph") {
-        for (t, e) in truth.iter().zip(&errors) {
-            println!("  {} {:.0} {e:+.0}", t.label, t.advance);
-        }
-        for j in &built.joining.joins {
-            println!("  {j:?}");
-        }
-    }
     for note in &built.notes {
         println!("  note: {}: {}", note.glyph, note.message);
     }
@@ -248,18 +245,18 @@ fn name_of(label: &str) -> String {
 
 fn main() -> Result<(), Box<dyn Error>> {
     let mut args = std::env::args().skip(1);
-    let (mut fonts, mut forms, mut out) = (Vec::new(), false, None);
+    let (mut fonts, mut glyphs, mut out) = (Vec::new(), text_glyphs as Glyphs, None);
     while let Some(arg) = args.next() {
         match arg.as_str() {
-            "--forms" => forms = true,
+            "--forms" => glyphs = arabic_glyphs,
             "--out" => out = args.next().map(PathBuf::from),
-            // what cargo itself passes, and the switch that is read where it is used
-            "--bench" | "--per-glyph" => {}
+            // what cargo itself passes
+            "--bench" => {}
             font => fonts.push(PathBuf::from(font)),
         }
     }
     for font in &fonts {
-        run(font, forms, out.as_deref())?;
+        run(font, glyphs, out.as_deref())?;
     }
     Ok(())
 }
