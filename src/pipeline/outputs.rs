@@ -7,6 +7,7 @@ use super::project::Project;
 use super::report::{Report, deviations};
 use super::watch::Stage;
 use crate::assemble::names;
+use crate::finish::round;
 use crate::types::{Files, Font};
 use crate::write::proof::{self as page, Entry, Proof};
 use crate::write::{self, Curves, WriteError};
@@ -41,12 +42,14 @@ pub fn outputs(
         return Err(problems);
     }
     let _time = world.watch.enter(Stage::Write);
+    // quadratics are fitted to what was drawn and rounded when written
+    let rounded = round::font(&built.font);
     let mut files = Vec::new();
     let mut woff2 = None;
     for (format, path) in project.output.fonts() {
         let font = match format.curves {
             Curves::Quadratic => &quadratic,
-            Curves::Cubic => &built.font,
+            Curves::Cubic => &rounded,
         };
         let made = (format.write)(font).map_err(|e| vec![e.into()])?;
         if format.name == WEB {
