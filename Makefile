@@ -14,6 +14,9 @@ test: ## every test
 check: ## the gate: format, lints, tests, docs
 	.githooks/pre-push
 
+bench: ## the papers' tables on the silhouettes of the folder SHAPES
+	cargo bench --locked --quiet --bench papers -- $(SHAPES)
+
 clean: ## what was built
 	cargo clean --quiet
 	rm -rf build

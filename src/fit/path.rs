@@ -93,7 +93,18 @@ fn runs_backward(points: &[Point]) -> bool {
     let middle = first.midpoint(last);
     let n = points.len() as f64;
     let lever = |(i, p): (usize, &Point)| (2.0 * i as f64 + 1.0 - n) * p.distance(middle);
-    points.iter().enumerate().map(lever).sum::<f64>() < 0.0
+    let lever: f64 = points.iter().enumerate().map(lever).sum();
+    if lever.abs() > 1e-9 * n * n * size.sqrt() {
+        return lever < 0.0;
+    }
+    // alike both ways: only the place is left to tell them apart
+    let beside = points.get(1).copied().unwrap_or(last);
+    let (a, b) = if first == last {
+        (beside, last)
+    } else {
+        (first, last)
+    };
+    (b.x, b.y) < (a.x, a.y)
 }
 
 /// Fits the span in the way that does not depend on how it was handed over, and turns the path back.

@@ -95,7 +95,9 @@ fn bends(walk: &Walk<'_>, ends: Ends, reach: f64) -> Vec<(usize, f64)> {
         if turns[i] < BEND {
             continue;
         }
-        let rivals = side(i, 1, reach).into_iter().chain(side(i, n - 1, reach));
+        let rivals = side(i, 1, 2.0 * reach)
+            .into_iter()
+            .chain(side(i, n - 1, 2.0 * reach));
         let beaten = |j: usize| turns[j] > turns[i] || (turns[j] >= turns[i] && j < i);
         if rivals.into_iter().any(beaten) {
             continue;
@@ -103,7 +105,7 @@ fn bends(walk: &Walk<'_>, ends: Ends, reach: f64) -> Vec<(usize, f64)> {
         if turns[i] < CORNER {
             found.push((i, turns[i]));
         } else {
-            let both = [side(i, 1, reach / 2.0), side(i, n - 1, reach / 2.0)];
+            let both = [side(i, 1, reach), side(i, n - 1, reach)];
             found.extend(
                 both.iter()
                     .map(|b| (b.last().copied().unwrap_or(i), turns[i])),

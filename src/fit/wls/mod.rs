@@ -16,7 +16,7 @@
 //! intervals, Q'' by parameter is (L/M)² times Q'' by length, so doubling the vertices divides the
 //! penalty of the same curve by 16. Twelve points a vertex (eq. 39) keep L/M at about 12 px.
 
-mod solve;
+pub(in crate::fit) mod solve;
 
 use super::judge::points_to_curve;
 use super::path::{both_ways, judged, line, path_of, polygon};

@@ -6,7 +6,7 @@ use kurbo::Point;
 
 /// One problem: find the vertices of a curve over `basis` for points at given parameters.
 #[derive(Debug)]
-pub(super) struct Problem<'a> {
+pub(in crate::fit) struct Problem<'a> {
     pub points: &'a [Point],
     pub basis: &'a Basis,
     /// Parameters U of the points; they increase.
@@ -18,7 +18,7 @@ pub(super) struct Problem<'a> {
 
 /// What the outer vertices do.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Ends {
+pub(in crate::fit) enum Ends {
     /// They stay here where a point is given, and are free otherwise.
     Held(Option<Point>, Option<Point>),
     /// The curve closes over so many vertices.
@@ -31,7 +31,7 @@ const DAMPING: [f64; 3] = [0.0, 1e-9, 1e-5];
 
 impl Problem<'_> {
     /// The vertices that minimise eq. 26; `None` when even the damped system has no solution.
-    pub(super) fn vertices(&self) -> Option<Vec<Point>> {
+    pub(in crate::fit) fn vertices(&self) -> Option<Vec<Point>> {
         let rows: Vec<(Row, Row)> = self
             .at
             .iter()

@@ -1,0 +1,344 @@
+//! The papers' tables on real silhouettes: `make bench SHAPES=folder`.
+//!
+//! The folder holds dark shapes on light ground (PNG, BMP); names that a table asks for and that are
+//! missing are left out of it. Everything is seeded: the same folder gives the same tables, but for times.
+#![expect(
+    clippy::print_stdout,
+    clippy::disallowed_methods,
+    reason = "a program that prints tables and times"
+)]
+
+use khatt::corner::{self, Detector, srm05::Srm05};
+use khatt::fit::gc2::Gc2;
+use khatt::fit::gc2::knots::{Insertion, Stop};
+use khatt::fit::judge::{judge, points_to_curve};
+use khatt::fit::periodic::Periodic;
+use khatt::fit::wls::Wls;
+use khatt::fit::{self, Fitter};
+use khatt::trace::{Boundary, Options, trace};
+use khatt::types::{Contour, Gray, Span};
+use kurbo::{Affine, Point};
+use std::path::Path;
+use std::time::Instant;
+
+fn main() {
+    let folder = std::env::args().skip(1).find(|a| !a.starts_with("--"));
+    let folder = folder.unwrap_or_else(|| ".".to_owned());
+    let folder = Path::new(&folder);
+    optimal(folder);
+    knots(folder);
+    rotation(folder);
+    smoothing();
+    speed();
+}
+
+/// The boundary pixels' chains of a picture, the longest first.
+fn chains(folder: &Path, name: &str) -> Vec<Contour> {
+    let Ok(image) = image::open(folder.join(name)) else {
+        return Vec::new();
+    };
+    let luma = image.to_luma8();
+    let (w, h) = (luma.width() as usize, luma.height() as usize);
+    let raw = luma.as_raw();
+    // the ground is what most of the frame's pixels are
+    let frame = (0..w).flat_map(|x| [raw[x], raw[(h - 1) * w + x]]);
+    let bright: i32 = frame.map(|v| if v > 127 { 1 } else { -1 }).sum();
+    let pad = 2;
+    let ink = |x: usize, y: usize| {
+        let inside = (pad..w + pad).contains(&x) && (pad..h + pad).contains(&y);
+        let value = if inside {
+            raw[(y - pad) * w + x - pad]
+        } else {
+            return 0.0;
+        };
+        f32::from(u8::from((value > 127) != (bright > 0)))
+    };
+    let gray = Gray::from_fn(w + 2 * pad, h + 2 * pad, ink);
+    let options = Options {
+        boundary: Boundary::Chain,
+        ..Options::default()
+    };
+    let mut all = trace(&gray, &options);
+    all.sort_by_key(|c| std::cmp::Reverse(c.points().len()));
+    all
+}
+
+/// [lumilios93 tables 1, 2, 4].
+fn optimal(folder: &Path) {
+    println!("### lumilios93\n");
+    println!("| shape | points | control points | max px | rms px |\n|---|---|---|---|---|");
+    let row = |name: &str, options: &Periodic, what: &str| {
+        let Some(contour) = chains(folder, name).into_iter().next() else {
+            return;
+        };
+        let points = contour.points();
+        if let Ok(f) = options.fit(Span::Ring(points), 1.0) {
+            let d = points_to_curve(points, &f.path);
+            let (n, m) = (points.len(), f.parameters / 2);
+            println!(
+                "| {name}, {what} | {n} | {m} | {:.2} | {:.2} |",
+                d.max_px, d.rms_px
+            );
+        }
+    };
+    let fixed = Periodic {
+        control: Some(28),
+        iterations: 1000,
+        ..Periodic::default()
+    };
+    row(
+        "africa.png",
+        &Periodic {
+            iterations: 0,
+            ..fixed.clone()
+        },
+        "first estimate",
+    );
+    row("africa.png", &fixed, "28 given");
+    let single = Periodic {
+        step: 0.0,
+        ..Periodic::default()
+    };
+    for name in ["africa.png", "key-1.png", "key-2.png", "key-3.png"] {
+        row(name, &single, "until max < 1, one by one");
+    }
+    row(
+        "africa.png",
+        &Periodic::default(),
+        "until max < 1, several at once",
+    );
+    for iterations in [0, 30, 75, 1000] {
+        let leaf = Periodic {
+            control: Some(40),
+            iterations,
+            ..Periodic::default()
+        };
+        row("leaf.png", &leaf, &format!("{iterations} iterations"));
+    }
+    println!();
+}
+
+/// Numbers of knots put into all contours of a shape cut at SRM05's corners.
+fn inserted(contours: &[Contour], fitter: &dyn Fitter, epsilon: f64) -> usize {
+    let mut sum = 0;
+    for contour in contours {
+        let corners = Srm05::default().corners(contour);
+        for span in contour.cut(&corners).iter() {
+            let outer = if span.is_ring() { 0 } else { 2 };
+            let n = fitter.fit(span, epsilon).map_or(0, |f| f.parameters / 2);
+            sum += n.saturating_sub(outer);
+        }
+    }
+    sum
+}
+
+/// Nodes of khatt's own fitter, cut at its own corners, beyond those corners.
+fn own_nodes(contours: &[Contour], epsilon: f64) -> usize {
+    let (detector, fitter) = (corner::Method::default(), fit::Method::default());
+    let mut sum = 0;
+    for contour in contours {
+        let corners = detector.detector().corners(contour);
+        let spans = contour.cut(&corners);
+        let pieces = spans
+            .iter()
+            .filter_map(|s| fitter.fitter().fit(s, epsilon).ok());
+        let nodes: usize = pieces.map(|f| f.path.segments().count()).sum();
+        sum += nodes.saturating_sub(corners.len());
+    }
+    sum
+}
+
+/// [rasheed05 tables 4.31-4.60]; the thesis's figures for its own pictures of the same names.
+fn knots(folder: &Path) {
+    type Row = (&'static str, [[usize; 3]; 6]);
+    let printed: [Row; 4] = [
+        (
+            "ali.png",
+            [
+                [652, 343, 197],
+                [308, 160, 96],
+                [183, 144, 98],
+                [1334, 664, 422],
+                [1002, 431, 260],
+                [344, 173, 91],
+            ],
+        ),
+        (
+            "d.png",
+            [
+                [314, 155, 47],
+                [137, 68, 50],
+                [141, 94, 60],
+                [612, 216, 125],
+                [618, 324, 220],
+                [160, 77, 61],
+            ],
+        ),
+        (
+            "apple.png",
+            [
+                [544, 219, 151],
+                [271, 151, 105],
+                [189, 107, 89],
+                [1196, 398, 305],
+                [821, 443, 268],
+                [289, 159, 101],
+            ],
+        ),
+        (
+            "plane.png",
+            [
+                [531, 254, 174],
+                [285, 150, 86],
+                [190, 110, 80],
+                [971, 572, 507],
+                [863, 390, 395],
+                [332, 142, 92],
+            ],
+        ),
+    ];
+    println!("### rasheed05: knots inserted at ε 1, 2, 3 px (median of 9 seeds / thesis)\n");
+    println!(
+        "| shape, points, corners | 4.1 | 4.2 | 4.3 | 4.4 | 4.5 | 4.6 | khatt |\n|---|---|---|---|---|---|---|---|"
+    );
+    for (name, thesis) in printed {
+        let contours = chains(folder, name);
+        if contours.is_empty() {
+            continue;
+        }
+        let points: usize = contours.iter().map(|c| c.points().len()).sum();
+        let corners: usize = contours
+            .iter()
+            .map(|c| Srm05::default().corners(c).len())
+            .sum();
+        for (e, epsilon) in [1.0, 2.0, 3.0].into_iter().enumerate() {
+            let mut line = format!("| {name}, {points}, {corners}, ε {epsilon} |");
+            for (i, insertion) in Insertion::ALL.into_iter().enumerate() {
+                let mut counts: Vec<usize> = (1..=9)
+                    .map(|seed| {
+                        let stop = Stop::Chance;
+                        inserted(
+                            &contours,
+                            &Gc2 {
+                                insertion,
+                                stop,
+                                seed,
+                                ..Gc2::default()
+                            },
+                            epsilon,
+                        )
+                    })
+                    .collect();
+                counts.sort_unstable();
+                line += &format!(" {} / {} |", counts[4], thesis[i][e]);
+            }
+            println!("{line} {} |", own_nodes(&contours, epsilon));
+        }
+    }
+    println!();
+}
+
+/// [rasheed05 fig. 2.19]: corners of the plane's chain turned by 0…90°, of every detector.
+fn rotation(folder: &Path) {
+    let Some(contour) = chains(folder, "plane.png").into_iter().next() else {
+        return;
+    };
+    println!("### Corners of plane.png turned\n");
+    println!(
+        "| detector | 0° | 15° | 30° | 45° | 60° | 75° | 90° |\n|---|---|---|---|---|---|---|---|"
+    );
+    for method in corner::Method::all() {
+        let count = |k: i32| {
+            let map = Affine::rotate(f64::from(k) * std::f64::consts::PI / 12.0);
+            // back on the pixel grid, as a turned picture is
+            let snapped = |p: &Point| (map * *p).round();
+            let turned = Contour::new(contour.points().iter().map(snapped).collect());
+            turned
+                .map_or(0, |c| method.detector().corners(&c).len())
+                .to_string()
+        };
+        let counts: Vec<String> = (0..7).map(count).collect();
+        println!("| {} | {} |", method.key(), counts.join(" | "));
+    }
+    println!();
+}
+
+/// A bean of `n` points, 100 px across times `size`, with noise of `sigma` px across its outline.
+fn bean(n: u32, size: f64, sigma: f64) -> (Vec<Point>, Vec<Point>) {
+    let mut state = 5_u64;
+    let mut roll = || {
+        state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        (state >> 11) as f64 / (1_u64 << 53) as f64
+    };
+    let mut noisy = Vec::new();
+    let mut truth = Vec::new();
+    for i in 0..n {
+        let t = std::f64::consts::TAU * f64::from(i) / f64::from(n);
+        let r = size * (50.0 + 9.0 * (2.0 * t).cos() + 4.0 * (3.0 * t).sin());
+        // the sum of twelve uniform numbers is nearly normal, with deviation 1
+        let noise: f64 = (0..12).map(|_| roll()).sum::<f64>() - 6.0;
+        let at = |r: f64| Point::new(r * t.cos(), r * t.sin());
+        truth.push(at(r));
+        noisy.push(at(r + sigma * noise));
+    }
+    (truth, noisy)
+}
+
+/// [samavati98 fig. 7]: error to the true shape by the weight.
+fn smoothing() {
+    println!("### samavati98: rms to the true shape, px (400 points, m = 60, m/n 0.15)\n");
+    println!("| σ | μ 0 | 0.001 | 0.01 | 0.1 | 1 | 10 | 100 |\n|---|---|---|---|---|---|---|---|");
+    for sigma in [0.3, 0.6, 1.0] {
+        let (truth, noisy) = bean(400, 1.0, sigma);
+        let error = |mu: f64| {
+            let wls = Wls {
+                m: Some(60),
+                mu_x: mu,
+                mu_y: mu,
+                straight_deg: 0.0,
+                ..Wls::default()
+            };
+            let fitted = wls.fit(Span::Ring(&noisy), 1.0);
+            let d = fitted.map_or(f64::NAN, |f| points_to_curve(&truth, &f.path).rms_px);
+            format!("{d:.3}")
+        };
+        let errors = [0.0, 1e-3, 1e-2, 1e-1, 1.0, 10.0, 100.0].map(error);
+        println!("| {sigma} | {} |", errors.join(" | "));
+    }
+    println!();
+}
+
+/// Time a point of each fitter, and the exponent of the whole time's growth.
+fn speed() {
+    println!("### Speed: µs a point at 1 px, and growth of the whole time\n");
+    println!(
+        "| method | 200 points | 2,000 | 20,000 | exponent 200…20,000 | max px |\n|---|---|---|---|---|---|"
+    );
+    for method in fit::Method::all() {
+        let mut times = Vec::new();
+        let mut worst = 0.0_f64;
+        for n in [200_u32, 2_000, 20_000] {
+            let (_, points) = bean(n, f64::from(n) / 400.0, 0.2);
+            let mut best = f64::INFINITY;
+            for _ in 0..if n > 2_000 { 1 } else { 3 } {
+                let start = Instant::now();
+                if let Ok(f) = method.fitter().fit(Span::Ring(&points), 1.0) {
+                    best = best.min(start.elapsed().as_secs_f64());
+                    worst = worst.max(judge(Span::Ring(&points), &f.path).max_px());
+                }
+            }
+            times.push(best);
+        }
+        let each = |i: usize| 1e6 * times[i] / [200.0, 2_000.0, 20_000.0][i];
+        let exponent = (times[2] / times[0]).log10() / 2.0;
+        let key = method.key();
+        println!(
+            "| {key} | {:.1} | {:.1} | {:.1} | {exponent:.2} | {worst:.2} |",
+            each(0),
+            each(1),
+            each(2)
+        );
+    }
+}

@@ -1,0 +1,61 @@
+"""Puts the silhouettes of `make bench` into a folder: shapes.py SOURCE FONT_ARABIC FONT_LATIN OUT.
+
+SOURCE holds africa_50m.geojson (Natural Earth), mpeg7/ and the BMP silhouettes. Needs Pillow with Raqm.
+"""
+import json
+import sys
+from pathlib import Path
+
+from PIL import Image, ImageDraw, ImageFont
+
+source, arabic, latin, out = (Path(a) for a in sys.argv[1:])
+out.mkdir(parents=True, exist_ok=True)
+
+
+def africa(width=164, height=175):
+    """Mainland Africa by even-odd fill, the ring's box on width x height pixels."""
+    rings = []
+
+    def walk(c):
+        if c and isinstance(c[0][0], (int, float)):
+            rings.append(c)
+        else:
+            for d in c:
+                walk(d)
+
+    data = json.loads((source / "africa_50m.geojson").read_text())
+    for f in data["features"] if "features" in data else [data]:
+        walk(f.get("geometry", f)["coordinates"])
+    ring = max(rings, key=len)
+    xs, ys = [p[0] for p in ring], [p[1] for p in ring]
+    sx, sy = (width - 1) / (max(xs) - min(xs)), (height - 1) / (max(ys) - min(ys))
+    image = Image.new("L", (width, height), 255)
+    points = [((p[0] - min(xs)) * sx, (max(ys) - p[1]) * sy) for p in ring]
+    ImageDraw.Draw(image).polygon(points, fill=0)
+    image.save(out / "africa.png")
+
+
+def word(text, font, size, name):
+    """A word in black on white, on a pixel grid of that size."""
+    face = ImageFont.truetype(str(font), size)
+    box = face.getbbox(text)
+    image = Image.new("L", (box[2] - box[0] + 20, box[3] - box[1] + 20), 255)
+    ImageDraw.Draw(image).text((10 - box[0], 10 - box[1]), text, font=face, fill=0)
+    image.point(lambda v: 255 if v > 127 else 0).save(out / name)
+
+
+africa()
+word("علي", arabic, 390, "ali.png")
+word("D", latin, 330, "d.png")
+for name, file, factor in [
+    ("leaf.png", "Maple_leaf.bmp", 1.0),
+    ("plane.png", "Plane4.bmp", 3.0),
+    ("apple.png", "mpeg7/apple-1.png", 1.7),
+    ("key-1.png", "mpeg7/key-1.png", 0.36),
+    ("key-2.png", "mpeg7/key-2.png", 0.36),
+    ("key-3.png", "mpeg7/key-3.png", 0.36),
+]:
+    # as large as the papers' own, by the number of boundary points
+    image = Image.open(source / file).convert("L")
+    size = (round(image.width * factor), round(image.height * factor))
+    image.resize(size, Image.LANCZOS).point(lambda v: 255 if v > 127 else 0).save(out / name)
