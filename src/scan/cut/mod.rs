@@ -26,9 +26,9 @@ const LOW: f32 = 0.33;
 const SEED: f32 = 0.5;
 /// Standard deviations of noise that both levels keep from the paper.
 const NOISE: f32 = 6.0;
-/// Ink smaller than a square of this many stroke widths is a speck: the dot of a letter is at least one
-/// stroke wide and high.
-const SPECK: f64 = 0.5;
+/// Ink smaller than a square of this many stroke widths is a speck: the dot of a letter is a disc of at least one
+/// stroke (0.89 of its side as a square), and loses a little to the threshold.
+const SPECK: f64 = 0.7;
 /// Skews below this, degrees, are left alone: over a page they move a letter by a hair.
 const LEAST_SKEW_DEG: f64 = 0.01;
 
