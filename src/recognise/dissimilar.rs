@@ -15,7 +15,7 @@
 
 use super::affine::{Map, STAY, Sums};
 use super::skeleton::{Skeleton, Stroke};
-use super::spline::{Data, Knots, Spline};
+use super::spline::{Data, FEW, Knots, PIXEL_STEPS, Spline};
 use crate::numeric::assignment::assign;
 use kurbo::{Point, Vec2};
 
@@ -176,6 +176,8 @@ impl Curve {
             points: &stroke.points,
             closed: stroke.closed,
             knots,
+            noise: PIXEL_STEPS,
+            most: FEW,
         });
         let fine = spline
             .as_ref()

@@ -8,6 +8,8 @@
 mod affine;
 mod align;
 mod alphabet;
+mod centerline;
+mod check;
 mod dissimilar;
 mod ink;
 mod marks;
@@ -17,6 +19,8 @@ mod spline;
 mod thin;
 
 pub use alphabet::{Alphabet, Guess, Look, Method, Sample};
+pub use centerline::{Centerline, Line, centerline};
+pub use check::{Finding, Reading, check};
 pub use skeleton::{Dot, Pruning, Skeleton, Stroke};
 pub use thin::thin;
 

@@ -11,7 +11,7 @@
 //! Cost     O(N k² + n k²) a curve      Fails  `None` with fewer points than control points
 
 use crate::numeric::{bspline::Basis, skyline::Skyline};
-use kurbo::{Point, Vec2};
+use kurbo::{CubicBez, Point, Vec2};
 
 /// Where the knots lie.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -22,10 +22,10 @@ pub(crate) enum Knots {
     Bends,
 }
 
-/// Errors below this do not call for more control points, px²: thinning leaves steps of a pixel.
-const NOISE: f64 = 0.15;
-/// Control points at most; letters of more bends gain nothing.
-const MOST: usize = 14;
+/// Errors below this do not call for more control points of a thinned stroke, px²: it has steps of a pixel.
+pub(crate) const PIXEL_STEPS: f64 = 0.15;
+/// Control points at most when letters are compared; more bends gain nothing.
+pub(crate) const FEW: usize = 14;
 /// How much length a turn of one radian is worth, of the whole stroke: where knots follow bends.
 const TURN_LENGTH: f64 = 0.12;
 
@@ -38,6 +38,10 @@ pub(crate) struct Data<'a> {
     pub(crate) closed: bool,
     /// Where the knots shall lie.
     pub(crate) knots: Knots,
+    /// Mean square error that is no shape but noise, px².
+    pub(crate) noise: f64,
+    /// Control points at most.
+    pub(crate) most: usize,
 }
 
 /// A stroke as a curve.
@@ -58,12 +62,12 @@ impl Spline {
             Knots::Bends => 3..=5,
         };
         let n = data.points.len() as f64;
-        let tries = orders.flat_map(|order| (order..=MOST).map(move |count| (order, count)));
+        let tries = orders.flat_map(|order| (order..=data.most).map(move |count| (order, count)));
         let scored = tries.filter_map(|(order, count)| {
             let spline = Self::fit(data, order, count)?;
             let mean = spline.mean_square(data);
             Some((
-                n * (NOISE + mean).ln() + 2.0 * count as f64 * n.ln(),
+                n * (data.noise + mean).ln() + 2.0 * count as f64 * n.ln(),
                 spline,
             ))
         });
@@ -124,6 +128,15 @@ impl Spline {
         data.points.iter().zip(at).map(off).sum::<f64>() / data.points.len() as f64
     }
 
+    /// The curve as cubics, an open one from `ends.0` to `ends.1` exactly; empty when its order is above 4.
+    pub(crate) fn cubics(&self, ends: Option<(Point, Point)>) -> Vec<CubicBez> {
+        let mut control = self.control.clone();
+        if let (Some((from, to)), [first, .., last]) = (ends, control.as_mut_slice()) {
+            (*first, *last) = (from, to);
+        }
+        self.basis.cubics(&control, 0.0)
+    }
+
     /// `n` ≥ 2 points evenly spaced in the parameter; of a closed curve the first comes again at the end.
     pub(crate) fn points(&self, n: usize) -> Vec<Point> {
         let (from, to) = self.basis.domain();
@@ -165,6 +178,7 @@ fn parameters(data: Data<'_>, (from, to): (f64, f64)) -> Vec<f64> {
         points,
         closed,
         knots,
+        ..
     } = data;
     let n = points.len();
     let chord = |i: usize| points[(i + 1) % n] - points[i];

@@ -1,6 +1,7 @@
 //! Pens of known width on known paths.
 
 use super::*;
+use crate::numeric::distance::Polyline;
 use crate::types::{Bitmap, Gray, Guides};
 use kurbo::Point;
 
@@ -221,4 +222,109 @@ fn every_picture_is_answered() {
             assert!(none.rank(&look).is_empty());
         }
     }
+}
+
+/// Points along a smooth path with bends both ways.
+fn wave(width: f64) -> Vec<(f64, f64)> {
+    let at = |i: usize| {
+        let t = i as f64 / 200.0;
+        (
+            30.0 + 130.0 * t,
+            90.0 + 3.0 * width * (6.0 * t).sin() + 20.0 * t,
+        )
+    };
+    (0..=200).map(at).collect()
+}
+
+/// The largest distance from points along the centreline to the polylines, px.
+fn off_path(line: &Centerline, truth: &[&[(f64, f64)]], away: impl Fn(Point) -> bool) -> f64 {
+    use kurbo::{ParamCurve, PathSeg};
+    let near = |p: Point| {
+        let lines = truth
+            .iter()
+            .filter_map(|l| Polyline::new(l.iter().map(|p| Point::from(*p)).collect()));
+        lines
+            .map(|l| l.nearest(p).distance)
+            .fold(f64::INFINITY, f64::min)
+    };
+    let segments = line
+        .lines
+        .iter()
+        .flat_map(|l| l.path.segments().collect::<Vec<PathSeg>>());
+    let points = segments.flat_map(|s| (0..=20).map(move |i| s.eval(f64::from(i) / 20.0)));
+    points.filter(|p| away(*p)).map(near).fold(0.0, f64::max)
+}
+
+#[test]
+fn the_centreline_is_where_the_pen_went() {
+    for width in [4.0, 8.0, 14.0, 20.0] {
+        let path = wave(width);
+        let line = centerline(&pen(200, width / 2.0, &[&path, &[(180.0, 30.0)]]));
+        assert_eq!((line.lines.len(), line.dots.len()), (1, 1), "at {width}");
+        let off = off_path(&line, &[&path], |_| true);
+        assert!(
+            off <= 0.03 * width,
+            "{off} px from the path of a pen {width} px wide"
+        );
+        let widths = &line.lines[0].widths;
+        assert!(
+            widths.iter().all(|w| (w - width).abs() < 0.06 * width),
+            "{widths:?} for {width}"
+        );
+        let ends = [path[0], path[200]].map(Point::from);
+        let elements = line.lines[0].path.segments();
+        let (first, last) = (
+            elements.clone().next().expect("a start"),
+            elements.last().expect("an end"),
+        );
+        let found = [
+            kurbo::ParamCurve::start(&first),
+            kurbo::ParamCurve::end(&last),
+        ];
+        for end in ends {
+            let nearest = found
+                .iter()
+                .map(|f| f.distance(end))
+                .fold(f64::INFINITY, f64::min);
+            assert!(
+                nearest < 0.06 * width,
+                "an end is {nearest} px off at {width}"
+            );
+        }
+    }
+}
+
+#[test]
+fn centrelines_of_rings_corners_and_crossings() {
+    let ring = circle(70.0, 70.0, 40.0);
+    let o = centerline(&pen(140, 6.0, &[&ring]));
+    let off = off_path(&o, &[&ring], |_| true);
+    assert!(
+        o.lines.len() == 1 && off < 0.36,
+        "{} lines, {off} px off",
+        o.lines.len()
+    );
+
+    let l: &[(f64, f64)] = &[(30.0, 20.0), (30.0, 110.0), (110.0, 110.0)];
+    let line = centerline(&pen(140, 6.0, &[l]));
+    let off = off_path(&line, &[l], |p| p.distance(Point::new(30.0, 110.0)) > 12.0);
+    assert!(
+        line.lines.len() == 1 && off < 0.36,
+        "{} lines, {off} px off",
+        line.lines.len()
+    );
+
+    let t: [&[(f64, f64)]; 2] = [
+        &[(20.0, 30.0), (120.0, 34.0)],
+        &[(70.0, 32.0), (75.0, 120.0)],
+    ];
+    let line = centerline(&pen(140, 6.0, &t));
+    let off = off_path(&line, &t, |p| p.distance(Point::new(70.0, 32.0)) > 12.0);
+    assert!(
+        line.lines.len() == 3 && off < 0.36,
+        "{} lines, {off} px off",
+        line.lines.len()
+    );
+    let nothing = centerline(&Gray::from_fn(0, 0, |_, _| 0.0));
+    assert!(nothing.lines.is_empty() && nothing.dots.is_empty());
 }
