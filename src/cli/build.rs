@@ -113,6 +113,9 @@ fn say(built: &Built, total: Duration, times: &Times) {
     for note in &built.notes {
         eprintln!("note: {}: {}", note.glyph, note.message);
     }
+    for doubt in &built.doubts {
+        eprintln!("warning: {doubt}");
+    }
     let stages: Vec<String> = (times.iter())
         .map(|(stage, time)| format!("{stage} {:.2}", time.as_secs_f64()))
         .collect();

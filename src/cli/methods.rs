@@ -2,7 +2,7 @@
 
 use super::Outcome;
 use clap::Args;
-use khatt::{corner, fit, quadratic};
+use khatt::{corner, fit, quadratic, recognise};
 use serde::Serialize;
 
 /// Lists the methods one can choose, with their options' defaults
@@ -56,14 +56,21 @@ fn rows() -> Vec<Row> {
     let corners = rows!("corners", corner::Method);
     let fitters = rows!("fit", fit::Method);
     let quadratics = rows!("quadratic", quadratic::Method);
-    corners.chain(fitters).chain(quadratics).collect()
+    let matching = rows!("match", recognise::Method);
+    corners
+        .chain(fitters)
+        .chain(quadratics)
+        .chain(matching)
+        .collect()
 }
 
 /// The options of a method without its name.
 fn options(method: &impl Serialize) -> serde_json::Value {
-    let mut value = serde_json::json!(method);
-    if let Some(table) = value.as_object_mut() {
-        table.remove("method");
+    match serde_json::json!(method) {
+        serde_json::Value::Object(mut table) => {
+            table.remove("method");
+            serde_json::Value::Object(table)
+        }
+        _ => serde_json::json!({}),
     }
-    value
 }

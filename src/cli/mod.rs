@@ -14,6 +14,7 @@ mod failure;
 mod files;
 mod init;
 mod keep;
+mod match_letters;
 mod methods;
 mod progress;
 mod project;
@@ -59,6 +60,7 @@ enum Command {
     Proof(proof::Proof),
     Trace(trace::Trace),
     Convert(convert::Convert),
+    Match(match_letters::Match),
     Methods(methods::Methods),
     Init(init::Init),
     Completions(shell::Completions),
@@ -93,6 +95,7 @@ fn run(args: &Khatt) -> Outcome {
         Command::Proof(proof) => proof.run(&args.common),
         Command::Trace(trace) => trace.run(),
         Command::Convert(convert) => convert.run(&args.common),
+        Command::Match(letters) => letters.run(&args.common),
         Command::Methods(methods) => methods.run(),
         Command::Init(init) => init.run(),
         Command::Completions(completions) => completions.run(),

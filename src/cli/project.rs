@@ -35,6 +35,12 @@ impl Opened {
         })
     }
 
+    /// Takes another reference font than the project's; its path starts where the user stands.
+    pub(crate) fn compare_with(&mut self, reference: &Path) {
+        let absolute = std::path::absolute(reference);
+        self.project.matching.reference = Some(absolute.unwrap_or_else(|_| reference.to_owned()));
+    }
+
     /// Does `work` with the project, watched by a progress bar.
     pub(crate) fn work<T>(
         &self,

@@ -5,6 +5,7 @@ use super::{Outcome, files};
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 use khatt::pipeline::picture::{Options, to_picture, trace_picture};
+use khatt::recognise::{self, Centerline};
 use khatt::scan::{self, Polarity};
 use khatt::types::Gray;
 use khatt::{corner, fit};
@@ -33,6 +34,9 @@ pub(crate) struct Trace {
     /// Distance between contour and curve to aim at, in pixels
     #[arg(long, value_name = "PX", value_parser = positive)]
     tolerance: Option<f64>,
+    /// Give the middle of the lines that a pen drew, with their width, in place of their outline
+    #[arg(long, conflicts_with_all = ["fit", "corners", "tolerance"])]
+    centerline: bool,
 }
 
 impl Trace {
@@ -45,6 +49,10 @@ impl Trace {
             let several = format!("{name} holds {} pictures; give one at a time", pages.len());
             return Err(Failure::new(several));
         };
+        if self.centerline {
+            let lines = svg_lines(&page.gray, &recognise::centerline(&page.gray));
+            return files::write(&self.output, lines.as_bytes());
+        }
         let paths =
             trace_picture(&page.gray, &self.options()).map_err(|e| Failure::at(&name, &e))?;
         files::write(&self.output, svg(&page.gray, &paths).as_bytes())
@@ -92,6 +100,36 @@ pub(crate) fn svg(gray: &Gray, paths: &[BezPath]) -> String {
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{w}\" height=\"{h}\" viewBox=\"0 0 {w} {h}\">\n\
          <path d=\"{d}\"/>\n</svg>\n"
     )
+}
+
+/// A stroked path of each line, as wide as the line is in the middle; the width at each of its nodes in
+/// `data-widths`. Dots are circles. User space is the picture's px, y down.
+fn svg_lines(gray: &Gray, drawn: &Centerline) -> String {
+    let (w, h) = (gray.width(), gray.height());
+    let mut out = format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{w}\" height=\"{h}\" viewBox=\"0 0 {w} {h}\">\n\
+         <g fill=\"none\" stroke=\"black\" stroke-linecap=\"round\" stroke-linejoin=\"round\">\n"
+    );
+    for line in &drawn.lines {
+        let mut d = String::new();
+        line.path
+            .elements()
+            .iter()
+            .for_each(|el| path_data(&mut d, *el));
+        let mut sorted = line.widths.clone();
+        sorted.sort_by(f64::total_cmp);
+        let middle = sorted.get(sorted.len() / 2).copied().unwrap_or_default();
+        let widths: Vec<String> = line.widths.iter().map(|w| format!("{w:.2}")).collect();
+        let widths = widths.join(" ");
+        out +=
+            &format!("<path stroke-width=\"{middle:.2}\" data-widths=\"{widths}\" d=\"{d}\"/>\n");
+    }
+    out += "</g>\n";
+    for dot in &drawn.dots {
+        let (x, y, r) = (dot.centre.x, dot.centre.y, dot.radius);
+        out += &format!("<circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"{r:.2}\"/>\n");
+    }
+    out + "</svg>\n"
 }
 
 /// Adds one element to an SVG path's data.

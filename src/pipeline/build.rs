@@ -2,6 +2,7 @@
 
 use super::labels;
 use super::letter::Letter;
+use super::letters::{self, Doubt};
 use super::page;
 use super::problem::Problem;
 use super::project::Project;
@@ -51,6 +52,8 @@ pub struct Built {
     pub letters: Vec<Letter>,
     /// What could not be met.
     pub notes: Vec<Note>,
+    /// Cells that look like other letters than their labels say.
+    pub doubts: Vec<Doubt>,
 }
 
 /// Builds a font.
@@ -58,7 +61,10 @@ pub struct Built {
 /// # Errors
 /// Everything that is wrong with the project, its pages and their cells.
 pub fn build(project: &Project, world: World<'_>) -> Result<Built, Vec<Problem>> {
+    let (project, mut doubts) = letters::resolve(project, world)?;
+    let project = &project;
     let letters = letters(project, world)?;
+    doubts.extend(letters::doubts(project, &letters, world).map_err(|p| vec![p])?);
     let _time = world.watch.enter(Stage::Assemble);
     let drawn: Vec<Result<Drawn, Problem>> = letters
         .iter()
@@ -71,6 +77,7 @@ pub fn build(project: &Project, world: World<'_>) -> Result<Built, Vec<Problem>>
         font: assembled.font,
         letters,
         notes: assembled.notes,
+        doubts,
     })
 }
 
@@ -102,6 +109,8 @@ pub fn pages<T>(
     world: World<'_>,
     work: impl Fn((usize, &str), Cut) -> Result<T, Vec<Problem>>,
 ) -> Result<Vec<T>, Vec<Problem>> {
+    let (project, _) = letters::resolve(project, world)?;
+    let project = &project;
     let named = labels::of(project, world)?;
     let sheets = project.sheets.iter().zip(&named);
     let done = sheets.enumerate().map(|(number, (sheet, labels))| {

@@ -8,7 +8,7 @@ use crate::types::{Label, Name};
 use std::collections::BTreeMap;
 
 /// The word that skips a cell.
-const SKIP: &str = "_";
+pub(super) const SKIP: &str = "_";
 
 /// The labels of a page in reading order.
 fn labels(text: &str) -> Vec<Label> {
@@ -35,7 +35,8 @@ pub(super) fn of(project: &Project, world: World<'_>) -> Result<Vec<Vec<Label>>,
     }
 }
 
-fn of_sheet(sheet: &SheetTable, world: World<'_>) -> Result<Vec<Label>, Problem> {
+/// The labels as written.
+pub(super) fn of_sheet(sheet: &SheetTable, world: World<'_>) -> Result<Vec<Label>, Problem> {
     match &sheet.glyphs {
         Labels::Text(text) => Ok(labels(text)),
         Labels::File { file } => Ok(labels(&String::from_utf8_lossy(&world.file(file)?))),

@@ -19,6 +19,25 @@ pub(super) fn cut(
     units_per_em: u16,
     world: World<'_>,
 ) -> Result<Cut, Vec<Problem>> {
+    let cut = read(table, labels, units_per_em, world)?;
+    let problems = gaps(&table.name(), labels, &cut);
+    if problems.is_empty() {
+        Ok(cut)
+    } else {
+        Err(problems)
+    }
+}
+
+/// The same with names that have no drawing and drawings that have no name.
+///
+/// # Errors
+/// The page cannot be read or cut.
+pub(super) fn read(
+    table: &SheetTable,
+    labels: &[Label],
+    units_per_em: u16,
+    world: World<'_>,
+) -> Result<Cut, Vec<Problem>> {
     let options = table.cut_options(units_per_em).map_err(|why| {
         let sheet = table.name();
         vec![Problem::Sheet { sheet, why }]
@@ -29,13 +48,7 @@ pub(super) fn cut(
         scan::clean(sheet).map_err(|e| vec![e.into()])?
     };
     let _time = world.watch.enter(Stage::Cut);
-    let cut = scan::cut(&page, labels, &options).map_err(|e| vec![e.into()])?;
-    let problems = gaps(&table.name(), labels, &cut);
-    if problems.is_empty() {
-        Ok(cut)
-    } else {
-        Err(problems)
-    }
+    scan::cut(&page, labels, &options).map_err(|e| vec![e.into()])
 }
 
 /// Names without a letter.

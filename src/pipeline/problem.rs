@@ -1,5 +1,6 @@
 //! What went wrong where, and what to do about it.
 
+use super::reference::ReferenceError;
 use crate::{
     assemble::{AssembleError, names::LabelError},
     fit::FitError,
@@ -102,6 +103,17 @@ pub enum Problem {
         /// why
         source: OutlineError,
     },
+    /// Letters are to be told without letters to compare them with.
+    #[error("no reference font is named")]
+    NoReference,
+    /// The reference is none.
+    #[error("{file}: {source}")]
+    Reference {
+        /// the file, as the project names it
+        file: String,
+        /// why
+        source: ReferenceError,
+    },
     /// A glyph has no quadratic form.
     #[error("glyph {glyph}: {source}")]
     Quadratic {
@@ -145,6 +157,9 @@ impl Problem {
             }
             Self::Gate { .. } => {
                 "look at the glyph in `khatt proof`; scan it larger, trace with a smaller tolerance_px, or raise the gate"
+            }
+            Self::NoReference => {
+                "name one: reference = \"FONT.ttf\" under [match], or --reference FONT.ttf"
             }
             _ => return None,
         })

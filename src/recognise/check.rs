@@ -45,6 +45,35 @@ pub enum Finding {
     Missing(usize),
     /// A cell that looks like no label, in a row of cells that fit.
     Extra(usize),
+    /// A cell without a label that looks like no letter surely enough.
+    Unsure {
+        /// index of the cell
+        cell: usize,
+        /// the letter it looks like
+        like: String,
+        /// how sure, 0…1
+        confidence: f64,
+    },
+}
+
+impl Finding {
+    /// The same about cells and labels of other numbers.
+    #[must_use]
+    pub fn renumbered(mut self, to: impl Fn(usize) -> usize) -> Self {
+        match &mut self {
+            Self::Disagrees { cell: i, .. }
+            | Self::Unsure { cell: i, .. }
+            | Self::Missing(i)
+            | Self::Extra(i) => {
+                *i = to(*i);
+            }
+            Self::Swapped(i, j)
+            | Self::Shifted {
+                first: i, last: j, ..
+            } => (*i, *j) = (to(*i), to(*j)),
+        }
+        self
+    }
 }
 
 /// Cost of a cell or label without a partner: as much as one and a half wrong letters.
@@ -55,6 +84,24 @@ const RUN: usize = 3;
 const SURE: f64 = 0.9;
 /// A label of at least this confidence is not contradicted.
 const POSSIBLE: f64 = 0.02;
+
+/// Letters that fonts draw alike, by their names: no sight tells them apart.
+const ALIKE: [&[&str]; 9] = [
+    &["l", "I", "one", "bar"],
+    &["O", "o", "zero"],
+    &["c", "C"],
+    &["s", "S"],
+    &["v", "V"],
+    &["w", "W"],
+    &["x", "X"],
+    &["z", "Z"],
+    &["uni0627", "uni0661"],
+];
+
+/// Whether two letters are one to the eye.
+fn alike(a: &str, b: &str) -> bool {
+    a == b || ALIKE.iter().any(|set| set.contains(&a) && set.contains(&b))
+}
 
 /// What speaks against the labels.
 #[must_use]
@@ -167,7 +214,7 @@ fn single(
             .guesses
             .iter()
             .any(|g| g.label == *own && g.confidence >= POSSIBLE);
-        (!explained[i] && best.label != *own && !possible).then(|| (r.label, best.clone()))
+        (!explained[i] && !alike(&best.label, own) && !possible).then(|| (r.label, best.clone()))
     };
     let wrong: Vec<(usize, Guess)> = readings.iter().enumerate().filter_map(wrong).collect();
     let partner = |(cell, guess): &(usize, Guess)| {
@@ -224,6 +271,11 @@ mod tests {
             "an unsure cell is not believed"
         );
         assert_eq!(findings("", "", 0.99), []);
+    }
+
+    #[test]
+    fn letters_that_look_alike_are_not_doubted() {
+        assert_eq!(findings("lOcx", "IoCX", 0.99), []);
     }
 
     #[test]

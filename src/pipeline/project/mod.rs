@@ -11,7 +11,7 @@ pub use sheet::{Labels, SheetTable};
 
 use super::picture;
 use crate::write::{FORMATS, Format};
-use crate::{assemble, quadratic};
+use crate::{assemble, quadratic, recognise};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
@@ -36,9 +36,22 @@ pub struct Project {
     /// What a glyph must hold to for the build to succeed.
     #[serde(default)]
     pub gate: GateTable,
+    /// How cells are compared with a reference's letters.
+    #[serde(default, rename = "match")]
+    pub matching: MatchTable,
     /// What to make.
     #[serde(default)]
     pub output: OutputTable,
+}
+
+/// How cells are compared with a reference's letters.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct MatchTable {
+    /// A TTF or OTF font, relative to the project file; without one labels are believed.
+    pub reference: Option<PathBuf>,
+    /// What is compared.
+    pub method: recognise::Method,
 }
 
 /// How cubics become TrueType's quadratics.

@@ -48,13 +48,21 @@ pub struct SheetTable {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum Labels {
-    /// Characters and glyph names between spaces; `_` skips a cell.
+    /// Characters and glyph names between spaces; `_` skips a cell. `auto` alone: what the cells look like.
     Text(String),
     /// A text file of them, relative to the project file.
     File {
         /// The file.
         file: PathBuf,
     },
+}
+
+impl Labels {
+    /// Whether the letters are to be read from the cells: `"auto"`.
+    #[must_use]
+    pub fn is_auto(&self) -> bool {
+        matches!(self, Self::Text(text) if text.trim() == "auto")
+    }
 }
 
 impl SheetTable {

@@ -1,0 +1,302 @@
+//! Which letters a project's cells hold, and whether its labels say so.
+
+use super::build::World;
+use super::letter::Letter;
+use super::problem::{Place, Problem};
+use super::project::{Labels, Project, SheetTable};
+use super::reference::{Script, samples, spelling};
+use super::{labels, page};
+use crate::assemble::names;
+use crate::recognise::{Alphabet, Finding, Guess, Look, Method, Reading, check};
+use crate::scan::Layout;
+use crate::types::{Cell, Label};
+use rayon::prelude::*;
+use std::collections::BTreeSet;
+use std::fmt;
+
+/// A cell and the letters that it may hold.
+#[derive(Debug, Clone)]
+pub struct Matched {
+    /// Where it lies and what it is said to hold.
+    pub place: Place,
+    /// Likeliest first.
+    pub guesses: Vec<Guess>,
+}
+
+/// What does not fit the labels of one page.
+#[derive(Debug, Clone)]
+pub struct Doubt {
+    /// The page, as messages name it.
+    pub sheet: String,
+    /// What does not fit, cells and labels by their index.
+    pub finding: Finding,
+    /// The labels of the page.
+    labels: Vec<String>,
+}
+
+impl fmt::Display for Doubt {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let label = |i: &usize| self.labels.get(*i).map_or("?", String::as_str);
+        write!(f, "{}: ", self.sheet)?;
+        match &self.finding {
+            Finding::Disagrees {
+                cell,
+                like,
+                confidence,
+            } => {
+                let percent = 100.0 * confidence;
+                write!(
+                    f,
+                    "cell {} is labelled {} but looks like {like} ({percent:.0} %)",
+                    cell + 1,
+                    label(cell)
+                )
+            }
+            Finding::Swapped(a, b) => {
+                write!(
+                    f,
+                    "cells {} and {} look as if their labels {} and {} were swapped",
+                    a + 1,
+                    b + 1,
+                    label(a),
+                    label(b)
+                )
+            }
+            Finding::Shifted { first, last, by } => {
+                let side = if *by > 0 { "after" } else { "before" };
+                let (first, last) = (first + 1, last + 1);
+                let places = by.unsigned_abs();
+                write!(
+                    f,
+                    "cells {first} to {last} are shifted: each looks like the label {places} {side} its own"
+                )
+            }
+            Finding::Unsure {
+                cell,
+                like,
+                confidence,
+            } => {
+                let percent = 100.0 * confidence;
+                write!(
+                    f,
+                    "cell {} is left out: perhaps {like} ({percent:.0} %)",
+                    cell + 1
+                )
+            }
+            Finding::Missing(j) => write!(f, "no cell looks like label {} ({})", j + 1, label(j)),
+            Finding::Extra(i) => write!(
+                f,
+                "cell {} ({}) looks like no label near it",
+                i + 1,
+                label(i)
+            ),
+        }
+    }
+}
+
+/// The letters of every page's cells, best first, and what speaks against the labels. Names without a drawing
+/// and drawings without a name are no error here.
+///
+/// # Errors
+/// Everything that is wrong with the project and its pages, or the reference.
+pub fn match_letters(
+    project: &Project,
+    world: World<'_>,
+) -> Result<(Vec<Matched>, Vec<Doubt>), Vec<Problem>> {
+    let alphabet = alphabet(project, world).map_err(|p| vec![p])?;
+    let (mut matched, mut remarks) = (Vec::new(), Vec::new());
+    for sheet in &project.sheets {
+        let labels = sheet_labels(sheet, world).map_err(|p| vec![p])?;
+        let cells = page::read(sheet, &labels, project.font.units_per_em, world)?.cells;
+        let guesses = guesses(&cells, &alphabet, project.matching.method);
+        if !sheet.glyphs.is_auto() {
+            remarks.extend(findings(&sheet.name(), &labels, &cells, &guesses));
+        }
+        let places = cells.iter().map(|c| Place::of(&sheet.name(), c));
+        matched.extend(
+            places
+                .zip(guesses)
+                .map(|(place, guesses)| Matched { place, guesses }),
+        );
+    }
+    Ok((matched, remarks))
+}
+
+/// The project with `glyphs = "auto"` replaced by the letters that the cells look like, each letter once; cells
+/// that are not sure are skipped, and the remarks name them.
+///
+/// # Errors
+/// Everything that is wrong with pages whose letters are to be read, or the reference.
+pub(super) fn resolve(
+    project: &Project,
+    world: World<'_>,
+) -> Result<(Project, Vec<Doubt>), Vec<Problem>> {
+    let (mut project, mut remarks) = (project.clone(), Vec::new());
+    if !project.sheets.iter().any(|s| s.glyphs.is_auto()) {
+        return Ok((project, remarks));
+    }
+    let alphabet = alphabet(&project, world).map_err(|p| vec![p])?;
+    for i in 0..project.sheets.len() {
+        let sheet = &project.sheets[i];
+        if sheet.glyphs.is_auto() {
+            let labels = sheet_labels(sheet, world).map_err(|p| vec![p])?;
+            let cells = page::read(sheet, &labels, project.font.units_per_em, world)?.cells;
+            let guesses = guesses(&cells, &alphabet, project.matching.method);
+            let (labels, unsure) = name(labels.len(), &cells, &guesses);
+            let remark = |finding| Doubt {
+                sheet: sheet.name(),
+                finding,
+                labels: labels.clone(),
+            };
+            remarks.extend(unsure.into_iter().map(remark));
+            project.sheets[i].glyphs = Labels::Text(labels.join(" "));
+        }
+    }
+    Ok((project, remarks))
+}
+
+/// Confidence from which a cell is named by what it looks like.
+const NAMED: f64 = 0.5;
+
+/// A name for each of `count` cells, the surest first, no name twice; and the cells left out.
+fn name(count: usize, cells: &[Cell], guesses: &[Vec<Guess>]) -> (Vec<String>, Vec<Finding>) {
+    let mut order: Vec<(&Cell, &Guess)> = cells
+        .iter()
+        .zip(guesses)
+        .filter_map(|(c, g)| Some((c, g.first()?)))
+        .collect();
+    order.sort_by(|a, b| b.1.confidence.total_cmp(&a.1.confidence));
+    let mut labels = vec![labels::SKIP.to_owned(); count];
+    let mut unsure = Vec::new();
+    for (cell, guess) in order {
+        let free = !labels.contains(&guess.label);
+        match labels.get_mut(cell.index) {
+            Some(label) if free && guess.confidence >= NAMED => label.clone_from(&guess.label),
+            _ => unsure.push(Finding::Unsure {
+                cell: cell.index,
+                like: guess.label.clone(),
+                confidence: guess.confidence,
+            }),
+        }
+    }
+    unsure.sort_by_key(|f| {
+        if let Finding::Unsure { cell, .. } = f {
+            *cell
+        } else {
+            0
+        }
+    });
+    (labels, unsure)
+}
+
+/// What speaks against the labels of letters already traced; nothing where the project names no reference.
+///
+/// # Errors
+/// The reference cannot be read, or is none.
+pub(super) fn doubts(
+    project: &Project,
+    letters: &[Letter],
+    world: World<'_>,
+) -> Result<Vec<Doubt>, Problem> {
+    if project.matching.reference.is_none() {
+        return Ok(Vec::new());
+    }
+    let alphabet = alphabet(project, world)?;
+    let mut remarks = Vec::new();
+    for sheet in &project.sheets {
+        let name = sheet.name();
+        let cells = letters
+            .iter()
+            .filter(|l| l.sheet == name)
+            .map(|l| l.cell.clone());
+        let cells: Vec<Cell> = cells.collect();
+        let labels = sheet_labels(sheet, world)?;
+        let guesses = guesses(&cells, &alphabet, project.matching.method);
+        remarks.extend(findings(&name, &labels, &cells, &guesses));
+    }
+    Ok(remarks)
+}
+
+/// The labels as written; as many that say nothing as there are cells where they are to be found.
+fn sheet_labels(sheet: &SheetTable, world: World<'_>) -> Result<Vec<Label>, Problem> {
+    match (sheet.glyphs.is_auto(), sheet.layout) {
+        (false, _) => labels::of_sheet(sheet, world),
+        (true, Layout::Grid(rows, columns)) => {
+            Ok(vec![Label("?".to_owned()); rows.saturating_mul(columns)])
+        }
+        (true, _) => Err(Problem::Sheet {
+            sheet: sheet.name(),
+            why: "glyphs = \"auto\" needs layout = { grid = [rows, columns] }".to_owned(),
+        }),
+    }
+}
+
+/// What speaks against the labels of cells.
+fn findings(sheet: &str, labels: &[Label], cells: &[Cell], guesses: &[Vec<Guess>]) -> Vec<Doubt> {
+    let named: Vec<String> = labels.iter().map(spelling).collect();
+    let drawn: Vec<usize> = (0..labels.len())
+        .filter(|&j| !labels::skips(&labels[j]))
+        .collect();
+    let wanted: Vec<String> = drawn.iter().map(|&j| named[j].clone()).collect();
+    let at = |cell: &Cell| drawn.iter().position(|&j| j == cell.index);
+    let pairs = cells.iter().zip(guesses);
+    let readings: Vec<Reading<'_>> = pairs
+        .filter_map(|(c, g)| {
+            Some(Reading {
+                label: at(c)?,
+                guesses: g,
+            })
+        })
+        .collect();
+    let back = |i: usize| drawn.get(i).copied().unwrap_or(i);
+    let remark = |f: Finding| Doubt {
+        sheet: sheet.to_owned(),
+        finding: f.renumbered(back),
+        labels: named.clone(),
+    };
+    check(&wanted, &readings).into_iter().map(remark).collect()
+}
+
+/// The letters that each cell may hold.
+fn guesses(cells: &[Cell], alphabet: &Alphabet, method: Method) -> Vec<Vec<Guess>> {
+    let look = |c: &Cell| Look::new(&c.gray, Some(c.guides), method);
+    let mut looks: Vec<Look> = cells.par_iter().map(look).collect();
+    alphabet.settle_page(&mut looks);
+    looks.par_iter().map(|l| alphabet.rank(l)).collect()
+}
+
+/// The reference's letters of the scripts that the labels use, and the labels themselves.
+fn alphabet(project: &Project, world: World<'_>) -> Result<Alphabet, Problem> {
+    let Some(reference) = &project.matching.reference else {
+        return Err(Problem::NoReference);
+    };
+    let bytes = world.file(reference)?;
+    let mut labels: Vec<Label> = Vec::new();
+    for sheet in project.sheets.iter().filter(|s| !s.glyphs.is_auto()) {
+        labels.extend(labels::of_sheet(sheet, world)?);
+    }
+    let auto = project.sheets.iter().any(|s| s.glyphs.is_auto());
+    let scripts = if auto {
+        vec![Script::Latin, Script::Arabic]
+    } else {
+        Vec::new()
+    };
+    let samples =
+        samples(&bytes, letters(&labels, scripts)).map_err(|source| Problem::Reference {
+            file: reference.display().to_string(),
+            source,
+        })?;
+    Ok(Alphabet::new(&samples, project.matching.method))
+}
+
+/// The labels, and all letters of their scripts and of these.
+fn letters(labels: &[Label], scripts: Vec<Script>) -> Vec<String> {
+    let named = labels.iter().filter(|l| !labels::skips(l));
+    let known = labels.iter().filter_map(|l| names::identify(l).ok());
+    let used = known.flat_map(|id| id.chars).filter_map(Script::of);
+    let scripts: BTreeSet<Script> = used.chain(scripts).collect();
+    named
+        .map(spelling)
+        .chain(scripts.into_iter().flat_map(Script::letters))
+        .collect()
+}

@@ -1,0 +1,272 @@
+//! Letters of a reference font as pictures: shaped, drawn, labelled as a project labels its cells.
+
+use crate::assemble::names::{self, Form, Identity};
+use crate::recognise::Sample;
+use crate::types::{Gray, Guides, Label};
+use harfrust::{ShapeOptions, ShaperData, UnicodeBuffer};
+use kurbo::{Affine, BezPath, PathEl, Rect, Shape};
+use resvg::tiny_skia::{Color, FillRule, Paint, PathBuilder, Pixmap, Transform};
+use skrifa::outline::{DrawSettings, OutlinePen};
+use skrifa::prelude::{LocationRef, Size};
+use skrifa::{FontRef, GlyphId, MetadataProvider};
+use std::collections::BTreeSet;
+use thiserror::Error;
+
+/// Pixels an em: the matching makes letters smaller than this.
+const PX_PER_EM: f64 = 150.0;
+/// Paper around the ink, px.
+const MARGIN: f64 = 2.0;
+/// Joins the letters beside it without being seen.
+const JOINER: char = '\u{200D}';
+
+/// Why a font is no reference.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum ReferenceError {
+    /// The bytes are no font.
+    #[error("the reference is no TTF or OTF font: {0}")]
+    Font(String),
+    /// It has none of the letters asked for.
+    #[error("the reference font has none of the letters")]
+    Empty,
+}
+
+/// Letters that joining scripts draw in four forms, and those that join to one side only.
+const DUAL: &str = "بتثجحخسشصضطظعغفقكلمنهيئپچڤگ";
+const RIGHT: &str = "اأإآدذرزوؤةىژ";
+/// What lam and these make together.
+const LAM_ALEF: &str = "اأإآ";
+const ALONE: &str = "ء٠١٢٣٤٥٦٧٨٩";
+
+/// Writing systems that the reference's letters are taken from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Script {
+    /// A–Z, a–z, 0–9.
+    Latin,
+    /// Arabic letters in their forms, lam-alef, Arabic digits.
+    Arabic,
+}
+
+impl Script {
+    /// The letters that a sheet of this script may hold.
+    #[must_use]
+    pub fn letters(self) -> Vec<String> {
+        match self {
+            Self::Latin => ('0'..='9')
+                .chain('A'..='Z')
+                .chain('a'..='z')
+                .map(String::from)
+                .collect(),
+            Self::Arabic => arabic(),
+        }
+    }
+
+    /// The script of a character that letters of one script are told by.
+    #[must_use]
+    pub fn of(c: char) -> Option<Self> {
+        match c {
+            'A'..='Z' | 'a'..='z' | '0'..='9' => Some(Self::Latin),
+            '\u{600}'..='\u{6FF}' => Some(Self::Arabic),
+            _ => None,
+        }
+    }
+}
+
+fn arabic() -> Vec<String> {
+    let name = |chars: &[char], form: Form| match form {
+        Form::Isol => names::name_of(chars),
+        form => format!("{}.{}", names::name_of(chars), form.tag()),
+    };
+    let dual = DUAL.chars().flat_map(|c| Form::ALL.map(|f| name(&[c], f)));
+    let right = RIGHT
+        .chars()
+        .flat_map(|c| [Form::Isol, Form::Fina].map(|f| name(&[c], f)));
+    let pairs = LAM_ALEF
+        .chars()
+        .flat_map(|c| [Form::Isol, Form::Fina].map(|f| name(&['ل', c], f)));
+    let alone = ALONE.chars().map(|c| names::name_of(&[c]));
+    dual.chain(right).chain(pairs).chain(alone).collect()
+}
+
+/// The one spelling of a label by which letters are compared: characters' name and joining form, alternates left
+/// out. A label that names no glyph stays as it is.
+#[must_use]
+pub fn spelling(label: &Label) -> String {
+    let Ok(id) = names::identify(label) else {
+        return label.0.clone();
+    };
+    match id.form() {
+        None | Some(Form::Isol) => names::name_of(&id.chars),
+        Some(form) => format!("{}.{}", names::name_of(&id.chars), form.tag()),
+    }
+}
+
+/// Pictures of the letters that the font has, each label once, in order.
+///
+/// # Errors
+/// The bytes are no font, or it has none of these letters.
+pub fn samples(
+    font: &[u8],
+    labels: impl IntoIterator<Item = String>,
+) -> Result<Vec<Sample>, ReferenceError> {
+    let face = FontRef::new(font).map_err(|e| ReferenceError::Font(e.to_string()))?;
+    let data = ShaperData::new(&face);
+    let shaper = data.shaper(&face).build();
+    let mut seen = BTreeSet::new();
+    let mut samples = Vec::new();
+    for label in labels {
+        let label = spelling(&Label(label));
+        let Ok(id) = names::identify(&Label(label.clone())) else {
+            continue;
+        };
+        if !seen.insert(label.clone()) {
+            continue;
+        }
+        let mut buffer = UnicodeBuffer::new();
+        buffer.push_str(&text(&id));
+        buffer.guess_segment_properties();
+        let shaped = shaper.shape(buffer, ShapeOptions::default());
+        let mut path = BezPath::new();
+        let mut pen = (0.0, 0.0);
+        let (infos, places) = (shaped.glyph_infos(), shaped.glyph_positions());
+        let missing = infos.iter().any(|i| i.glyph_id == 0);
+        for (info, place) in infos.iter().zip(places) {
+            let at = (
+                pen.0 + f64::from(place.x_offset),
+                pen.1 + f64::from(place.y_offset),
+            );
+            path.extend(Affine::translate(at) * outline(&face, info.glyph_id));
+            pen.0 += f64::from(place.x_advance);
+            pen.1 += f64::from(place.y_advance);
+        }
+        let upem = face
+            .metrics(Size::unscaled(), LocationRef::default())
+            .units_per_em;
+        let sample = (!missing).then(|| draw(&path, f64::from(upem))).flatten();
+        samples.extend(sample.map(|(gray, guides)| Sample {
+            label,
+            gray,
+            guides: Some(guides),
+        }));
+    }
+    if samples.is_empty() {
+        Err(ReferenceError::Empty)
+    } else {
+        Ok(samples)
+    }
+}
+
+/// The text that a shaper sets as this glyph.
+fn text(id: &Identity) -> String {
+    let form = id.form();
+    let before = form.is_some_and(Form::joins_before).then_some(JOINER);
+    let after = form.is_some_and(Form::joins_after).then_some(JOINER);
+    before
+        .into_iter()
+        .chain(id.chars.iter().copied())
+        .chain(after)
+        .collect()
+}
+
+/// Collects a glyph's outline.
+struct Pen(BezPath);
+
+impl OutlinePen for Pen {
+    fn move_to(&mut self, x: f32, y: f32) {
+        self.0.move_to((f64::from(x), f64::from(y)));
+    }
+    fn line_to(&mut self, x: f32, y: f32) {
+        self.0.line_to((f64::from(x), f64::from(y)));
+    }
+    fn quad_to(&mut self, cx: f32, cy: f32, x: f32, y: f32) {
+        self.0
+            .quad_to((f64::from(cx), f64::from(cy)), (f64::from(x), f64::from(y)));
+    }
+    fn curve_to(&mut self, ax: f32, ay: f32, bx: f32, by: f32, x: f32, y: f32) {
+        let p = |x: f32, y: f32| (f64::from(x), f64::from(y));
+        self.0.curve_to(p(ax, ay), p(bx, by), p(x, y));
+    }
+    fn close(&mut self) {
+        self.0.close_path();
+    }
+}
+
+/// A glyph's outline, font units; empty where it has none.
+fn outline(face: &FontRef<'_>, glyph: u32) -> BezPath {
+    let mut pen = Pen(BezPath::new());
+    let settings = DrawSettings::unhinted(Size::unscaled(), LocationRef::default());
+    let glyphs = face.outline_glyphs();
+    let drawn = glyphs
+        .get(GlyphId::new(glyph))
+        .map(|g| g.draw(settings, &mut pen));
+    match drawn {
+        Some(Ok(_)) => pen.0,
+        _ => BezPath::new(),
+    }
+}
+
+/// Ink of a path in font units, and where its baseline is; `None` without ink.
+fn draw(path: &BezPath, units_per_em: f64) -> Option<(Gray, Guides)> {
+    let scale = PX_PER_EM / units_per_em;
+    let flipped = Affine::scale_non_uniform(scale, -scale) * path.clone();
+    let bounds: Rect = flipped.bounding_box();
+    let (width, height) = (pixels(bounds.width())?, pixels(bounds.height())?);
+    let shift = (MARGIN - bounds.x0, MARGIN - bounds.y0);
+    let mut builder = PathBuilder::new();
+    for el in (Affine::translate(shift) * flipped).elements() {
+        push(&mut builder, *el);
+    }
+    let mut picture = Pixmap::new(width, height)?;
+    let mut paint = Paint::default();
+    paint.set_color(Color::BLACK);
+    paint.anti_alias = true;
+    picture.fill_path(
+        &builder.finish()?,
+        &paint,
+        FillRule::Winding,
+        Transform::identity(),
+        None,
+    );
+    let coverage = picture
+        .pixels()
+        .iter()
+        .map(|p| f32::from(p.alpha()) / 255.0)
+        .collect();
+    let gray = Gray::new(width as usize, height as usize, coverage).ok()?;
+    let guides = Guides {
+        baseline_px: shift.1,
+        px_per_em: PX_PER_EM,
+        advance_px: None,
+    };
+    Some((gray, guides))
+}
+
+/// Pixels that a side with its margins takes; `None` for what is no letter.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "checked before"
+)]
+fn pixels(side: f64) -> Option<u32> {
+    /// Letters are a few em large at most.
+    const MOST: f64 = 20.0 * PX_PER_EM;
+    (side.is_finite() && side <= MOST).then(|| (side + 2.0 * MARGIN).ceil() as u32)
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "pictures are a few hundred px large"
+)]
+fn push(builder: &mut PathBuilder, el: PathEl) {
+    match el {
+        PathEl::MoveTo(p) => builder.move_to(p.x as f32, p.y as f32),
+        PathEl::LineTo(p) => builder.line_to(p.x as f32, p.y as f32),
+        PathEl::QuadTo(c, p) => builder.quad_to(c.x as f32, c.y as f32, p.x as f32, p.y as f32),
+        PathEl::CurveTo(a, b, p) => {
+            builder.cubic_to(
+                a.x as f32, a.y as f32, b.x as f32, b.y as f32, p.x as f32, p.y as f32,
+            );
+        }
+        PathEl::ClosePath => builder.close(),
+    }
+}
