@@ -9,6 +9,7 @@ pub mod coverage;
 pub mod distance;
 pub mod levels;
 pub mod minimise;
+pub mod qbc;
 pub mod refit;
 pub mod shortest;
 pub mod side;

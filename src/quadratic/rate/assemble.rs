@@ -4,14 +4,14 @@ use super::glyf::{Pen, Stored};
 use kurbo::{BezPath, Point};
 
 /// Closed paths of these contours; the starts are chosen together, so that the steps from one
-/// contour to the next are small and flags repeat.
+/// contour to the next are small and flags repeat. They are chosen for the points as TrueType runs
+/// them, clockwise outside: against the outline.
 pub(super) fn paths(contours: &[Vec<Stored>]) -> Vec<BezPath> {
-    let starts = starts(contours);
-    contours
-        .iter()
-        .zip(starts)
-        .map(|(c, s)| path(c, s))
-        .collect()
+    let turned = |c: &Vec<Stored>| c.iter().rev().copied().collect();
+    let turned: Vec<Vec<Stored>> = contours.iter().map(turned).collect();
+    let starts = starts(&turned);
+    let written = turned.iter().zip(starts).map(|(c, s)| path(c, s));
+    written.map(|p| p.reverse_subpaths()).collect()
 }
 
 /// A contour may begin at an on-curve point, or behind an implied one.
@@ -98,8 +98,10 @@ fn path(c: &[Stored], start: usize) -> BezPath {
             }
         }
     }
-    if let Some(q) = control {
-        path.quad_to(q, begin);
+    match control {
+        Some(q) => path.quad_to(q, begin),
+        // Said out loud, so that the path begins at the same point either way around.
+        None => path.line_to(begin),
     }
     path.close_path();
     path

@@ -121,10 +121,11 @@ pub(super) fn points(path: &BezPath) -> Vec<Stored> {
 }
 
 /// What an outline of lines and quadratics takes in the `glyf` table, bytes without padding;
-/// coordinates count as rounded, on-curve points half way between off-curve neighbours as dropped.
+/// contours run clockwise outside as TrueType stores them, coordinates are rounded, on-curve points half way between off-curve neighbours dropped.
 #[must_use]
 pub fn glyf_bytes(outline: &Outline) -> u32 {
-    let contours: Vec<Vec<Stored>> = outline.contours().iter().map(points).collect();
+    let turned = outline.contours().iter().map(BezPath::reverse_subpaths);
+    let contours: Vec<Vec<Stored>> = turned.map(|p| points(&p)).collect();
     stored_bytes(&contours)
 }
 

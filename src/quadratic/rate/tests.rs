@@ -5,7 +5,13 @@ use write_fonts::{dump_table, tables::glyf::SimpleGlyph};
 
 /// The bytes write-fonts makes of it, without padding.
 fn written(outline: &Outline) -> Vec<u8> {
-    dump_table(&SimpleGlyph::from_bezpath(&outline.to_path()).unwrap()).unwrap()
+    // TrueType runs contours the other way.
+    let contours = outline
+        .contours()
+        .iter()
+        .flat_map(BezPath::reverse_subpaths);
+    let path: BezPath = contours.collect();
+    dump_table(&SimpleGlyph::from_bezpath(&path).unwrap()).unwrap()
 }
 
 fn ellipse(x: f64, y: f64, turn: f64) -> Outline {

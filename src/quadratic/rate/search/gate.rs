@@ -118,6 +118,8 @@ impl Search<'_> {
     /// Where the span may begin or end: the node itself, or beside it along its line as far as the
     /// curve's bend and the samples beyond the node allow.
     pub(super) fn slides(&self, node: Node, i: usize, room: usize) -> Vec<Point> {
+        /// Part of the limit that a line may lie beside the curve's end, for its own rounding's sake.
+        const BESIDE: f64 = 0.8;
         let p = node.at.point();
         let mut out = vec![p];
         let Some(u) = node.along else { return out };
@@ -127,7 +129,10 @@ impl Search<'_> {
         let reach = self.slide(i).min(count(room) * self.curve.step - 1.0);
         for k in [-1.0, -0.5, 0.5, 1.0] {
             let m = full(p + u * (k * reach));
-            if !out.contains(&m) {
+            // The line reaches to the join: where that lies beside the curve, so does the line.
+            let guess = count(i) + k * reach / self.curve.step;
+            let beside = self.curve.foot(m, guess).1.abs();
+            if beside <= BESIDE * self.effort.limit && !out.contains(&m) {
                 out.push(m);
             }
         }
