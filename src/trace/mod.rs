@@ -4,7 +4,8 @@
 //! |---|---|
 //! | [`Gray`], px, y down, 1 = ink | [`Contour`]s, px, y up, origin at the picture's bottom left, ink on the left |
 //!
-//! What follows holds for [`Boundary::Iso`]. The contours come in the order in which a reader meets them, row by row from the top. They neither
+//! What follows holds for [`Boundary::Iso`]. The contours come in the order in which a reader meets them,
+//! row by row from the top. They neither
 //! cross nor touch. Every ink component and every hole above the speckle limit is there.
 
 mod chain;
