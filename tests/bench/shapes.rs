@@ -21,7 +21,7 @@ const KINDS: [(&str, Kind); 4] = [
     ("QBC-n", Kind::Spline(Pull::QbcN)),
 ];
 
-/// T_max and T_min of table 4.
+/// The bounds of table 4.
 const BOUNDS: [(f64, f64); 5] = [(1.0, 1.0), (2.0, 1.0), (2.0, 2.0), (3.0, 1.0), (3.0, 2.0)];
 
 /// The longest border in a picture, px: of the shape that is not the picture's corner colour.
@@ -85,7 +85,7 @@ fn main() {
     }
 }
 
-/// D_max and D_ms of the cubic curves of as many segments, control points on the shape [sohel sec. IV.B].
+/// Largest and mean square distance of the cubic curves of as many segments, control points on the shape [sohel sec. IV.B].
 fn descriptor(shape: &[Point]) {
     for segments in 5..=10 {
         print!("  {segments} segments");
