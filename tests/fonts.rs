@@ -88,7 +88,8 @@ fn files(font: &Font, name: &str) -> Files {
     (format.write)(&font).expect("a written font")
 }
 
-fn single(font: &Font, name: &str) -> Vec<u8> {
+/// The one file of a format.
+pub(crate) fn single(font: &Font, name: &str) -> Vec<u8> {
     files(font, name).0.remove("").expect("one file")
 }
 

@@ -12,3 +12,4 @@ mod papers;
 mod published;
 mod sheets;
 mod template;
+mod words;

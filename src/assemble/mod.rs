@@ -7,6 +7,7 @@
 mod basics;
 mod features;
 pub mod joining;
+pub mod kerning;
 mod marks;
 pub mod metrics;
 pub mod names;
@@ -69,6 +70,8 @@ pub struct Drawn {
 pub struct Options {
     /// Room beside letters.
     pub spacing: spacing::Room,
+    /// How pairs of letters are drawn together.
+    pub kerning: kerning::Options,
     /// How the strokes of joined letters meet.
     pub joining: joining::Options,
     /// Advance of the space; without it, from the letters.
@@ -132,6 +135,8 @@ pub fn font(
     let (joining, mut notes) = joining::set(&mut drafts, em, &options.joining);
     let stroke = joining.contract.map(|c| c.edges.1 - c.edges.0);
     spacing::set(&mut drafts, &info, stroke, options);
+    let rhythm = spacing::Rhythm::of(&drafts, &info);
+    let kerning = kerning::pairs(&drafts, rhythm, em, &options.kerning);
     let mut glyphs = basics::glyphs(&drafts, &info, options);
     let (features, missing) = features::text(&drafts);
     notes.extend(missing);
@@ -143,6 +148,7 @@ pub fn font(
     glyphs.extend(letters.map(|(draft, anchors)| glyph(draft, anchors)));
     let mut font = Font::new(info, glyphs)?;
     font.features = features;
+    font.kerning = kerning;
     Ok(Assembled {
         font,
         notes,

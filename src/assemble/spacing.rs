@@ -108,6 +108,11 @@ impl Rhythm {
         })
     }
 
+    /// The white between the stems of n.
+    pub(super) const fn counter(&self) -> f64 {
+        self.counter
+    }
+
     /// The heights between which a character's sides are looked at.
     pub(super) fn zone(&self, c: char) -> (f64, f64) {
         (

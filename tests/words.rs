@@ -1,0 +1,216 @@
+//! Two hundred Arabic words, set: every join overlaps and has no step.
+
+use crate::fonts::{set, single};
+use khatt::assemble::{self, Assembled, Drawn, Options};
+use khatt::types::{Font, Info, Label, Outline};
+use khatt::write::layout;
+use kurbo::{BezPath, Line, ParamCurve, Point, Rect, Shape};
+
+/// Letters that join on both sides, and those that join only the letter before them.
+const DUAL: &str = "بتثجحخسشصضطظعغفقكلمنهيئ";
+const RIGHT: &str = "اأإآدذرزوؤة";
+/// Unicode lets it join on both sides; Arabic writes it at the end of words alone.
+const FINAL: &str = "ى";
+const ALEFS: &str = "اأإآ";
+const HARAKAT: &str = "\u{64b}\u{64c}\u{64d}\u{64e}\u{64f}\u{650}\u{651}\u{652}";
+
+/// How far two strokes may differ at a join, thousandths of the em.
+const STEP: f64 = 2.0;
+
+/// A drawn form: a body, and strokes that leave it as unevenly as a hand draws them.
+fn drawn(label: &str, seed: u32) -> Drawn {
+    let before = label.ends_with(".fina") || label.ends_with(".medi");
+    let after = label.ends_with(".init") || label.ends_with(".medi");
+    let wobble =
+        |factor: u32, range: u32| f64::from(seed * factor % (2 * range + 1)) - f64::from(range);
+    let body = Rect::new(250.0, -60.0 + wobble(3, 40), 360.0, 420.0 + wobble(5, 90)).to_path(0.1);
+    let stroke = |from: f64, to: f64, low: f64, high: f64| {
+        let round = 7.0 * (to - from).signum();
+        let mut path = BezPath::new();
+        path.move_to((from, -5.0));
+        path.line_to((to - round, low));
+        path.curve_to((to, low), (to, low + 4.0), (to, low + 9.0));
+        path.line_to((to, high - 9.0));
+        path.curve_to((to, high - 4.0), (to, high), (to - round, high));
+        path.line_to((from, 65.0));
+        path.close_path();
+        if path.area() > 0.0 {
+            path
+        } else {
+            path.reverse_subpaths()
+        }
+    };
+    let mut contours = vec![body];
+    if after {
+        contours.push(stroke(
+            300.0,
+            wobble(7, 30),
+            wobble(11, 12),
+            62.0 + wobble(13, 12),
+        ));
+    }
+    if before {
+        contours.push(stroke(
+            300.0,
+            600.0 + wobble(17, 30),
+            wobble(19, 12),
+            62.0 + wobble(23, 12),
+        ));
+    }
+    Drawn {
+        label: Label(label.to_owned()),
+        outline: Outline::new(contours).expect("closed contours"),
+        advance: None,
+    }
+}
+
+fn arabic() -> Assembled {
+    let hex = |c: char| format!("{:04X}", u32::from(c));
+    let mut labels: Vec<String> = Vec::new();
+    for c in DUAL.chars().chain(RIGHT.chars()).chain(FINAL.chars()) {
+        let forms: &[&str] = if DUAL.contains(c) {
+            &["", ".init", ".medi", ".fina"]
+        } else {
+            &["", ".fina"]
+        };
+        labels.extend(forms.iter().map(|f| format!("uni{}{f}", hex(c))));
+    }
+    for alef in ALEFS.chars() {
+        labels.extend(["", ".fina"].map(|f| format!("uni0644{}{f}", hex(alef))));
+    }
+    labels.extend(
+        HARAKAT
+            .chars()
+            .chain("ءـ".chars())
+            .map(|c| format!("uni{}", hex(c))),
+    );
+    let shapes = (0..)
+        .zip(&labels)
+        .map(|(seed, label)| drawn(label, seed))
+        .collect();
+    assemble::font(shapes, Info::default(), &Options::default()).expect("a font of these letters")
+}
+
+/// Lower and upper edge of the ink at `x` around a height.
+fn edges(font: &Font, name: &str, x: f64, middle: f64) -> Option<(f64, f64)> {
+    let shape = font.shape(font.glyph(name)?).to_path();
+    let line = Line::new((x, -2000.0), (x, 2000.0));
+    let hits = |s: kurbo::PathSeg| {
+        s.intersect_line(line)
+            .into_iter()
+            .map(move |i| s.eval(i.segment_t).y)
+            .collect::<Vec<_>>()
+    };
+    let ys: Vec<f64> = shape.segments().flat_map(hits).collect();
+    let low = ys
+        .iter()
+        .copied()
+        .filter(|y| *y <= middle)
+        .reduce(f64::max)?;
+    let high = ys
+        .iter()
+        .copied()
+        .filter(|y| *y >= middle)
+        .reduce(f64::min)?;
+    Some((low, high))
+}
+
+/// Checks the join between a glyph and the one to its right; both names in visual order.
+fn check(font: &Font, left: &str, right: &str, middle: f64) {
+    let advance = font.glyph(left).expect("a glyph").advance;
+    let a = edges(font, left, advance - 0.5, middle).expect("a stroke on the right");
+    let b = edges(font, right, 0.5, middle).expect("a stroke on the left");
+    let step = (a.0 - b.0).abs().max((a.1 - b.1).abs());
+    assert!(step <= STEP, "{left} + {right}: {a:?} {b:?}");
+    let inked = |name: &str, x: f64| {
+        let shape = font.shape(font.glyph(name).expect("a glyph")).to_path();
+        shape.winding(Point::new(x, middle)) != 0
+    };
+    assert!(
+        inked(left, advance + 5.0) && inked(right, -5.0),
+        "{left} + {right}: no overlap"
+    );
+}
+
+#[test]
+fn two_hundred_words_join() {
+    let built = arabic();
+    assert!(built.notes.is_empty(), "{:?}", built.notes);
+    let contract = built.joining.contract.expect("joins");
+    let middle = 0.5 * (contract.edges.0 + contract.edges.1);
+    let font = built.font;
+    let otf = single(&font, "otf");
+    let words: Vec<&str> = include_str!("words.txt").split_whitespace().collect();
+    assert_eq!(words.len(), 200);
+    let mut joins = 0;
+    for word in words {
+        let names = set(&font, &otf, word);
+        assert!(!names.iter().any(|n| n == ".notdef"), "{word}: {names:?}");
+        for pair in names.windows(2) {
+            let joins_left = pair[1].ends_with(".init") || pair[1].ends_with(".medi");
+            let joins_right = pair[0].ends_with(".fina") || pair[0].ends_with(".medi");
+            assert_eq!(joins_left, joins_right, "{word}: {pair:?}");
+            if joins_left {
+                check(&font, &pair[0], &pair[1], middle);
+                joins += 1;
+            }
+        }
+    }
+    assert!(joins > 350, "the words have {joins} joins");
+}
+
+#[test]
+fn every_letter_in_every_context() {
+    let font = arabic().font;
+    let otf = single(&font, "otf");
+    for c in DUAL.chars() {
+        let name = format!("uni{:04X}", u32::from(c));
+        let names = set(&font, &otf, &format!("{c}{c}{c} {c}"));
+        let forms: Vec<String> = names.iter().map(|n| n.replace(&name, "")).collect();
+        assert_eq!(forms, ["", "space", ".fina", ".medi", ".init"], "{c}");
+    }
+    for c in RIGHT.chars() {
+        let name = format!("uni{:04X}", u32::from(c));
+        assert_eq!(
+            set(&font, &otf, &format!("{c}ب{c}")),
+            [format!("{name}.fina"), "uni0628.init".to_owned(), name]
+        );
+    }
+    for alef in ALEFS.chars() {
+        let name = format!("uni0644{:04X}", u32::from(alef));
+        // with a vowel sign between the two as well
+        for text in [format!("ل{alef}"), format!("ل\u{64e}{alef}")] {
+            assert!(set(&font, &otf, &text).contains(&name), "{text}");
+        }
+        let joined = set(&font, &otf, &format!("بل{alef}"));
+        assert!(joined.contains(&format!("{name}.fina")), "{joined:?}");
+    }
+}
+
+#[test]
+fn marks_attach_and_take_no_room() {
+    let font = arabic().font;
+    let text = layout::text(&font);
+    for wanted in [
+        "feature mark",
+        "feature mkmk",
+        "ligComponent",
+        "GlyphClassDef",
+        "@mark.bottom",
+    ] {
+        assert!(text.contains(wanted), "{wanted}");
+    }
+    for c in HARAKAT.chars() {
+        let glyph = font
+            .glyphs()
+            .iter()
+            .find(|g| g.codepoints == [c])
+            .expect("a mark");
+        assert!(glyph.advance.abs() < 1e-9, "{}", glyph.name);
+        assert!(
+            glyph.anchors.iter().any(|a| a.name.starts_with('_')),
+            "{}",
+            glyph.name
+        );
+    }
+}
