@@ -2,9 +2,9 @@
 
 use crate::{
     corner,
-    fit::{self, FitError, judge::judge},
+    fit::{self, FitError},
     refine, trace,
-    types::{Contour, Fitted, Gray, Span, Verdict},
+    types::{Contour, Fitted, Gray},
 };
 use kurbo::{Affine, BezPath, PathEl};
 use serde::{Deserialize, Serialize};
@@ -87,40 +87,9 @@ fn fit_contour(
     let fitter = options.fit.fitter();
     let pieces: Result<Vec<Fitted>, FitError> = spans
         .iter()
-        .map(|s| {
-            let fitted = fitter.fit(s, options.tolerance_px)?;
-            Ok(kept(s, fitted, options.tolerance_px))
-        })
+        .map(|s| fitter.fit(s, options.tolerance_px))
         .collect();
     Ok(join(&pieces?))
-}
-
-/// A curve further than this from its span, in tolerances, has lost its way.
-const STRAY: f64 = 8.0;
-
-/// What was fitted, or the span's own polygon where the curve runs away from it.
-fn kept(span: Span<'_>, fitted: Fitted, tolerance_px: f64) -> Fitted {
-    let off = judge(span, &fitted.path);
-    if off.curve.max_px.max(off.points.max_px) <= STRAY * tolerance_px {
-        return fitted;
-    }
-    let points = span.points();
-    let mut path = BezPath::new();
-    for (i, &p) in points.iter().enumerate() {
-        path.push(if i == 0 {
-            PathEl::MoveTo(p)
-        } else {
-            PathEl::LineTo(p)
-        });
-    }
-    if span.is_ring() {
-        path.close_path();
-    }
-    Fitted {
-        path,
-        verdict: Verdict::Exhausted,
-        parameters: 2 * points.len(),
-    }
 }
 
 /// One closed path of the spans' paths in order; each starts where the one before ends.

@@ -12,7 +12,7 @@ mod improve;
 mod piece;
 mod samples;
 
-use super::judge::points_to_curve;
+use super::judge::{judge, points_to_curve};
 use super::{FitError, Fitter};
 use crate::numeric::chain::{Chain, Join, Kind};
 use crate::numeric::refit::{Refit, Sample, Scale};
@@ -43,6 +43,8 @@ const ROBUST: f64 = 4.0;
 const FEW: usize = 16;
 /// Points at each end of an open span that may be outliers: the blur of a corner.
 const BLURRED: usize = 4;
+/// A curve further than this from its span, in tolerances, has lost its way.
+const STRAY: f64 = 8.0;
 /// A line so near to an axis is meant to be parallel to it, radians.
 const UPRIGHT: f64 = 0.006;
 
@@ -61,14 +63,18 @@ impl Fitter for Joint {
         let blurred = if span.is_ring() { 0 } else { BLURRED };
         let inner = points.get(blurred..points.len().saturating_sub(blurred));
         let mut sigma = s.sigma.max(self.least_noise * tolerance_px);
-        let mut path = Self::search(&s, sigma);
+        let keeps = |path: &BezPath| {
+            let max = judge(span, path).max_px();
+            path.is_finite() && max <= STRAY * tolerance_px
+        };
+        let mut path = Self::search(&s, sigma, keeps);
         for _ in 0..TIGHTER {
             let missed = inner.is_some_and(|p| points_to_curve(p, &path.0).max_px > tolerance_px);
             if !missed || sigma <= s.sigma {
                 break;
             }
             sigma *= 0.5;
-            path = Self::search(&s, sigma.max(s.sigma));
+            path = Self::search(&s, sigma.max(s.sigma), keeps);
         }
         let (path, parameters) = path;
         let worst = points_to_curve(&points, &path).max_px;
@@ -93,8 +99,9 @@ impl Fitter for Joint {
 }
 
 impl Joint {
-    /// The path for points of deviation `sigma`, and how many numbers of it were free.
-    fn search(s: &Samples, sigma: f64) -> (BezPath, usize) {
+    /// The path for points of deviation `sigma`, and how many numbers of it were free: the most refined one
+    /// that `keeps` to its span, for a least-squares step can throw a handle far out.
+    fn search(s: &Samples, sigma: f64, keeps: impl Fn(&BezPath) -> bool) -> (BezPath, usize) {
         let marks = candidate::candidates(s);
         let (mut chain, feet) = choose::choose(s, &marks, sigma);
         if chain.nodes.len() < 2 {
@@ -122,6 +129,7 @@ impl Joint {
             refit: Refit::default(),
             stale: Vec::new(),
         };
+        let chosen = work.chain.clone();
         work.loosen();
         work.settle(8, 0.1);
         work.improve();
@@ -130,8 +138,14 @@ impl Joint {
         let near = |k: usize| indices.partition_point(|&i| i < k).min(indices.len() - 1);
         work.feet = (0..all.len()).map(|k| work.feet[near(k)]).collect();
         work.samples = &all;
+        let improved = work.chain.clone();
         work.settle(20, 1e-3);
-        (work.chain.to_path(), work.refit.free(&work.chain))
+        let settled = work.chain.clone();
+        let mut stages = [settled, improved, chosen].into_iter();
+        let kept = stages.find(|chain| keeps(&chain.to_path()));
+        kept.map_or_else(Default::default, |chain| {
+            (chain.to_path(), work.refit.free(&chain))
+        })
     }
 }
 
