@@ -71,6 +71,8 @@ fn help_is_approved() {
         "init",
         "completions",
         "man",
+        "match",
+        "convert",
         "schema",
     ] {
         let args: Vec<&str> = [command, "--help"]

@@ -5,6 +5,7 @@ use harfrust::{ShapeOptions, ShaperData, UnicodeBuffer};
 use khatt::assemble::names;
 use khatt::pipeline::{self, Built, Project, Unwatched, World};
 use khatt::write;
+use kurbo::PathEl;
 use skrifa::{FontRef, GlyphId, MetadataProvider, raw::TableProvider};
 use std::fmt::Write;
 use std::fs;
@@ -75,6 +76,28 @@ fn dump(bytes: &[u8]) -> String {
     out
 }
 
+/// Outlines of a few glyphs, font units to two decimals, a segment a line.
+fn outlines(built: &Built, names: &[&str]) -> String {
+    let mut out = String::new();
+    for name in names {
+        let glyph = built.font.glyph(name).expect("a glyph of the sheet");
+        writeln!(out, "{name}, advance {:.2}", glyph.advance).expect("a String takes everything");
+        for el in glyph.outline.to_path().elements() {
+            let (word, points) = match *el {
+                PathEl::MoveTo(p) => ("move", vec![p]),
+                PathEl::LineTo(p) => ("line", vec![p]),
+                PathEl::QuadTo(a, p) => ("quad", vec![a, p]),
+                PathEl::CurveTo(a, b, p) => ("curve", vec![a, b, p]),
+                PathEl::ClosePath => ("close", vec![]),
+            };
+            let points = points.iter().map(|p| format!(" {:.2},{:.2}", p.x, p.y));
+            writeln!(out, "  {word}{}", points.collect::<String>())
+                .expect("a String takes everything");
+        }
+    }
+    out
+}
+
 /// Glyph names of a shaped text in visual order.
 fn shape(built: &Built, bytes: &[u8], text: &str) -> Vec<String> {
     let font = FontRef::new(bytes).expect("a font");
@@ -102,6 +125,8 @@ fn the_latin_sheet() {
         assert_eq!(glyph.codepoints, [c], "{name}");
         assert!(!glyph.outline.is_empty(), "{name}");
     }
+    let drawn = outlines(&built, &["A", "g", "i", "ampersand"]);
+    approved::check("outlines", "latin", &drawn);
     let metrics = built.font.info.metrics;
     assert!((620.0..690.0).contains(&metrics.cap_height), "{metrics:?}");
     assert!((370.0..430.0).contains(&metrics.x_height), "{metrics:?}");
@@ -118,6 +143,8 @@ fn the_latin_sheet() {
 fn the_arabic_sheets_join() {
     let (built, outputs) = demo("arabic");
     assert_eq!(built.letters.len(), 119);
+    let drawn = outlines(&built, &["uni0628", "uni0639.medi", "uni06440627.fina"]);
+    approved::check("outlines", "arabic", &drawn);
     for ending in ["ttf", "otf"] {
         let bytes = output(&outputs, ending);
         approved::check("fonts", &format!("arabic-{ending}"), &dump(bytes));
