@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 #[derive(Debug)]
 pub(super) struct Band {
     pub(super) index: BTreeMap<(i32, i32), usize>,
-    /// T[i], px, for each boundary point.
+    /// `T_i`, px, for each boundary point.
     pub(super) admissible: Vec<f64>,
 }
 
@@ -39,7 +39,7 @@ impl Band {
     }
 }
 
-/// W[j] [sohel sec. III.C, eq. 13-15]; a polygon's vertices lie within T.
+/// `W_j` [sohel sec. III.C, eq. 13-15]; a polygon's vertices lie within T.
 fn width(kind: Kind, (delta, t_max): (f64, f64), t: f64) -> f64 {
     let rho = f64::from(RUN) * std::f64::consts::SQRT_2;
     let beyond = match kind {
@@ -58,7 +58,7 @@ fn width(kind: Kind, (delta, t_max): (f64, f64), t: f64) -> f64 {
     beyond + t
 }
 
-/// T[i]: `t_max` where the boundary is straight, falling to `t_min` where it turns by 90° within a few px.
+/// `T_i`: `t_max` where the boundary is straight, falling to `t_min` where it turns by 90° within a few px.
 fn admissible(boundary: &[Point], bounds: Bounds) -> Vec<f64> {
     /// Points on each side that a turn is taken over.
     const REACH: usize = 5;

@@ -1,9 +1,9 @@
 //! Boundary → vertices: operational rate-distortion coding of a shape.
 //! Source   [sohel sec. II.B, alg. 1; sec. III.C, eq. 10-15]
-//! Solves   min bits(vertices), each piece of curve within T[i] of the boundary points it passes
+//! Solves   min bits(vertices), each piece of curve within `T_i` of the boundary points it passes
 //! Takes    the closed boundary of a silhouette, whole px; the distortion bounds `t_max` and `t_min`, px
 //! Gives    vertices, their bits, and the curve's `D_max` and `D_ms`
-//! Symbols  B -> `boundary`, C -> `Band`, T[i] -> `admissible`, `MinRate` -> label cost, W[j] -> `width`
+//! Symbols  B -> `boundary`, C -> `Band`, `T_i` -> `admissible`, `MinRate` -> label cost, `W_j` -> `width`
 //! Departs  the paper prints no rate: see [`bits`]. The band holds every whole point within W of the
 //!          boundary, each with its nearest boundary point; T falls from `t_max` to `t_min` as the local
 //!          turn grows. Exact under this code: labels carry both vertices that the future needs

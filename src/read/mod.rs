@@ -2,7 +2,7 @@
 //!
 //! | takes | gives |
 //! |---|---|
-//! | the bytes of a TTF, OTF or WOFF2 ([`font`]), of SVG files ([`svg`]), a UFO folder ([`ufo`]) | [`Reading`]: a [`Font`] and what it could not take along |
+//! | the bytes of a TTF, OTF or WOFF2 ([`font`]), of SVG files ([`svg()`]), a UFO folder ([`ufo()`]) | [`Reading`]: a [`Font`] and what it could not take along |
 //!
 //! Whatever the bytes are, the answer is a font or an error, never a panic.
 

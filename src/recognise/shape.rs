@@ -1,6 +1,6 @@
 //! The shape of a letter as numbers: spots on its pruned lines, where which directions lie, holes, marks.
 //!
-//! Source   [guohall89 sec. 3] for the lines, [chamfer77 sec. 2] for their comparison in [`align`](super::align)
+//! Source   [guohall89 sec. 3] for the lines, [chamfer77 sec. 2] for their comparison in [`super::align`]
 //! Solves   distance = aligned lines + DENSITY · directions' density + holes + marks
 //! Takes    a cell's ink
 //! Gives    a distance from 0, symmetric up to which of two letters is moved onto the other
