@@ -64,6 +64,7 @@ fn help_is_approved() {
     for command in [
         "",
         "build",
+        "sheet",
         "trace",
         "cut",
         "proof",

@@ -1,11 +1,20 @@
 //! Print, draw, photograph, read: pages of the template come back whole from any side.
+#![expect(
+    clippy::disallowed_methods,
+    reason = "the tests play the user, who writes files"
+)]
 
+use crate::cli::{khatt, png, transcript};
+use crate::common::approved;
 use crate::common::camera::Camera;
 use crate::common::moments::Moments;
+use khatt::pipeline::{self, Project, Unwatched, World};
 use khatt::scan::{self, Polarity};
 use khatt::template::{self, Direction, Layout, Page, Paper, Place, TemplateError};
 use khatt::types::Sheet;
 use kurbo::{Affine, BezPath, Circle, Rect, Shape};
+use std::fs;
+use std::path::Path;
 
 /// A flat-bed scanner.
 const FLATBED: Camera = Camera {
@@ -14,6 +23,7 @@ const FLATBED: Camera = Camera {
     quarters: 0,
     tilt: [0.0, 0.0],
     blur: 0.8,
+    gamma: 1.0,
     shade: 0.0,
     jpeg: None,
     seed: 1,
@@ -29,8 +39,8 @@ fn labels(n: usize) -> Vec<(String, String)> {
 fn small() -> Layout {
     Layout {
         paper: Paper::Size(124.0, 160.0),
-        columns: 4,
-        rows: 4,
+        columns: Some(4),
+        rows: Some(4),
         ..Layout::default()
     }
 }
@@ -79,13 +89,19 @@ fn check(layout: &Layout, page: &Page, camera: Camera) {
         let off = found.view.at(mark).distance(truth.at(mark));
         assert!(off < 0.06, "{camera:?}: a mark is {off:.3} px off");
     }
-    let cells = template::cells(&sheet, layout, &found, &page.places);
+    let gain = template::gain(&sheet, layout, &found);
+    let drawings = template::drawings(&sheet, layout, &found, &page.places, gain.as_ref());
     assert_eq!(
-        cells.len(),
+        drawings.len(),
         page.places.len(),
         "{camera:?}: cells are missing"
     );
-    for (cell, place) in cells.iter().zip(&page.places) {
+    for (drawing, place) in drawings.iter().zip(&page.places) {
+        assert!(
+            drawing.inked && !drawing.cut_off && drawing.specks == 0,
+            "{camera:?}: {drawing:?}"
+        );
+        let cell = &drawing.cell;
         let (label, index) = (cell.label.0.as_str(), cell.index);
         let expected = (place.label.as_str(), place.index);
         assert_eq!(
@@ -120,10 +136,10 @@ fn check(layout: &Layout, page: &Page, camera: Camera) {
             cell.gray.height() as f64,
         );
         let seen = cell.to_sheet.transform_rect_bbox(size);
-        let box_px = cell.in_sheet.inset(3.0);
+        let box_px = cell.in_sheet.inset(-3.0);
         assert!(
-            box_px.contains_rect(seen),
-            "{camera:?}: {seen:?} lies outside {box_px:?}"
+            seen.contains_rect(box_px),
+            "{camera:?}: {box_px:?} lies outside {seen:?}"
         );
     }
 }
@@ -173,10 +189,11 @@ fn guides_are_not_ink() {
     .take(page, &[]);
     let sheet = load(&bytes);
     let found = template::find(&sheet, &layout).expect("the page is recognised");
-    for cell in template::cells(&sheet, &layout, &found, &page.places) {
+    for drawing in template::drawings(&sheet, &layout, &found, &page.places, None) {
+        let cell = &drawing.cell;
         let most = cell.gray.samples().iter().fold(0.0f32, |m, &v| m.max(v));
         assert!(
-            most < 0.5,
+            most < 0.5 && !drawing.inked,
             "an empty field of {:?} has ink {most}",
             cell.label
         );
@@ -250,4 +267,310 @@ fn outputs_are_what_they_say() {
     let labels = labels(0);
     let none = template::pages(&layout, Direction::LeftToRight, "x", &labels);
     assert_eq!(none, Err(TemplateError::NoGlyphs));
+}
+
+#[test]
+fn a_sensor_that_makes_ink_bolder_is_seen_through() {
+    let layout = small();
+    let page = &pages(&layout, 8)[0];
+    let drawn: Vec<BezPath> = page
+        .places
+        .iter()
+        .map(|p| onto_page(&layout, p) * letter(p.index))
+        .collect();
+    let camera = Camera {
+        gamma: 1.6,
+        blur: 1.6,
+        ..FLATBED
+    };
+    let (bytes, _) = camera.take(page, &drawn);
+    let sheet = load(&bytes);
+    let found = template::find(&sheet, &layout).expect("the page is recognised");
+    let gain = template::gain(&sheet, &layout, &found).expect("the strip is in view");
+    assert!(gain.spread_mm > 0.03 && gain.level() > 0.6, "{gain:?}");
+    let weight = |gain| {
+        let drawings = template::drawings(&sheet, &layout, &found, &page.places, gain);
+        let off = drawings.iter().zip(&page.places).map(|(d, p)| {
+            Moments::of_cell(&d.cell).area / Moments::of(&letter(p.index)).area - 1.0
+        });
+        off.sum::<f64>() / page.places.len() as f64
+    };
+    let (raw, corrected) = (weight(None), weight(Some(&gain)));
+    assert!(raw > 0.04, "without the margin's word letters weigh {raw}");
+    assert!(corrected.abs() < 0.02, "letters weigh {corrected} more");
+}
+
+/// A project of twenty letters on two pages.
+const PROJECT: &str = r#"
+[font]
+family = "Test Family"
+[template]
+paper = { size = [124.0, 160.0] }
+columns = 4
+rows = 4
+[[sheet]]
+image = IMAGES
+layout = "template"
+glyphs = "A B C D E F G H I J K L M N O P & beh-ar.init ! T"
+[output]
+ttf = "out/test.ttf"
+report = "out/report.json"
+"#;
+
+/// The pages that are printed for a project.
+fn printed(project: &str) -> (Layout, Vec<Page>) {
+    let project = Project::parse(&project.replace("IMAGES", "[]")).expect("a project");
+    let world = World {
+        read: &|path: &Path| Err(format!("{} is not wanted", path.display())),
+        watch: &Unwatched,
+        created: 0,
+    };
+    let pages = pipeline::sheets(&project, world).expect("pages");
+    (project.template, pages)
+}
+
+/// The picture of a page with a letter in every cell.
+fn drawn(layout: &Layout, page: &Page, camera: Camera) -> Vec<u8> {
+    let letters = page.places.iter();
+    let letters: Vec<BezPath> = letters
+        .map(|p| onto_page(layout, p) * letter(p.index))
+        .collect();
+    camera.take(page, &letters).0
+}
+
+/// A picture's file and its bytes.
+type Picture<'a> = (&'a str, &'a [u8]);
+
+/// A folder with the project, whose pages are these pictures.
+fn folder(pictures: &[Picture<'_>]) -> tempfile::TempDir {
+    let dir = tempfile::tempdir().expect("a folder");
+    let names: Vec<&str> = pictures.iter().map(|p| p.0).collect();
+    let text = PROJECT.replace("IMAGES", &format!("{names:?}"));
+    fs::write(dir.path().join("font.toml"), text).expect("a project");
+    for (name, bytes) in pictures {
+        fs::write(dir.path().join(name), bytes).expect("a picture");
+    }
+    dir
+}
+
+#[test]
+fn drawn_pages_become_a_font_whatever_their_order() {
+    let (layout, pages) = printed(PROJECT);
+    let first = drawn(
+        &layout,
+        &pages[0],
+        Camera {
+            dpi: 240.0,
+            quarters: 1,
+            skew_deg: 5.0,
+            jpeg: Some(85),
+            ..FLATBED
+        },
+    );
+    let second = drawn(
+        &layout,
+        &pages[1],
+        Camera {
+            quarters: 2,
+            tilt: [0.05, 0.03],
+            shade: 0.25,
+            ..FLATBED
+        },
+    );
+    let orders: [[Picture<'_>; 2]; 2] = [
+        [("2.png", &second), ("1.jpg", &first)],
+        [("1.jpg", &first), ("2.png", &second)],
+    ];
+    let built = orders.map(|pictures| {
+        let dir = folder(&pictures);
+        let out = khatt(dir.path(), &["build", "font.toml"]);
+        let stderr = String::from_utf8_lossy(&out.stderr).into_owned();
+        assert_eq!(out.status.code(), Some(0), "{stderr}");
+        let report = fs::read(dir.path().join("out/report.json")).expect("a report");
+        let font = fs::read(dir.path().join("out/test.ttf")).expect("a font");
+        (
+            font,
+            serde_json::from_slice::<serde_json::Value>(&report).expect("JSON"),
+        )
+    });
+    assert!(built[0].0 == built[1].0, "the order of the pictures shows");
+    let face = ttf_parser::Face::parse(&built[0].0, 0).expect("a font");
+    for (c, index) in ('A'..='P')
+        .zip(0..)
+        .chain([('&', 16), ('!', 18), ('T', 19)])
+    {
+        let mut outline = Outline(BezPath::new());
+        let id = face.glyph_index(c).expect("a character of the font");
+        face.outline_glyph(id, &mut outline).expect("an outline");
+        let (seen, truth) = (Moments::of(&outline.0), Moments::of(&letter(index)));
+        let weight = seen.area / 1e6 / truth.area - 1.0;
+        assert!(weight.abs() < 0.02, "{c} weighs {weight:.3} more");
+        let size = seen.radius / 1e3 / truth.radius - 1.0;
+        assert!(size.abs() < 0.01, "{c} is {size:.3} larger");
+        let up = seen.centre.y - 1e3 * truth.centre.y;
+        assert!(up.abs() < 5.0, "{c} stands {up:.1} units high");
+    }
+    let pages = built[0].1["pages"].as_array().expect("a list").clone();
+    assert_eq!(pages.len(), 2);
+    for page in pages {
+        assert!(
+            page["blur_mm"]
+                .as_f64()
+                .is_some_and(|b| b > 0.03 && b < 0.2),
+            "{page}"
+        );
+        assert!(
+            page["spread_mm"].as_f64().is_some_and(|s| s.abs() < 0.02),
+            "{page}"
+        );
+    }
+}
+
+/// An outline of a font, font units.
+struct Outline(BezPath);
+
+impl ttf_parser::OutlineBuilder for Outline {
+    fn move_to(&mut self, x: f32, y: f32) {
+        self.0.move_to((f64::from(x), f64::from(y)));
+    }
+    fn line_to(&mut self, x: f32, y: f32) {
+        self.0.line_to((f64::from(x), f64::from(y)));
+    }
+    fn quad_to(&mut self, a: f32, b: f32, x: f32, y: f32) {
+        let (p, q) = ((f64::from(a), f64::from(b)), (f64::from(x), f64::from(y)));
+        self.0.quad_to(p, q);
+    }
+    fn curve_to(&mut self, a: f32, b: f32, c: f32, d: f32, x: f32, y: f32) {
+        let p = [(a, b), (c, d), (x, y)].map(|(x, y)| (f64::from(x), f64::from(y)));
+        self.0.curve_to(p[0], p[1], p[2]);
+    }
+    fn close(&mut self) {
+        self.0.close_path();
+    }
+}
+
+#[test]
+fn wrong_pictures_are_told_apart_and_nothing_is_written() {
+    let scan = Camera {
+        dpi: 150.0,
+        blur: 0.6,
+        ..FLATBED
+    };
+    let (layout, pages) = printed(PROJECT);
+    let [first, second] = [0, 1].map(|i| drawn(&layout, &pages[i], scan));
+    let upside_down = drawn(
+        &layout,
+        &pages[0],
+        Camera {
+            quarters: 2,
+            ..scan
+        },
+    );
+    let (layout, other) = printed(&PROJECT.replace("A B C", "A C B"));
+    let foreign = drawn(&layout, &other[0], scan);
+    let half = {
+        let whole = image::load_from_memory(&first).expect("a picture");
+        let half = whole.crop_imm(0, 0, whole.width(), whole.height() / 2);
+        let mut bytes = std::io::Cursor::new(Vec::new());
+        let written = half.write_to(&mut bytes, image::ImageFormat::Png);
+        written.expect("a picture in memory");
+        bytes.into_inner()
+    };
+    let cat = cat();
+    let cases: [(&str, Vec<Picture<'_>>); 7] = [
+        ("none", vec![]),
+        ("missing", vec![("1.png", &first)]),
+        (
+            "twice",
+            vec![
+                ("1.png", &first),
+                ("2.png", &second),
+                ("3.png", &upside_down),
+            ],
+        ),
+        ("foreign", vec![("1.png", &foreign), ("2.png", &second)]),
+        ("half", vec![("1.png", &half), ("2.png", &second)]),
+        (
+            "cat",
+            vec![("cat.png", &cat), ("1.png", &first), ("2.png", &second)],
+        ),
+        ("text", vec![("1.png", b"no picture"), ("2.png", &second)]),
+    ];
+    for (name, pictures) in cases {
+        let dir = folder(&pictures);
+        let args = ["build", "font.toml"];
+        let out = khatt(dir.path(), &args);
+        assert_eq!(out.status.code(), Some(1), "{name}");
+        assert!(
+            !dir.path().join("out").exists(),
+            "{name}: nothing may be written"
+        );
+        approved::check("cli", &format!("template-{name}"), &transcript(&args, &out));
+    }
+    let dir = folder(&[("2.png", &second), ("1.png", &upside_down)]);
+    let out = khatt(dir.path(), &["build", "font.toml"]);
+    assert_eq!(
+        out.status.code(),
+        Some(0),
+        "upside down: {}",
+        String::from_utf8_lossy(&out.stderr)
+    );
+}
+
+/// A picture that shows no page: a round face with eyes, fur and whiskers before a window.
+fn cat() -> Vec<u8> {
+    png(700, 500, |x, y| {
+        let (x, y) = (f64::from(x), f64::from(y));
+        let grain = 22.0 * ((0.9 * x).sin() * (1.3 * y + 0.4 * x).sin() + (0.37 * x * y).sin());
+        let face = ((x - 350.0) / 190.0).hypot((y - 270.0) / 160.0) < 1.0;
+        let eye = |at: f64| (x - at).hypot(y - 220.0);
+        let eyes = eye(270.0).min(eye(430.0));
+        let light = match eyes {
+            r if r < 14.0 => 20.0,
+            r if r < 40.0 => 170.0,
+            _ if face => 90.0 + 0.1 * y,
+            _ => 130.0 + 0.15 * x,
+        };
+        let whisker = face && (y - 330.0 - 0.2 * (x - 350.0)).abs() < 2.0;
+        let light = if whisker { 230.0 } else { light + grain };
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "0…255 by the clamp"
+        )]
+        let ink = (255.0 - light).clamp(0.0, 255.0) as u8;
+        ink
+    })
+}
+
+#[test]
+fn pages_to_draw_on_are_written_in_every_format() {
+    let dir = folder(&[]);
+    let made = |args: &[&str]| {
+        let out = khatt(dir.path(), args);
+        assert_eq!(
+            out.status.code(),
+            Some(0),
+            "{}",
+            String::from_utf8_lossy(&out.stderr)
+        );
+        out.stdout
+    };
+    made(&["sheet", "font.toml", "-o", "pages.pdf"]);
+    made(&["sheet", "font.toml", "-o", "page.svg"]);
+    made(&["sheet", "font.toml", "-o", "page.png", "--dpi", "100"]);
+    let file = |name: &str| fs::read(dir.path().join(name)).expect("a file");
+    assert_eq!(made(&["sheet", "font.toml", "-o", "-"]), file("pages.pdf"));
+    for n in 1..=2 {
+        assert!(file(&format!("page-{n}.svg")).starts_with(b"<svg"));
+        let picture = image::load_from_memory(&file(&format!("page-{n}.png"))).expect("a PNG");
+        assert_eq!((picture.width(), picture.height()), (488, 630));
+    }
+    let out = khatt(dir.path(), &["sheet", "font.toml", "-o", "page.txt"]);
+    assert_eq!(out.status.code(), Some(1));
+    approved::check(
+        "cli",
+        "sheet-ending",
+        &transcript(&["sheet", "font.toml", "-o", "page.txt"], &out),
+    );
 }

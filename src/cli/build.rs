@@ -113,6 +113,11 @@ fn say(built: &Built, total: Duration, times: &Times) {
     for note in &built.notes {
         eprintln!("note: {}: {}", note.glyph, note.message);
     }
+    for page in &built.pages {
+        for warning in &page.cut.warnings {
+            eprintln!("warning: {}, {warning}", page.name);
+        }
+    }
     for doubt in &built.doubts {
         eprintln!("warning: {doubt}");
     }

@@ -5,8 +5,7 @@ use super::staged::Staged;
 use super::{Common, Outcome};
 use clap::Args;
 use image::{GrayImage, ImageFormat};
-use khatt::pipeline;
-use khatt::scan;
+use khatt::pipeline::{self, Page};
 use khatt::types::{Cell, Files, Gray};
 use kurbo::Rect;
 use serde_json::{Value, json};
@@ -28,7 +27,7 @@ impl Cut {
     pub(crate) fn run(&self, common: &Common) -> Outcome {
         let opened = Opened::new(&self.project)?;
         let (pages, ..) = opened.work(common, |project, world| {
-            pipeline::pages(project, world, |sheet, cut| Ok(page(sheet, &cut)))
+            pipeline::pages(project, world, |page| Ok(entry(&page)))
         })?;
         let (mut files, mut list) = (Files::default(), Vec::new());
         for (pictures, entry) in pages {
@@ -44,8 +43,9 @@ impl Cut {
 }
 
 /// The pictures of a page's cells and its entry in the list.
-fn page((number, sheet): (usize, &str), cut: &scan::Cut) -> (Vec<(String, Vec<u8>)>, Value) {
-    let name = |c: &Cell| format!("{:02}-{:03}.png", number + 1, c.index + 1);
+fn entry(page: &Page) -> (Vec<(String, Vec<u8>)>, Value) {
+    let cut = &page.cut;
+    let name = |c: &Cell| format!("{:02}-{:03}.png", page.table + 1, c.index + 1);
     let pictures = cut.cells.iter().map(|c| (name(c), png(&c.gray)));
     let cells = cut.cells.iter().map(|c| {
         json!({
@@ -62,7 +62,7 @@ fn page((number, sheet): (usize, &str), cut: &scan::Cut) -> (Vec<(String, Vec<u8
         json!({
             "box_px": corners(r.in_sheet),
             "area_px": r.area_px,
-            "reason": format!("{:?}", r.reason).to_lowercase(),
+            "reason": r.reason.to_string(),
         })
     });
     let warnings = cut.warnings.iter().map(|w| {
@@ -72,7 +72,7 @@ fn page((number, sheet): (usize, &str), cut: &scan::Cut) -> (Vec<(String, Vec<u8
         })
     });
     let entry = json!({
-        "sheet": sheet,
+        "sheet": page.name,
         "skew_deg": cut.skew_deg,
         "to_upright": cut.upright.as_coeffs(),
         "cells": cells.collect::<Vec<_>>(),

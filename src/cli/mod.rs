@@ -19,6 +19,7 @@ mod methods;
 mod progress;
 mod project;
 mod proof;
+mod sheet;
 mod shell;
 mod staged;
 mod trace;
@@ -56,6 +57,7 @@ struct Common {
 #[derive(Debug, Subcommand)]
 enum Command {
     Build(build::Build),
+    Sheet(sheet::Sheet),
     Cut(cut::Cut),
     Proof(proof::Proof),
     Trace(trace::Trace),
@@ -91,6 +93,7 @@ pub(crate) fn main() -> ExitCode {
 fn run(args: &Khatt) -> Outcome {
     match &args.command {
         Command::Build(build) => build.run(&args.common),
+        Command::Sheet(sheet) => sheet.run(&args.common),
         Command::Cut(cut) => cut.run(&args.common),
         Command::Proof(proof) => proof.run(&args.common),
         Command::Trace(trace) => trace.run(),

@@ -3,16 +3,15 @@
 use super::labels;
 use super::letter::Letter;
 use super::letters::{self, Doubt};
-use super::page;
+use super::page::{self, Page};
 use super::problem::Problem;
 use super::project::Project;
 use super::watch::{Stage, Watch};
 use crate::assemble::{self, Drawn, Note};
-use crate::scan::Cut;
 use crate::types::{Cell, Font};
 use rayon::prelude::*;
-use std::fmt;
 use std::path::Path;
+use std::{fmt, mem};
 
 /// What a run needs of the world outside.
 #[derive(Clone, Copy)]
@@ -50,6 +49,8 @@ pub struct Built {
     pub font: Font,
     /// The cells' letters in reading order.
     pub letters: Vec<Letter>,
+    /// The pages, their cells taken out: what was found beside them.
+    pub pages: Vec<Page>,
     /// What could not be met.
     pub notes: Vec<Note>,
     /// Cells that look like other letters than their labels say.
@@ -63,7 +64,7 @@ pub struct Built {
 pub fn build(project: &Project, world: World<'_>) -> Result<Built, Vec<Problem>> {
     let (project, mut doubts) = letters::resolve(project, world)?;
     let project = &project;
-    let letters = letters(project, world)?;
+    let (letters, pages) = letters(project, world)?;
     doubts.extend(letters::doubts(project, &letters, world).map_err(|p| vec![p])?);
     let _time = world.watch.enter(Stage::Assemble);
     let drawn: Vec<Result<Drawn, Problem>> = letters
@@ -76,18 +77,20 @@ pub fn build(project: &Project, world: World<'_>) -> Result<Built, Vec<Problem>>
     Ok(Built {
         font: assembled.font,
         letters,
+        pages,
         notes: assembled.notes,
         doubts,
     })
 }
 
-/// The letters of all pages in reading order.
+/// The letters of all pages in reading order, and the pages without their cells.
 ///
 /// # Errors
 /// Everything that is wrong with the project, its pages and their cells.
-fn letters(project: &Project, world: World<'_>) -> Result<Vec<Letter>, Vec<Problem>> {
-    let pages = pages(project, world, |(_, sheet), cut| {
-        let cells = cut.cells;
+fn letters(project: &Project, world: World<'_>) -> Result<(Vec<Letter>, Vec<Page>), Vec<Problem>> {
+    let pages = pages(project, world, |mut page| {
+        let cells = mem::take(&mut page.cut.cells);
+        let sheet = page.name.as_str();
         world.watch.expect(cells.len());
         let letter = |cell: Cell| {
             let letter = Letter::new(sheet, cell, &project.trace, world.watch);
@@ -95,29 +98,30 @@ fn letters(project: &Project, world: World<'_>) -> Result<Vec<Letter>, Vec<Probl
             letter
         };
         // the one place where work is shared out
-        all(cells.into_par_iter().map(letter).collect())
+        let letters = all(cells.into_par_iter().map(letter).collect())?;
+        Ok((letters, page))
     });
-    Ok(pages?.into_iter().flatten().collect())
+    let (letters, pages): (Vec<_>, Vec<_>) = pages?.into_iter().unzip();
+    Ok((letters.into_iter().flatten().collect(), pages))
 }
 
-/// What `work` makes of each page, given its number from 0 and its name, one after the other: only one is in memory.
+/// What `work` makes of each page, one after the other.
 ///
 /// # Errors
 /// Everything that is wrong with the project, its pages and what `work` says of them.
 pub fn pages<T>(
     project: &Project,
     world: World<'_>,
-    work: impl Fn((usize, &str), Cut) -> Result<T, Vec<Problem>>,
+    work: impl Fn(Page) -> Result<T, Vec<Problem>>,
 ) -> Result<Vec<T>, Vec<Problem>> {
     let (project, _) = letters::resolve(project, world)?;
     let project = &project;
     let named = labels::of(project, world)?;
     let sheets = project.sheets.iter().zip(&named);
     let done = sheets.enumerate().map(|(number, (sheet, labels))| {
-        let cut = page::cut(sheet, labels, project.font.units_per_em, world)?;
-        work((number, &sheet.name()), cut)
+        page::each((number, sheet), labels, project, world, &work)
     });
-    all_lists(done.collect())
+    Ok(all_lists(done.collect())?.into_iter().flatten().collect())
 }
 
 /// All values, or all problems.

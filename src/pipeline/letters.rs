@@ -3,12 +3,11 @@
 use super::build::World;
 use super::letter::Letter;
 use super::problem::{Place, Problem};
-use super::project::{Labels, Project, SheetTable};
+use super::project::{Labels, Layout, Project, SheetTable};
 use super::reference::{Script, samples, spelling};
 use super::{labels, page};
 use crate::assemble::names;
 use crate::recognise::{Alphabet, Finding, Guess, Look, Method, Reading, check};
-use crate::scan::Layout;
 use crate::types::{Cell, Label};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
@@ -107,7 +106,7 @@ pub fn match_letters(
     let (mut matched, mut remarks) = (Vec::new(), Vec::new());
     for sheet in &project.sheets {
         let labels = sheet_labels(sheet, world).map_err(|p| vec![p])?;
-        let cells = page::read(sheet, &labels, project.font.units_per_em, world)?.cells;
+        let cells = page::cells(sheet, &labels, project, world)?;
         let guesses = guesses(&cells, &alphabet, project.matching.method);
         if !sheet.glyphs.is_auto() {
             remarks.extend(findings(&sheet.name(), &labels, &cells, &guesses));
@@ -140,7 +139,7 @@ pub(super) fn resolve(
         let sheet = &project.sheets[i];
         if sheet.glyphs.is_auto() {
             let labels = sheet_labels(sheet, world).map_err(|p| vec![p])?;
-            let cells = page::read(sheet, &labels, project.font.units_per_em, world)?.cells;
+            let cells = page::cells(sheet, &labels, &project, world)?;
             let guesses = guesses(&cells, &alphabet, project.matching.method);
             let (labels, unsure) = name(labels.len(), &cells, &guesses);
             let remark = |finding| Doubt {
@@ -207,7 +206,7 @@ pub(super) fn doubts(
         let name = sheet.name();
         let cells = letters
             .iter()
-            .filter(|l| l.sheet == name)
+            .filter(|l| sheet.shows(&l.sheet))
             .map(|l| l.cell.clone());
         let cells: Vec<Cell> = cells.collect();
         let labels = sheet_labels(sheet, world)?;

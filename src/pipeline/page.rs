@@ -1,81 +1,136 @@
-//! One page → its cells.
+//! One table of pages → their cells.
 
 use super::build::World;
 use super::labels::skips;
+use super::printing::Printing;
 use super::problem::{Place, Problem};
-use super::project::SheetTable;
+use super::project::{Layout, Project, SheetTable};
 use super::watch::Stage;
 use crate::scan::{self, Cut};
-use crate::types::{Label, Sheet};
+use crate::template::Gain;
+use crate::types::{Cell, Label, Sheet};
 use std::collections::BTreeSet;
 
-/// The cells of a page in reading order, each with its label.
-///
-/// # Errors
-/// The page cannot be read or cut, or names and drawings do not match.
-pub(super) fn cut(
-    table: &SheetTable,
-    labels: &[Label],
-    units_per_em: u16,
-    world: World<'_>,
-) -> Result<Cut, Vec<Problem>> {
-    let cut = read(table, labels, units_per_em, world)?;
-    let problems = gaps(&table.name(), labels, &cut);
-    if problems.is_empty() {
-        Ok(cut)
-    } else {
-        Err(problems)
-    }
+/// A page and what it was cut into.
+#[derive(Debug, Clone)]
+pub struct Page {
+    /// What messages call it.
+    pub name: String,
+    /// Its table in the project file, from 0.
+    pub table: usize,
+    /// Its cells in reading order, each with its label, and what is in none.
+    pub cut: Cut,
+    /// How its printer and scanner blur and spread black, where its margin tells.
+    pub gain: Option<Gain>,
 }
 
-/// The same with names that have no drawing and drawings that have no name.
+/// What `work` makes of each page of a table. Only one page is in memory at a time, except of a file of several.
 ///
 /// # Errors
-/// The page cannot be read or cut.
-pub(super) fn read(
+/// A page cannot be read or cut, names and drawings do not match, or `work` says so.
+pub(super) fn each<T>(
+    (number, table): (usize, &SheetTable),
+    labels: &[Label],
+    project: &Project,
+    world: World<'_>,
+    work: impl Fn(Page) -> Result<T, Vec<Problem>>,
+) -> Result<Vec<T>, Vec<Problem>> {
+    let checked = |page: Page, wanted: &[(usize, Label)]| {
+        let problems = gaps(&page, wanted);
+        if problems.is_empty() {
+            work(Page {
+                table: number,
+                ..page
+            })
+        } else {
+            Err(problems)
+        }
+    };
+    if table.layout == Layout::Template {
+        return Printing::new(project, table, labels)
+            .map_err(|p| vec![p])?
+            .each(world, checked);
+    }
+    let page = read(table, labels, project.font.units_per_em, world)?;
+    let wanted: Vec<(usize, Label)> = labels.iter().cloned().enumerate().collect();
+    Ok(vec![checked(page, &wanted)?])
+}
+
+/// The cells of a table's pages, also where names have no drawing and drawings have no name.
+///
+/// # Errors
+/// A page cannot be read or cut.
+pub(super) fn cells(
+    table: &SheetTable,
+    labels: &[Label],
+    project: &Project,
+    world: World<'_>,
+) -> Result<Vec<Cell>, Vec<Problem>> {
+    if table.layout == Layout::Template {
+        let printing = Printing::new(project, table, labels).map_err(|p| vec![p])?;
+        let pages = printing.each(world, |page, _| Ok(page.cut.cells))?;
+        return Ok(pages.into_iter().flatten().collect());
+    }
+    Ok(read(table, labels, project.font.units_per_em, world)?
+        .cut
+        .cells)
+}
+
+fn read(
     table: &SheetTable,
     labels: &[Label],
     units_per_em: u16,
     world: World<'_>,
-) -> Result<Cut, Vec<Problem>> {
-    let options = table.cut_options(units_per_em).map_err(|why| {
+) -> Result<Page, Vec<Problem>> {
+    let wrong = |why| {
         let sheet = table.name();
         vec![Problem::Sheet { sheet, why }]
-    })?;
+    };
+    let options = table.cut_options(units_per_em).map_err(wrong)?;
     let sheet = load(table, world).map_err(|p| vec![p])?;
     let page = {
         let _time = world.watch.enter(Stage::Clean);
         scan::clean(sheet).map_err(|e| vec![e.into()])?
     };
     let _time = world.watch.enter(Stage::Cut);
-    scan::cut(&page, labels, &options).map_err(|e| vec![e.into()])
+    let cut = scan::cut(&page, labels, &options).map_err(|e| vec![Problem::from(e)])?;
+    Ok(Page {
+        name: table.name(),
+        table: 0,
+        cut,
+        gain: None,
+    })
 }
 
 /// Names without a letter.
-fn gaps(sheet: &str, labels: &[Label], cut: &Cut) -> Vec<Problem> {
-    let drawn: BTreeSet<usize> = cut.cells.iter().map(|c| c.index).collect();
-    let named = labels.iter().enumerate().filter(|(_, label)| !skips(label));
+fn gaps(page: &Page, wanted: &[(usize, Label)]) -> Vec<Problem> {
+    let drawn: BTreeSet<usize> = page.cut.cells.iter().map(|c| c.index).collect();
+    let named = wanted.iter().filter(|(_, label)| !skips(label));
     let empty = named.filter(|(index, _)| !drawn.contains(index));
     let empty = empty.map(|(index, label)| {
         Problem::Empty(Place {
-            sheet: sheet.to_owned(),
-            index,
+            sheet: page.name.clone(),
+            index: *index,
             label: Some(label.0.clone()),
         })
     });
     empty.collect()
 }
 
-/// The picture that a table names.
+/// The one picture that a table names.
 fn load(table: &SheetTable, world: World<'_>) -> Result<Sheet, Problem> {
-    let _time = world.watch.enter(Stage::Load);
-    let bytes = world.file(&table.image)?;
-    let mut pages = scan::load(&bytes, &table.image.display().to_string(), table.polarity)?;
-    let count = pages.len();
     let wrong = |why: String| Problem::Sheet {
         sheet: table.name(),
         why,
     };
+    let [image] = table.image.as_slice() else {
+        let why = "give one image; only layout = \"template\" takes several, or none before it is scanned";
+        return Err(wrong(why.to_owned()));
+    };
+    let _time = world.watch.enter(Stage::Load);
+    let bytes = world.file(image)?;
+    let mut pages = scan::load(&bytes, &image.display().to_string(), table.polarity)?;
+    let count = pages.len();
     match table.page {
         None if count == 1 => Ok(pages.swap_remove(0)),
         None => Err(wrong(format!(

@@ -6,6 +6,7 @@ use crate::{
     fit::FitError,
     quadratic::QuadraticError,
     scan::ScanError,
+    template::TemplateError,
     types::{Cell, OutlineError},
     write::WriteError,
 };
@@ -60,6 +61,9 @@ pub enum Problem {
     /// A page gives no cells.
     #[error(transparent)]
     Scan(#[from] ScanError),
+    /// A page of the template is none, the wrong one or missing, or none can be printed.
+    #[error(transparent)]
+    Template(#[from] TemplateError),
     /// A table of the project does not fit its page.
     #[error("{sheet}: {why}")]
     Sheet {

@@ -2,13 +2,15 @@
 
 use super::build::Built;
 use super::letter::Letter;
+use super::page::Page;
 use super::problem::{Place, Problem};
 use super::project::GateTable;
 use crate::assemble::{Note, names};
 use crate::numeric::distance::Polyline;
+use crate::template::Gain;
 use crate::trace;
 use crate::types::{Contour, Font, Outline};
-use kurbo::{BezPath, Point, flatten};
+use kurbo::{BezPath, Point, Rect, flatten};
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -24,10 +26,55 @@ pub struct Report {
     pub font: String,
     /// Units an em.
     pub units_per_em: u16,
+    /// A row a page.
+    pub pages: Vec<PageRow>,
     /// A row a drawn glyph, in reading order.
     pub glyphs: Vec<Row>,
     /// What could not be met.
     pub notes: Vec<Remark>,
+}
+
+/// A page.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct PageRow {
+    /// The picture.
+    pub sheet: String,
+    /// Degrees by which the page lay turned clockwise.
+    pub skew_deg: f64,
+    /// Standard deviation of the blur of printer, paper and scanner, mm, where a template's margin tells it.
+    pub blur_mm: Option<f64>,
+    /// How far black reaches beyond its true edge, mm, where a template's margin tells it.
+    pub spread_mm: Option<f64>,
+    /// Coverage at which edges were taken to lie.
+    pub contour_level: f64,
+    /// Ink in no glyph.
+    pub rejected: Vec<Removed>,
+    /// Pieces of ink smaller than any dot, which are in no list.
+    pub specks: usize,
+    /// What to look at.
+    pub warnings: Vec<CellRemark>,
+}
+
+/// A piece of ink in no glyph.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct Removed {
+    /// Left, top, right and bottom in the page's picture, px.
+    pub box_px: [f64; 4],
+    /// px²
+    pub area_px: usize,
+    /// Why.
+    pub reason: String,
+}
+
+/// A remark about a cell.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
+pub struct CellRemark {
+    /// The cell in the page's reading order, from 1, where it is about one.
+    pub cell: Option<usize>,
+    /// What it is said to hold.
+    pub label: Option<String>,
+    /// What is odd and what to do.
+    pub message: String,
 }
 
 /// A glyph.
@@ -80,6 +127,7 @@ impl Report {
             program: format!("khatt {}", env!("CARGO_PKG_VERSION")),
             font: format!("{} {}", info.family, info.style),
             units_per_em: info.units_per_em,
+            pages: built.pages.iter().map(page_row).collect(),
             glyphs: rows.collect(),
             notes: built.notes.iter().map(remark).collect(),
         }
@@ -109,12 +157,40 @@ impl Report {
     }
 }
 
+fn page_row(page: &Page) -> PageRow {
+    let gain = page.gain.as_ref();
+    let removed = page.cut.rejected.iter().map(|r| Removed {
+        box_px: corners(r.in_sheet),
+        area_px: r.area_px,
+        reason: r.reason.to_string(),
+    });
+    let warnings = page.cut.warnings.iter().map(|w| CellRemark {
+        cell: w.index.map(|i| i + 1),
+        label: w.label.as_ref().map(|l| l.0.clone()),
+        message: w.message.clone(),
+    });
+    PageRow {
+        sheet: page.name.clone(),
+        skew_deg: page.cut.skew_deg,
+        blur_mm: gain.map(|g| g.blur_mm),
+        spread_mm: gain.map(|g| g.spread_mm),
+        contour_level: gain.map_or(0.5, Gain::level),
+        rejected: removed.collect(),
+        specks: page.cut.specks,
+        warnings: warnings.collect(),
+    }
+}
+
+/// Left, top, right and bottom.
+const fn corners(r: Rect) -> [f64; 4] {
+    [r.x0, r.y0, r.x1, r.y1]
+}
+
 fn row(built: &Built, compiled: &Font, letter: &Letter) -> Option<Row> {
     let identity = names::identify(&letter.cell.label).ok()?;
     let glyph = built.font.glyph(identity.name.as_str())?;
     let shape = compiled.glyph(identity.name.as_str())?;
     let (max_error, rms_error) = errors(&deviations(&built.font, letter, &shape.outline)?);
-    let b = letter.cell.in_sheet;
     let contours = glyph.outline.contours();
     let nodes = contours.iter().map(|c| c.segments().count());
     Some(Row {
@@ -122,7 +198,7 @@ fn row(built: &Built, compiled: &Font, letter: &Letter) -> Option<Row> {
         text: identity.chars.iter().collect(),
         sheet: letter.sheet.clone(),
         cell: letter.cell.index + 1,
-        box_px: [b.x0, b.y0, b.x1, b.y1],
+        box_px: corners(letter.cell.in_sheet),
         pixels_per_em: letter.cell.guides.px_per_em,
         advance: glyph.advance,
         contours: contours.len(),

@@ -95,8 +95,8 @@ pub fn pages(
 ) -> Result<Vec<Page>, TemplateError> {
     layout.check()?;
     let names: Vec<String> = labels.iter().map(|(l, _)| l.clone()).collect();
-    let id = layout.id(project, &names);
     let places = layout.places(&names, direction);
+    let id = layout.id(project, &places);
     if places.iter().all(Vec::is_empty) {
         return Err(TemplateError::NoGlyphs);
     }
@@ -249,13 +249,14 @@ pub(super) fn guides(layout: &Layout, place: &Place) -> Vec<Line> {
     across.chain(ticks).collect()
 }
 
-struct Joins {
-    left: bool,
-    right: bool,
+/// The sides on which a form joins.
+pub(super) struct Joins {
+    pub(super) left: bool,
+    pub(super) right: bool,
 }
 
 /// The sides on which a joining form meets its neighbours: Arabic runs from the right.
-fn joining(label: &str) -> Joins {
+pub(super) fn joining(label: &str) -> Joins {
     let is = |form| label.split('.').skip(1).any(|s| s == form);
     let medial = is("medi");
     Joins {

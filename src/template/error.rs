@@ -24,7 +24,7 @@ pub enum TemplateError {
     Drawing(String),
     /// Fewer than four ring marks.
     #[error(
-        "{source_name}: found {found} of the 4 ring marks; scan or photograph the whole page, all four corners in view and sharp"
+        "{source_name}: found {found} of the 4 ring marks of a page that khatt sheet prints; scan or photograph the whole page, all four corners in view and sharp"
     )]
     Marks {
         /// the picture
@@ -72,7 +72,7 @@ pub enum TemplateError {
     },
     /// Pages that no picture shows.
     #[error(
-        "page {0} of the template is missing; scan it and add its picture as another [[sheet]]"
+        "no picture shows {0} of the template; print, draw and scan, and add the picture to `image`"
     )]
     Missing(String),
 }

@@ -17,6 +17,8 @@ pub struct Found {
     pub code: Code,
     /// Where it lies in the picture.
     pub view: View,
+    /// Between the black of the marks and their paper, of black against white.
+    pub contrast: f64,
 }
 
 /// Longest side of the reduced picture in which marks are looked for: a mark is then 40 px wide on a page that
@@ -57,13 +59,21 @@ pub fn find(sheet: &Sheet, layout: &Layout) -> Result<Found, TemplateError> {
         let Some(view) = View::through(layout.marks(), turned) else {
             continue;
         };
-        let view = refine(&sheet.gray, layout, view).unwrap_or(view);
+        let Some((view, contrast)) = refine(&sheet.gray, layout, view) else {
+            continue;
+        };
         for text in MODULES
             .iter()
             .filter_map(|&n| read_code(&sheet.gray, layout.code(), &view, n))
         {
             match Code::parse(&text) {
-                Some(code) => return Ok(Found { code, view }),
+                Some(code) => {
+                    return Ok(Found {
+                        code,
+                        view,
+                        contrast,
+                    });
+                }
                 None => foreign = Some(text),
             }
         }
@@ -232,22 +242,26 @@ fn clockwise(mut ring: [Point; 4]) -> [Point; 4] {
     ring
 }
 
-/// The view through the marks' centres of gravity, found at full resolution.
-fn refine(gray: &Gray, layout: &Layout, rough: View) -> Option<View> {
-    let mut view = rough;
+/// The view through the marks' centres of gravity, found at full resolution, and the least of their contrasts.
+fn refine(gray: &Gray, layout: &Layout, rough: View) -> Option<(View, f64)> {
+    let (mut view, mut contrast) = (rough, 0.0);
     for _ in 0..3 {
         let marks = layout.marks();
         let mut centres = marks;
+        contrast = f64::INFINITY;
         for (centre, &mark) in centres.iter_mut().zip(&marks) {
-            *centre = disc_centre(gray, &view, mark)?;
+            let (at, own) = disc_centre(gray, &view, mark)?;
+            *centre = at;
+            contrast = own.min(contrast);
         }
         view = View::through(marks, centres)?;
     }
-    Some(view)
+    Some((view, contrast))
 }
 
-/// Centre of gravity of the disc printed at `mark`, px, with the levels of its own black and white.
-fn disc_centre(gray: &Gray, view: &View, mark: Point) -> Option<Point> {
+/// Centre of gravity of the disc printed at `mark`, px, with the levels of its own black and white, and how far
+/// these lie apart.
+fn disc_centre(gray: &Gray, view: &View, mark: Point) -> Option<(Point, f64)> {
     let near = view.near(mark);
     let back = near.inverse();
     let reach = (RING[1] + RING[2]) / 2.0;
@@ -283,7 +297,7 @@ fn disc_centre(gray: &Gray, view: &View, mark: Point) -> Option<Point> {
         let w = weigh(*v);
         (m + w, s + p.to_vec2() * w)
     });
-    Some((moment / mass).to_point())
+    Some(((moment / mass).to_point(), ink - paper))
 }
 
 /// What the QR code in `square` says, its modules read where the view puts them.

@@ -13,6 +13,8 @@ pub struct Gain {
     pub blur_mm: f64,
     /// How far black reaches beyond its true edge at half coverage, mm; negative where it shrank.
     pub spread_mm: f64,
+    /// Coverage that the scan shows at a true edge: a half without spread.
+    pub edge_level: f64,
     /// Printed width of the ladder's lines and the width that the scan shows, mm.
     pub ladder_mm: Vec<[f64; 2]>,
     /// Coverage that the scan shows where 10, 20 … 90 % is printed.
@@ -23,15 +25,16 @@ pub struct Gain {
 const REACH: f64 = 0.6;
 /// Width of a profile's bin. mm
 const BIN: f64 = 0.02;
+/// How far from a true edge its profile is taken for straight. mm
+const MIDDLE: f64 = 0.05;
 /// The contour's level stays within this of a half: further off, thin strokes break or fill.
 const MOST_SHIFT: f64 = 0.2;
 
 impl Gain {
-    /// The coverage at which a blurred edge crosses its true place: a half without spread.
+    /// The coverage at which contours are to run.
     #[must_use]
     pub fn level(&self) -> f64 {
-        let level = normal_cdf(self.spread_mm / self.blur_mm.max(1e-6));
-        level.clamp(0.5 - MOST_SHIFT, 0.5 + MOST_SHIFT)
+        self.edge_level.clamp(0.5 - MOST_SHIFT, 0.5 + MOST_SHIFT)
     }
 }
 
@@ -41,15 +44,14 @@ pub fn gain(sheet: &Sheet, layout: &Layout, found: &Found) -> Option<Gain> {
     let at = |p: Point| sample(&sheet.gray, found.view.at(p));
     let step = 0.5 / found.view.scale(layout.gain_strip().center());
     let strip = strip(layout);
-    let edges: Option<Vec<[f64; 2]>> = strip
+    let edges: Option<Vec<Edge>> = strip
         .squares
         .iter()
         .flat_map(|&c| (0..4).map(move |k| (c, f64::from(k) * std::f64::consts::FRAC_PI_2)))
         .map(|(centre, turn)| edge(&at, centre, turn + SQUARE.1, step))
         .collect();
     let edges = edges?;
-    let mean = |i: usize| edges.iter().map(|e| e[i]).sum::<f64>() / as_f64(edges.len());
-    let (spread_mm, variance) = (mean(0), mean(1));
+    let mean = |of: fn(&Edge) -> f64| edges.iter().map(of).sum::<f64>() / as_f64(edges.len());
     let (paper, ink) = levels(&at, strip.squares[0]);
     let shade = |p: Point| (at(p) - paper) / (ink - paper);
     let ladder = strip
@@ -59,8 +61,9 @@ pub fn gain(sheet: &Sheet, layout: &Layout, found: &Found) -> Option<Gain> {
         .map(|(r, w)| [w, width(&shade, *r, step)]);
     let tone = strip.wedge.iter().map(|r| patch(&shade, r.inset(-0.8)));
     Some(Gain {
-        blur_mm: variance.max(0.0).sqrt(),
-        spread_mm,
+        blur_mm: mean(|e| e.variance).max(0.0).sqrt(),
+        spread_mm: mean(|e| e.half),
+        edge_level: mean(|e| e.level),
         ladder_mm: ladder.collect(),
         tone: tone.collect(),
     })
@@ -80,15 +83,26 @@ fn levels(at: &impl Fn(Point) -> f64, centre: Point) -> (f64, f64) {
     (paper.iter().sum::<f64>() / 4.0, ink)
 }
 
-/// Place and variance of the edge of a square on the side that `turn` points to, mm and mm².
-fn edge(at: &impl Fn(Point) -> f64, centre: Point, turn: f64, step: f64) -> Option<[f64; 2]> {
+/// How an edge looks.
+struct Edge {
+    /// Where it has half coverage, beyond its true place, mm.
+    half: f64,
+    /// Of its blur, mm².
+    variance: f64,
+    /// Coverage at its true place.
+    level: f64,
+}
+
+/// The edge of a square on the side that `turn` points to.
+fn edge(at: &impl Fn(Point) -> f64, centre: Point, turn: f64, step: f64) -> Option<Edge> {
     let (out, along) = (Vec2::from_angle(turn), Vec2::from_angle(turn).turn_90());
     let bins = floor(2.0 * REACH / BIN);
     let mut sums = vec![[0.0f64; 2]; bins];
     let half = 0.35 * SQUARE.0;
     for i in 0..floor(2.0 * half / step) {
         for k in 0..floor(2.0 * REACH / step) {
-            let d = (as_f64(k) + 0.5) * step - REACH;
+            // the golden section spreads the samples of neighbouring lines over all bins
+            let d = (as_f64(k) + (as_f64(i) * 0.618_034).fract()) * step - REACH;
             let t = (as_f64(i) + 0.5) * step - half;
             let bin = &mut sums[floor((d + REACH) / BIN).min(bins - 1)];
             bin[0] += at(centre + out * (SQUARE.0 / 2.0 + d) + along * t);
@@ -105,17 +119,36 @@ fn edge(at: &impl Fn(Point) -> f64, centre: Point, turn: f64, step: f64) -> Opti
     if profile.len() < 8 || ink - paper < 0.1 {
         return None;
     }
-    let fall = profile.windows(2).map(|p| {
-        [
-            f64::midpoint(p[0][0], p[1][0]),
-            (p[0][1] - p[1][1]) / (ink - paper),
-        ]
-    });
+    let shade: Vec<[f64; 2]> = profile
+        .iter()
+        .map(|[d, v]| [*d, (v - paper) / (ink - paper)])
+        .collect();
+    let fall = shade
+        .windows(2)
+        .map(|p| [f64::midpoint(p[0][0], p[1][0]), p[0][1] - p[1][1]]);
     let (mass, first, second) = fall.fold((0.0, 0.0, 0.0), |(m, a, b), [d, w]| {
         (m + w, a + w * d, b + w * d * d)
     });
     let place = first / mass;
-    Some([place, second / mass - place * place])
+    let half = shade.windows(2).find(|p| p[0][1] >= 0.5 && p[1][1] < 0.5)?;
+    let ([d, v], [e, w]) = (half[0], half[1]);
+    Some(Edge {
+        half: d + (e - d) * (v - 0.5) / (v - w),
+        variance: second / mass - place * place,
+        level: level_at_edge(&shade)?,
+    })
+}
+
+/// Coverage at distance 0 by a straight line through the profile's middle.
+fn level_at_edge(shade: &[[f64; 2]]) -> Option<f64> {
+    let near = || shade.iter().filter(|[d, _]| d.abs() < MIDDLE);
+    let n = near().count();
+    let mean = |i: usize| near().map(|p| p[i]).sum::<f64>() / as_f64(n.max(1));
+    let (d, v) = (mean(0), mean(1));
+    let (xy, xx) = near().fold((0.0, 0.0), |(xy, xx), p| {
+        (xy + (p[0] - d) * (p[1] - v), xx + (p[0] - d) * (p[0] - d))
+    });
+    (n > 2).then(|| v - d * xy / xx.max(1e-12))
 }
 
 /// Mean over a rectangle of the page.
@@ -140,9 +173,4 @@ fn width(shade: &impl Fn(Point) -> f64, line: Rect, step: f64) -> f64 {
             / 20.0
     };
     (0..count).map(across).sum::<f64>() * (to - from) / as_f64(count)
-}
-
-/// Φ, by the logistic curve that fits it to 1.5e-4.
-fn normal_cdf(z: f64) -> f64 {
-    1.0 / (1.0 + (-(0.070_56 * z * z * z + 1.597_6 * z)).exp())
 }

@@ -12,8 +12,10 @@ use std::fmt;
 pub enum Paper {
     /// 210 × 297 mm.
     #[default]
+    #[serde(alias = "A4")]
     A4,
     /// 215.9 × 279.4 mm.
+    #[serde(alias = "Letter")]
     Letter,
     /// Width and height, mm.
     Size(f64, f64),
@@ -25,10 +27,12 @@ pub enum Paper {
 pub struct Layout {
     /// Paper to print on.
     pub paper: Paper,
-    /// Cells in a row, 1…40.
-    pub columns: usize,
-    /// Rows of cells, 1…40.
-    pub rows: usize,
+    /// Cells in a row, 1…40; left out, 8 or as many as `cell_mm` allows.
+    pub columns: Option<usize>,
+    /// Rows of cells, 1…40; left out, 9 or as many as `cell_mm` allows.
+    pub rows: Option<usize>,
+    /// Least width and height of a cell with its caption, mm, where `columns` or `rows` is left out.
+    pub cell_mm: Option<[f64; 2]>,
     /// Size of the em on paper, mm; left out, the largest that fits the cell.
     pub em_mm: Option<f64>,
     /// Guide above the baseline, em.
@@ -47,8 +51,9 @@ impl Default for Layout {
     fn default() -> Self {
         Self {
             paper: Paper::A4,
-            columns: 8,
-            rows: 9,
+            columns: None,
+            rows: None,
+            cell_mm: None,
             em_mm: None,
             ascender: 0.80,
             cap_height: 0.70,
@@ -142,9 +147,14 @@ impl Layout {
                 "it must be 120 × 120 mm to 1200 × 1700 mm",
             );
         }
-        for (option, n) in [("columns", self.columns), ("rows", self.rows)] {
-            if !(1..=40).contains(&n) {
-                return bad(option, n.to_string(), "it must be 1 to 40");
+        if let Some(cell) = self.cell_mm.filter(|c| !c.iter().all(|v| *v >= 3.0)) {
+            let range = "a cell must be at least 3 × 3 mm";
+            return bad("cell_mm", format!("{cell:?}"), range);
+        }
+        for (option, n) in [("columns", self.columns()), ("rows", self.rows())] {
+            if !(1..=MOST).contains(&n) {
+                let range = "it must be 1 to 40, and a page must hold a cell of cell_mm";
+                return bad(option, n.to_string(), range);
             }
         }
         let heights = [
@@ -195,14 +205,30 @@ impl Layout {
         }
     }
 
-    fn pitch(&self) -> Size {
+    /// The part of the page that is divided into cells.
+    fn body(&self) -> Size {
         let paper = self.paper_mm();
+        Size::new(paper.width - 2.0 * SIDE, paper.height - HEAD - FOOT)
+    }
+
+    /// Cells in a row.
+    #[must_use]
+    pub fn columns(&self) -> usize {
+        let fit = self.cell_mm.map(|c| fit(self.body().width, c[0]));
+        self.columns.or(fit).unwrap_or(8)
+    }
+
+    /// Rows of cells.
+    #[must_use]
+    pub fn rows(&self) -> usize {
+        let fit = self.cell_mm.map(|c| fit(self.body().height, c[1]));
+        self.rows.or(fit).unwrap_or(9)
+    }
+
+    fn pitch(&self) -> Size {
         #[expect(clippy::cast_precision_loss, reason = "at most 40")]
-        let (columns, rows) = (self.columns as f64, self.rows as f64);
-        Size::new(
-            (paper.width - 2.0 * SIDE) / columns,
-            (paper.height - HEAD - FOOT) / rows,
-        )
+        let (columns, rows) = (self.columns() as f64, self.rows() as f64);
+        Size::new(self.body().width / columns, self.body().height / rows)
     }
 
     fn field(&self) -> Size {
@@ -222,8 +248,8 @@ impl Layout {
 
     /// Cells a page.
     #[must_use]
-    pub const fn per_page(&self) -> usize {
-        self.columns * self.rows
+    pub fn per_page(&self) -> usize {
+        self.columns() * self.rows()
     }
 
     /// Centres of the four ring marks: top left, top right, bottom right, bottom left.
@@ -274,10 +300,11 @@ impl Layout {
     }
 
     fn place(&self, page: usize, i: usize, label: &str, direction: Direction) -> Place {
-        let (row, column) = (i / self.columns, i % self.columns);
+        let columns = self.columns();
+        let (row, column) = (i / columns, i % columns);
         let column = match direction {
             Direction::LeftToRight => column,
-            Direction::RightToLeft => self.columns - 1 - column,
+            Direction::RightToLeft => columns - 1 - column,
         };
         let (pitch, size) = (self.pitch(), self.field());
         #[expect(clippy::cast_precision_loss, reason = "at most 40")]
@@ -298,21 +325,42 @@ impl Layout {
         }
     }
 
-    /// The identity that every page of a printing carries.
+    /// The identity that every page of a printing carries: from its name and from what stands where, so that
+    /// pages printed once are known as long as these stay the same.
     #[must_use]
-    pub fn id(&self, project: &str, labels: &[String]) -> String {
+    pub fn id(&self, project: &str, places: &[Vec<Place>]) -> String {
         let mut hash = Sha256::new();
-        hash.update(format!("{project}\n{self:?}\n"));
-        for label in labels {
-            hash.update(label);
-            hash.update([0]);
-        }
-        hash.finalize()
+        let paper = self.paper_mm();
+        hash.update(format!(
+            "{project}\n{:.2} {:.2}\n",
+            paper.width, paper.height
+        ));
+        hash.update(format!("{:.2}\n", self.em()));
+        for (page, place) in places
             .iter()
-            .take(4)
-            .map(|b| format!("{b:02X}"))
-            .collect()
+            .zip(1..)
+            .flat_map(|(p, n)| p.iter().map(move |p| (n, p)))
+        {
+            let (f, page): (Rect, usize) = (place.field, page);
+            let field = [f.x0, f.y0, f.x1, f.y1, place.baseline].map(|v| format!("{v:.2}"));
+            hash.update(format!("{page} {} {}\n", place.label, field.join(" ")));
+        }
+        let digits = hash.finalize();
+        digits.iter().take(4).map(|b| format!("{b:02X}")).collect()
     }
+}
+
+/// Cells a page may have in a row or column.
+const MOST: usize = 40;
+
+/// How many cells of at least `cell` mm fit a length.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "the cast saturates, and what is too many is refused by the check"
+)]
+fn fit(length: f64, cell: f64) -> usize {
+    ((length / cell + 1e-9).floor() as usize).min(MOST)
 }
 
 /// The order in which the cells of a row are read.
@@ -381,14 +429,51 @@ mod tests {
     }
 
     #[test]
+    fn a_cells_size_gives_rows_and_columns() {
+        let layout = Layout {
+            cell_mm: Some([25.0, 31.0]),
+            ..Layout::default()
+        };
+        layout.check().unwrap();
+        // 190 × 251 mm of an A4 page
+        assert_eq!((layout.columns(), layout.rows()), (7, 8));
+    }
+
+    #[test]
+    fn a_printing_is_known_by_its_name_and_places() {
+        let labels: Vec<String> = ["a", "b"].map(str::to_owned).to_vec();
+        let id = |layout: &Layout, name: &str, labels: &[String]| {
+            layout.id(name, &layout.places(labels, Direction::LeftToRight))
+        };
+        let layout = Layout::default();
+        let same = Layout {
+            columns: Some(8),
+            ..Layout::default()
+        };
+        let other = Layout {
+            rows: Some(8),
+            ..Layout::default()
+        };
+        let first = id(&layout, "x", &labels);
+        assert_eq!(first, id(&same, "x", &labels));
+        assert_ne!(first, id(&other, "x", &labels));
+        assert_ne!(first, id(&layout, "y", &labels));
+        assert_ne!(first, id(&layout, "x", &labels[..1]));
+    }
+
+    #[test]
     fn bad_layouts_are_named() {
         let bad = [
             Layout {
-                rows: 0,
+                rows: Some(0),
                 ..Layout::default()
             },
             Layout {
-                columns: 41,
+                columns: Some(41),
+                ..Layout::default()
+            },
+            Layout {
+                cell_mm: Some([300.0, 20.0]),
                 ..Layout::default()
             },
             Layout {

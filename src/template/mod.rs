@@ -17,9 +17,10 @@ mod gain;
 mod layout;
 mod lettering;
 mod output;
+mod tile;
 mod view;
 
-pub use cells::cells;
+pub use cells::{Drawing, drawings};
 pub use draw::{Ink, Page, Paint, pages};
 pub use error::TemplateError;
 pub use find::{Found, find};

@@ -74,6 +74,7 @@ fn camera(i: u64) -> Camera {
         quarters: (i % 4) as u32,
         tilt: [held * (2.0 * unit(2) - 1.0), held * (2.0 * unit(3) - 1.0)],
         blur: 0.6 + 0.6 * unit(4),
+        gamma: 1.0,
         shade: 0.35 * unit(5),
         jpeg: Some(70),
         seed: i + 1,
@@ -114,8 +115,9 @@ fn page_rows(
     if found.code != page.code {
         return Err(format!("read as {}", found.code));
     }
-    let cells = template::cells(&sheet[0], layout, &found, &page.places);
-    let read = cells.iter().zip(&page.places);
+    let gain = template::gain(&sheet[0], layout, &found);
+    let drawings = template::drawings(&sheet[0], layout, &found, &page.places, gain.as_ref());
+    let read = drawings.iter().map(|d| &d.cell).zip(&page.places);
     read.map(|(cell, place)| {
         let middle = place.field.center();
         let scale = (found.view.scale(middle) / view.scale(middle) - 1.0).abs();

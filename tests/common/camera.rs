@@ -22,6 +22,8 @@ pub(crate) struct Camera {
     pub(crate) tilt: [f64; 2],
     /// Standard deviation of the lens' blur, px.
     pub(crate) blur: f64,
+    /// What the sensor makes of the light, 1 for its own share: above, edges lie farther out.
+    pub(crate) gamma: f64,
     /// How much darker the dark corner is, share of the light.
     pub(crate) shade: f64,
     /// JPEG quality, or a lossless picture.
@@ -68,7 +70,8 @@ impl Camera {
                 (i / size.x as usize) as f64 / size.y,
             );
             let shade = 1.0 - self.shade * (x + y) / 2.0;
-            let v = (30.0 + 0.82 * f64::from(v)) * shade + 3.0 * rng.normal();
+            let v = 255.0 * (f64::from(v) / 255.0).powf(self.gamma);
+            let v = (30.0 + 0.82 * v) * shade + 3.0 * rng.normal();
             pixel.0 = [v.round().clamp(0.0, 255.0) as u8];
         }
         let mut bytes = std::io::Cursor::new(Vec::new());

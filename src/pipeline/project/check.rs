@@ -4,6 +4,7 @@ use super::SheetTable;
 use serde::de::Error;
 use serde::{Deserialize, Deserializer};
 use std::ops::RangeInclusive;
+use std::path::PathBuf;
 
 /// Units an em that the OpenType specification allows.
 const UNITS_PER_EM: RangeInclusive<u16> = 16..=16384;
@@ -74,6 +75,21 @@ pub(super) fn optional_size<'de, D: Deserializer<'de>>(from: D) -> Result<Option
         Ok(Some(size))
     } else {
         Err(D::Error::custom("must be above 0 and at most 32767"))
+    }
+}
+
+/// A file, or a list of files.
+pub(super) fn one_or_several<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<PathBuf>, D::Error> {
+    #[derive(Deserialize)]
+    #[serde(untagged)]
+    enum Files {
+        One(PathBuf),
+        Several(Vec<PathBuf>),
+    }
+    match Files::deserialize(from) {
+        Ok(Files::One(file)) => Ok(vec![file]),
+        Ok(Files::Several(files)) => Ok(files),
+        Err(_) => Err(D::Error::custom("must be a file or a list of files")),
     }
 }
 

@@ -7,11 +7,11 @@ mod sheet;
 
 pub use font::FontTable;
 pub use parse::ProjectError;
-pub use sheet::{Labels, SheetTable};
+pub use sheet::{Labels, Layout, SheetTable};
 
 use super::picture;
 use crate::write::{FORMATS, Format};
-use crate::{assemble, quadratic, recognise};
+use crate::{assemble, quadratic, recognise, template};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
@@ -24,6 +24,9 @@ pub struct Project {
     /// The pages, in order.
     #[serde(rename = "sheet", deserialize_with = "check::some_sheets")]
     pub sheets: Vec<SheetTable>,
+    /// How pages to draw on are laid out.
+    #[serde(default)]
+    pub template: template::Layout,
     /// How a cell's picture becomes curves.
     #[serde(default)]
     pub trace: picture::Options,

@@ -1,17 +1,19 @@
 //! `[[sheet]]`: a page and what is drawn on it.
 
 use super::check;
-use crate::scan::{Direction, Layout, Options, Order, Polarity, Scale};
+use crate::scan::{self, Direction, Options, Order, Polarity, Scale};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
-/// One picture and what is drawn on it.
+/// A picture and what is drawn on it, or the pictures of all pages of a template.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SheetTable {
-    /// The picture, relative to the project file.
-    pub image: PathBuf,
-    /// Which page of a file that holds several, from 1.
+    /// The picture, relative to the project file; for a template as many as there are, in any order, and none
+    /// before it is scanned.
+    #[serde(default, deserialize_with = "check::one_or_several")]
+    pub image: Vec<PathBuf>,
+    /// Which page of a file that holds several, from 1; a template takes all.
     #[serde(default)]
     pub page: Option<usize>,
     /// How the cells lie on the page.
@@ -44,6 +46,32 @@ pub struct SheetTable {
     pub ascender_to_descender: Option<f64>,
 }
 
+/// How the cells lie on a page.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Layout {
+    /// Equal cells in rows and columns, with or without printed lines between them.
+    Grid(usize, usize),
+    /// Letters in rows on a bare page.
+    Free,
+    /// Printed boxes, each around one letter.
+    Boxes,
+    /// Pages that `khatt sheet` printed: they say themselves what stands where.
+    Template,
+}
+
+impl Layout {
+    /// What the page is cut by; `None` for a template.
+    const fn of_scan(self) -> Option<scan::Layout> {
+        Some(match self {
+            Self::Grid(rows, columns) => scan::Layout::Grid(rows, columns),
+            Self::Free => scan::Layout::Free,
+            Self::Boxes => scan::Layout::Boxes,
+            Self::Template => return None,
+        })
+    }
+}
+
 /// Labels in reading order.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(untagged)]
@@ -69,17 +97,28 @@ impl SheetTable {
     /// What messages call the page.
     #[must_use]
     pub fn name(&self) -> String {
-        let image = self.image.display();
-        match self.page {
-            Some(page) => format!("{image}, page {page}"),
-            None => image.to_string(),
+        let images: Vec<String> = self.image.iter().map(|i| i.display().to_string()).collect();
+        match (self.layout, images.as_slice(), self.page) {
+            (Layout::Template, [], _) => "template".to_owned(),
+            (_, [image], Some(page)) => format!("{image}, page {page}"),
+            _ => images.join(", "),
         }
+    }
+
+    /// Whether a page that messages call `name` is one of this table's.
+    #[must_use]
+    pub fn shows(&self, name: &str) -> bool {
+        let page_of = |image: &PathBuf| {
+            let rest = name.strip_prefix(&image.display().to_string());
+            rest.is_some_and(|r| r.is_empty() || r.starts_with(", page "))
+        };
+        name == self.name() || (self.layout == Layout::Template && self.image.iter().any(page_of))
     }
 
     /// How the page is cut, for a font of so many units an em.
     ///
     /// # Errors
-    /// More than one key says how large the letters are.
+    /// More than one key says how large the letters are, or the page is a template's, which says so itself.
     pub fn cut_options(&self, units_per_em: u16) -> Result<Options, String> {
         let em = f64::from(units_per_em);
         let all = [
@@ -96,17 +135,18 @@ impl SheetTable {
                     .map(|v| Scale::AscenderToDescender(v / em)),
             ),
         ];
-        let given: Vec<(&str, Scale)> = all
-            .into_iter()
-            .filter_map(|(key, scale)| Some((key, scale?)))
-            .collect();
+        let given = all.into_iter();
+        let given: Vec<(&str, Scale)> = given.filter_map(|(k, s)| Some((k, s?))).collect();
         if let [(first, _), (second, _), ..] = given.as_slice() {
             return Err(format!(
                 "{first} and {second} both say how large the letters are; give one"
             ));
         }
+        let Some(layout) = self.layout.of_scan() else {
+            return Err("a template's pages say themselves how they are cut".to_owned());
+        };
         Ok(Options {
-            layout: self.layout,
+            layout,
             direction: self.direction,
             order: self.order,
             scale: given.first().map(|(_, scale)| *scale),

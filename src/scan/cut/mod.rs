@@ -18,6 +18,7 @@ use super::options::{Direction, Layout, Options, Order};
 use crate::types::{Cell, Label};
 use kurbo::{Affine, Point, Rect};
 use rayon::prelude::*;
+use std::fmt;
 
 /// Coverage from which connected ink counts: below the half level, so that thin strokes hold together,
 /// and above printed guides in a light colour.
@@ -85,6 +86,31 @@ pub struct Warning {
     pub label: Option<Label>,
     /// What is odd and what to do.
     pub message: String,
+}
+
+impl fmt::Display for Reason {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Line => "line",
+            Self::Dirt => "dirt",
+            Self::Outside => "outside",
+            Self::Skipped => "skipped",
+            Self::Border => "border",
+        })
+    }
+}
+
+impl fmt::Display for Warning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(index) = self.index {
+            write!(f, "cell {}", index + 1)?;
+            self.label
+                .iter()
+                .try_for_each(|l| write!(f, " “{}”", l.0))?;
+            f.write_str(": ")?;
+        }
+        f.write_str(&self.message)
+    }
 }
 
 impl Warning {

@@ -1,0 +1,247 @@
+//! A template: the pages that are printed for a table of the project, and their pictures once they are drawn on.
+
+use super::build::World;
+use super::labels::{self, skips};
+use super::page::Page;
+use super::problem::Problem;
+use super::project::{Layout, Project, SheetTable};
+use super::watch::Stage;
+use crate::assemble::names;
+use crate::scan::{self, Cut, Direction, Order, Polarity, Warning};
+use crate::template::{self, Drawing, Place, TemplateError};
+use crate::types::{Label, Sheet};
+use kurbo::Affine;
+use std::collections::BTreeMap;
+use std::path::Path;
+
+/// The pages to draw on of a project's templates; of all its glyph lists where it has no template yet.
+///
+/// # Errors
+/// A glyph is not known, stands twice or there is none, or the layout cannot be printed.
+pub fn sheets(project: &Project, world: World<'_>) -> Result<Vec<template::Page>, Vec<Problem>> {
+    let named = labels::of(project, world)?;
+    let tables = || project.sheets.iter().zip(&named);
+    let templates = || tables().filter(|(t, _)| t.layout == Layout::Template);
+    let chosen: Vec<_> = if templates().count() == 0 {
+        tables().collect()
+    } else {
+        templates().collect()
+    };
+    let pages = chosen.into_iter().map(|(table, labels)| {
+        let captions: Vec<(String, String)> =
+            labels.iter().map(|l| (l.0.clone(), caption(l))).collect();
+        let printed = template::pages(
+            &project.template,
+            direction(table),
+            &project.font.family,
+            &captions,
+        );
+        printed.map_err(|e| vec![Problem::from(e)])
+    });
+    let pages: Result<Vec<_>, _> = pages.collect();
+    Ok(pages?.into_iter().flatten().collect())
+}
+
+const fn direction(table: &SheetTable) -> template::Direction {
+    match table.direction {
+        Direction::Ltr => template::Direction::LeftToRight,
+        Direction::Rtl => template::Direction::RightToLeft,
+    }
+}
+
+/// What is printed above a cell: letters and figures as they are, everything else by its name.
+fn caption(label: &Label) -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || matches!(c, '.' | '_' | '-');
+    match names::identify(label) {
+        Ok(identity) if !label.0.chars().all(plain) => identity.name.to_string(),
+        _ => label.0.clone(),
+    }
+}
+
+/// The pages of a table whose layout is `template`.
+pub(super) struct Printing<'a> {
+    table: &'a SheetTable,
+    layout: &'a template::Layout,
+    id: String,
+    pages: Vec<Vec<Place>>,
+}
+
+impl<'a> Printing<'a> {
+    /// Where everything stands.
+    ///
+    /// # Errors
+    /// The layout cannot be printed, or the table says what a template's pages say themselves.
+    pub(super) fn new(
+        project: &'a Project,
+        table: &'a SheetTable,
+        labels: &[Label],
+    ) -> Result<Self, Problem> {
+        let layout = &project.template;
+        layout.check()?;
+        let scales = [
+            table.pixels_per_em,
+            table.em_mm,
+            table.x_height,
+            table.cap_height,
+            table.ascender_to_descender,
+        ];
+        if scales.iter().any(Option::is_some) || table.order != Order::Rows {
+            return Err(Problem::Sheet {
+                sheet: table.name(),
+                why: "a template's pages say themselves how large letters are and in which order: take \
+                      the scale and the order away"
+                    .to_owned(),
+            });
+        }
+        let names: Vec<String> = labels.iter().map(|l| l.0.clone()).collect();
+        let pages = layout.places(&names, direction(table));
+        Ok(Self {
+            table,
+            layout,
+            id: layout.id(&project.font.family, &pages),
+            pages,
+        })
+    }
+
+    /// What `work` makes of each page and the labels that it should hold, in the order of the pages' numbers,
+    /// whatever the order of their pictures.
+    ///
+    /// # Errors
+    /// A picture shows no page of this printing, or one that another shows too; a page is missing; what `work` says.
+    pub(super) fn each<T>(
+        &self,
+        world: World<'_>,
+        work: impl Fn(Page, &[(usize, Label)]) -> Result<T, Vec<Problem>>,
+    ) -> Result<Vec<T>, Vec<Problem>> {
+        let mut seen: BTreeMap<usize, String> = BTreeMap::new();
+        let (mut done, mut problems) = (BTreeMap::new(), Vec::new());
+        for image in &self.table.image {
+            let sheets = self.load(image, world).unwrap_or_else(|p| {
+                problems.push(p);
+                Vec::new()
+            });
+            for sheet in sheets {
+                let (number, page) = match self.page(&sheet, &mut seen, world) {
+                    Ok(page) => page,
+                    Err(problem) => {
+                        problems.push(problem);
+                        continue;
+                    }
+                };
+                match work(page, &self.wanted(number)) {
+                    Ok(value) => drop(done.insert(number, value)),
+                    Err(more) => problems.extend(more),
+                }
+            }
+        }
+        let missing = self.missing(&seen);
+        // a picture that was not recognised is probably the page that seems to be missing
+        if seen.len() + problems.len() < self.pages.len() || problems.is_empty() {
+            problems.extend(missing);
+        }
+        if problems.is_empty() {
+            Ok(done.into_values().collect())
+        } else {
+            Err(problems)
+        }
+    }
+
+    /// The pages of a file, or the one that the table names.
+    fn load(&self, image: &Path, world: World<'_>) -> Result<Vec<Sheet>, Problem> {
+        let _time = world.watch.enter(Stage::Load);
+        let bytes = world.file(image)?;
+        // a page on a dark table is no light ink
+        let polarity = match self.table.polarity {
+            Polarity::Auto => Polarity::DarkInk,
+            given => given,
+        };
+        let mut sheets = scan::load(&bytes, &image.display().to_string(), polarity)?;
+        match self.table.page {
+            None => Ok(sheets),
+            Some(n) if (1..=sheets.len()).contains(&n) => Ok(vec![sheets.swap_remove(n - 1)]),
+            Some(n) => Err(Problem::Sheet {
+                sheet: image.display().to_string(),
+                why: format!("there is no page {n}: the file holds {}", sheets.len()),
+            }),
+        }
+    }
+
+    /// Which page a picture shows, and its cells.
+    fn page(
+        &self,
+        sheet: &Sheet,
+        seen: &mut BTreeMap<usize, String>,
+        world: World<'_>,
+    ) -> Result<(usize, Page), Problem> {
+        let _time = world.watch.enter(Stage::Cut);
+        let found = template::find(sheet, self.layout)?;
+        let source = sheet.source.clone();
+        let places = self.pages.get(found.code.page - 1);
+        let Some(places) = places.filter(|_| found.code.id == self.id) else {
+            return Err(Problem::from(TemplateError::OtherProject {
+                source_name: source,
+                found: found.code.id,
+                expected: self.id.clone(),
+            }));
+        };
+        if let Some(first) = seen.insert(found.code.page, source.clone()) {
+            return Err(Problem::from(TemplateError::Twice {
+                page: found.code.page,
+                first,
+                second: source,
+            }));
+        }
+        let gain = template::gain(sheet, self.layout, &found);
+        let drawings = template::drawings(sheet, self.layout, &found, places, gain.as_ref());
+        let down = found.view.near(self.layout.paper_mm().to_rect().center());
+        let [a, b, ..] = down.as_coeffs();
+        let scale = a.hypot(b);
+        let cut = Cut {
+            warnings: drawings.iter().flat_map(warnings).collect(),
+            specks: drawings.iter().map(|d| d.specks).sum(),
+            cells: drawings
+                .into_iter()
+                .filter(|d| d.inked)
+                .map(|d| d.cell)
+                .collect(),
+            rejected: Vec::new(),
+            skew_deg: b.atan2(a).to_degrees(),
+            upright: Affine::scale(scale) * down.inverse(),
+        };
+        let page = Page {
+            name: source,
+            table: 0,
+            cut,
+            gain,
+        };
+        Ok((found.code.page, page))
+    }
+
+    /// The labels that a page should hold, with their places in the list.
+    fn wanted(&self, number: usize) -> Vec<(usize, Label)> {
+        let places = self.pages.get(number - 1).map_or(&[][..], Vec::as_slice);
+        let labels = places.iter().map(|p| (p.index, Label(p.label.clone())));
+        labels.filter(|(_, l)| !skips(l)).collect()
+    }
+
+    /// The complaint about pages that no picture shows.
+    fn missing(&self, seen: &BTreeMap<usize, String>) -> Option<Problem> {
+        let missing = (1..=self.pages.len()).filter(|n| !seen.contains_key(n));
+        let missing: Vec<String> = missing.map(|n| n.to_string()).collect();
+        let text = match missing.as_slice() {
+            [] => return None,
+            [one] => format!("page {one}"),
+            [most @ .., last] => format!("pages {} and {last}", most.join(", ")),
+        };
+        Some(Problem::from(TemplateError::Missing(text)))
+    }
+}
+
+fn warnings(drawing: &Drawing) -> Option<Warning> {
+    let (label, index) = (drawing.cell.label.clone(), drawing.cell.index);
+    drawing.cut_off.then(|| Warning {
+        index: Some(index),
+        label: Some(label),
+        message: "its ink reaches the frame of its field: what lies beyond is left out".to_owned(),
+    })
+}

@@ -1,0 +1,205 @@
+//! The picture of one field: its light evened, its printed guides and its dust taken out.
+
+use super::find::{as_f64, floor};
+use image::{GrayImage, Luma};
+use imageproc::region_labelling::{Connectivity, connected_components};
+use kurbo::{Line, Rect, Vec2};
+
+/// Between ink and paper must lie at least this share of the contrast that the page's marks have, or the field is
+/// empty: a pencil reaches it, the guides' colour does not.
+const CONTRAST: f64 = 0.25;
+/// A sample below this is paper or guide, above it may be ink: the guides' colour is at most 0.2 grey.
+const SURELY_PAPER: f64 = 0.3;
+/// How far a guide's blur reaches beyond its edge. px
+const BLUR_PX: f64 = 2.5;
+/// Coverage from which connected ink counts: thin strokes hold together.
+const LOW: f64 = 0.33;
+/// Ink smaller than a square of this many stroke widths is dust: a dot is at least a disc of one.
+const DUST: f64 = 0.7;
+/// How far the blurred edge of dust reaches. px
+const RIM: u32 = 2;
+
+/// Samples of a field, row by row.
+pub(super) struct Tile {
+    pub(super) samples: Vec<f64>,
+    pub(super) w: usize,
+    pub(super) h: usize,
+}
+
+impl Tile {
+    /// Makes paper 0 and ink 1, a slope of the light across the field taken out; false where there is no ink.
+    /// `contrast` is that of the page's marks.
+    pub(super) fn normalise(&mut self, contrast: f64) -> bool {
+        let least = CONTRAST * contrast;
+        let (low, high) = (
+            quantile(&self.samples, 0.02),
+            quantile(&self.samples, 0.998),
+        );
+        if high - low < least {
+            return false;
+        }
+        let middle = (low + high) / 2.0;
+        let slope = self.paper_plane(low + (middle - low) * 0.6);
+        let size = Vec2::new(as_f64(self.w), as_f64(self.h));
+        for (i, v) in self.samples.iter_mut().enumerate() {
+            let (x, y) = (as_f64(i % self.w) / size.x, as_f64(i / self.w) / size.y);
+            *v -= slope[0] + slope[1] * x + slope[2] * y;
+        }
+        let half = (high - low) / 2.0;
+        let dark: Vec<f64> = self.samples.iter().copied().filter(|&v| v > half).collect();
+        let ink = quantile(&dark, 0.6);
+        if dark.is_empty() || ink < least {
+            return false;
+        }
+        self.samples.iter_mut().for_each(|v| *v /= ink);
+        true
+    }
+
+    /// Takes out what is smaller than any dot of the drawing's pen; gives the box around the rest, px, and how
+    /// many pieces it took out.
+    pub(super) fn dust(&mut self) -> (Option<Rect>, usize) {
+        let ink = |i: usize| self.samples[i] >= LOW;
+        #[expect(
+            clippy::cast_possible_truncation,
+            reason = "a field is a part of a picture"
+        )]
+        let (w, h) = (self.w as u32, self.h as u32);
+        let bits = GrayImage::from_fn(w, h, |x, y| Luma([u8::from(ink((y * w + x) as usize))]));
+        let labels = connected_components(&bits, Connectivity::Eight, Luma([0]));
+        let mut pieces: Vec<Piece> = Vec::new();
+        for (x, y, Luma([label])) in labels.enumerate_pixels() {
+            let Some(i) = (*label as usize).checked_sub(1) else {
+                continue;
+            };
+            let pixel = Rect::from_origin_size((f64::from(x), f64::from(y)), (1.0, 1.0));
+            let none = Piece {
+                area: 0.0,
+                steps: [0.0; 2],
+                bounds: pixel,
+            };
+            pieces.resize(pieces.len().max(i + 1), none);
+            let alone = |dx: u32, dy: u32| {
+                let next = (x + dx < w && y + dy < h).then(|| bits.get_pixel(x + dx, y + dy).0[0]);
+                f64::from(u8::from(next != Some(1)))
+            };
+            let piece = &mut pieces[i];
+            piece.bounds = if piece.area > 0.0 {
+                piece.bounds.union(pixel)
+            } else {
+                pixel
+            };
+            piece.area += 1.0;
+            piece.steps[0] += 2.0 * alone(1, 0);
+            piece.steps[1] += 2.0 * alone(0, 1);
+        }
+        let largest = pieces.iter().max_by(|a, b| a.area.total_cmp(&b.area));
+        let least = largest
+            .map_or(0.0, |p| (DUST * p.stroke()).powi(2))
+            .max(2.0);
+        let (kept, dust): (Vec<Piece>, Vec<Piece>) = pieces.iter().partition(|p| p.area >= least);
+        let kept_at = |x: u32, y: u32| {
+            let near = |v: u32, n: u32| v.saturating_sub(RIM)..(v + RIM + 1).min(n);
+            let around = near(y, h).flat_map(|b| near(x, w).map(move |a| (a, b)));
+            let labels = around.map(|(a, b)| labels.get_pixel(a, b).0[0] as usize);
+            labels
+                .filter_map(|l| l.checked_sub(1))
+                .any(|i| pieces[i].area >= least)
+        };
+        let mut cleared = Vec::new();
+        for piece in &dust {
+            let rim = piece.bounds.inflate(f64::from(RIM), f64::from(RIM));
+            for y in floor(rim.y0.max(0.0))..floor(rim.y1).min(self.h) {
+                for x in floor(rim.x0.max(0.0))..floor(rim.x1).min(self.w) {
+                    #[expect(clippy::cast_possible_truncation, reason = "inside the field")]
+                    let kept = kept_at(x as u32, y as u32);
+                    cleared.extend((!kept).then_some(y * self.w + x));
+                }
+            }
+        }
+        cleared.into_iter().for_each(|i| self.samples[i] = 0.0);
+        let bounds = kept.iter().map(|p| p.bounds).reduce(|a, b| a.union(b));
+        (bounds, dust.len())
+    }
+
+    /// Puts the edge of ink that has spread back where it was: coverage `level`, at which it lies, becomes a half.
+    pub(super) fn tone(&mut self, level: f64) {
+        let odds = (1.0 - level) / level;
+        for v in self.samples.iter_mut().filter(|v| (0.0..1.0).contains(*v)) {
+            *v = *v * odds / (*v * odds + 1.0 - *v);
+        }
+    }
+
+    /// Level and slopes of the paper, by least squares over the samples below `most`.
+    fn paper_plane(&self, most: f64) -> [f64; 3] {
+        let mut a = nalgebra::Matrix3::zeros();
+        let mut b = nalgebra::Vector3::zeros();
+        for (i, &v) in self.samples.iter().enumerate().filter(|(_, v)| **v < most) {
+            let (x, y) = (
+                as_f64(i % self.w) / as_f64(self.w),
+                as_f64(i / self.w) / as_f64(self.h),
+            );
+            let row = nalgebra::Vector3::new(1.0, x, y);
+            a += row * row.transpose();
+            b += row * v;
+        }
+        let level = if a[(0, 0)] > 0.0 {
+            b[0] / a[(0, 0)]
+        } else {
+            0.0
+        };
+        a.cholesky()
+            .map_or([level, 0.0, 0.0], |c| c.solve(&b).into())
+    }
+
+    /// Takes a level guide out: on each row that it greys, what the paper there has above white is printed,
+    /// and ink over it covers it.
+    pub(super) fn lift(&mut self, line: Line, half_width: f64) {
+        let reach = half_width + BLUR_PX;
+        let (y0, y1) = (
+            floor((line.p0.y - reach).max(0.0)),
+            floor((line.p0.y + reach).max(0.0)) + 1,
+        );
+        let (x0, x1) = (
+            floor(line.p0.x.max(0.0)),
+            floor(line.p1.x.max(0.0)).min(self.w),
+        );
+        for y in y0..y1.min(self.h) {
+            let Some(row) = self.samples.get_mut(y * self.w + x0..y * self.w + x1) else {
+                continue;
+            };
+            let paper: Vec<f64> = row.iter().copied().filter(|&v| v < SURELY_PAPER).collect();
+            if paper.len() * 8 < row.len() {
+                continue;
+            }
+            let grey = quantile(&paper, 0.5).clamp(0.0, SURELY_PAPER);
+            row.iter_mut().for_each(|v| *v = (*v - grey) / (1.0 - grey));
+        }
+    }
+}
+
+/// One connected piece of ink.
+#[derive(Debug, Clone, Copy)]
+struct Piece {
+    area: f64,
+    /// Steps from ink to paper along rows, and along columns.
+    steps: [f64; 2],
+    bounds: Rect,
+}
+
+impl Piece {
+    /// Rough width of its stroke, px: twice the area over the length of its edge.
+    fn stroke(&self) -> f64 {
+        let [a, b] = self.steps;
+        2.0 * self.area / (a.max(b) + a.min(b) / 2.0).max(1.0)
+    }
+}
+
+/// The value below which a share of the values lies; 0 of none.
+fn quantile(values: &[f64], share: f64) -> f64 {
+    let mut v = values.to_vec();
+    if v.is_empty() {
+        return 0.0;
+    }
+    let k = floor(share * as_f64(v.len() - 1)).min(v.len() - 1);
+    *v.select_nth_unstable_by(k, f64::total_cmp).1
+}
