@@ -2,10 +2,10 @@
 //!
 //! Every form that joins is measured where its stroke ends: lower and upper edge a little inside the
 //! tip, where the end's roundness is over. The font's *contract* is the median of both edges over all
-//! of them. Each end is cut square at the measured line and given a tab that reaches across it by half
-//! the overlap; then the stroke is shifted smoothly onto the contract, near its end only. The line
-//! is the end of the advance. So at every join two strokes lie over each other with the same edges: no
-//! gap, and no step beyond what an end was too far away to be moved.
+//! of them, and the stroke is shifted smoothly onto it, near its end only. The measured line is the end of
+//! the advance. The drawn tip reaches across it into the next letter's stroke; where it is shorter than
+//! half the overlap, it is replaced by a square tab of that length. So at every join two strokes lie over
+//! each other with the same edges: no gap, and no step beyond what an end was too far away to be moved.
 
 use super::stroke::{self, Edges, End, Side, Tab, Warp};
 use super::{Draft, Note};
@@ -278,7 +278,7 @@ fn join(draft: &mut Draft, side: Side, end: &End, terms: Terms<'_>) -> (Join, Op
         .iter()
         .enumerate()
         .map(|(i, path)| {
-            let cut = (i == end.contour)
+            let cut = (i == end.contour && end.cut - end.tip < tab.length)
                 .then(|| stroke::square(path, end, side, tab))
                 .flatten();
             warp.contour(cut.as_ref().unwrap_or(path))

@@ -162,11 +162,15 @@ impl Walk {
     }
 }
 
-/// Depths tried until a stroke has its thickness, in multiples of the first.
-const DEPTHS: [f64; 5] = [1.0, 1.5, 2.25, 3.4, 5.0];
+/// Depths tried until the roundness of an end is over: this many, each a quarter of the first further in.
+const DEPTHS: u32 = 17;
 
-/// A stroke has its thickness where it grows by less than this part over a first depth more.
-const GROWTH: f64 = 0.06;
+/// Growth of a stroke's thickness over a first depth that counts as none, part of the thickness.
+const GROWTH: f64 = 0.015;
+
+/// Roundness grows ever less further in. Where the next growth is at least this part of one, the stroke
+/// itself widens.
+const TAPER: f64 = 0.8;
 
 /// Every stroke end on that side: each place that sticks out, measured where its roundness is over,
 /// `depth` inside at least.
@@ -193,11 +197,17 @@ impl Walk {
                 self.cross(tip, cut, side, back)?,
             ))
         };
-        let thickness = |(a, b): (Place, Place)| (a.at.y - b.at.y).abs();
+        let thickness = |inside: f64| at(inside).map(|(a, b)| (a.at.y - b.at.y).abs());
+        let is_over = |inside: f64| {
+            let here = thickness(inside)?;
+            let next = thickness(inside + depth)?;
+            let further = thickness(inside + 2.0 * depth).unwrap_or(f64::INFINITY);
+            Some(next - here <= (GROWTH * here).max((further - next) / TAPER))
+        };
         let mut inside = depth;
-        for times in DEPTHS {
-            inside = depth * times;
-            if thickness(at(inside + depth)?) <= (1.0 + GROWTH) * thickness(at(inside)?) {
+        for quarter in 4..4 + DEPTHS {
+            inside = 0.25 * depth * f64::from(quarter);
+            if is_over(inside)? {
                 break;
             }
         }
@@ -371,6 +381,18 @@ mod tests {
                 "{side:?} {low} {high}"
             );
             assert!(found[0].tip.abs() < 1e-9, "{side:?}");
+        }
+    }
+
+    #[test]
+    fn an_end_is_measured_where_its_roundness_is_over() {
+        // a pen's tip, 26 out of the full thickness, on a straight and on a widening stroke
+        let straight = "M0 0L-10 0L-21 51L-26 77L-16 86L-10 91L0 90L200 90L200 0Z";
+        let widening = "M0 0L-10 0L-21 51L-26 77L-16 86L-10 91L0 90L200 130L200 0Z";
+        for (svg, least, most) in [(straight, 16.0, 30.0), (widening, 12.0, 30.0)] {
+            let end = &ends(&[BezPath::from_svg(svg).unwrap()], Side::Left, 12.0)[0];
+            let depth = end.cut - end.tip;
+            assert!((least..most).contains(&depth), "{svg}: {depth}");
         }
     }
 
