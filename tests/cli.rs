@@ -11,12 +11,15 @@ use std::process::{Command, Output};
 
 /// Runs the program in `folder`.
 pub(crate) fn khatt(folder: &Path, args: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_khatt"))
-        .args(args)
-        .current_dir(folder)
-        .env_remove("SOURCE_DATE_EPOCH")
-        .output()
-        .expect("the program runs")
+    command(folder, args).output().expect("the program runs")
+}
+
+/// The program with these arguments in `folder`, told no date.
+pub(crate) fn command(folder: &Path, args: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_khatt"));
+    command.args(args).current_dir(folder);
+    command.env_remove("SOURCE_DATE_EPOCH");
+    command
 }
 
 /// Status, standard output and standard error as one text.

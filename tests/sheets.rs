@@ -4,8 +4,9 @@
     reason = "the tests play the user, who writes files"
 )]
 
-use crate::cli::{khatt, png, transcript};
+use crate::cli::{command, khatt, png, transcript};
 use crate::common::approved;
+use skrifa::{FontRef, raw::TableProvider};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
@@ -116,6 +117,32 @@ fn a_page_becomes_every_output_and_again_the_same_bytes() {
     let left = files(dir.path());
     let stray: Vec<_> = left.keys().filter(|k| k.contains(".khatt-")).collect();
     assert!(stray.is_empty(), "{stray:?}");
+}
+
+#[test]
+fn the_date_is_the_one_that_reproducible_builds_ask_for() {
+    let dir = project(LETTERS, &page(&[]));
+    let build = |date: &str| {
+        let mut command = command(dir.path(), &["build", "font.toml", "--quiet"]);
+        command.env("SOURCE_DATE_EPOCH", date);
+        command.output().expect("the program runs")
+    };
+    let wrong = build("yesterday");
+    assert_eq!(wrong.status.code(), Some(1));
+    let stderr = String::from_utf8_lossy(&wrong.stderr);
+    assert!(stderr.contains("SOURCE_DATE_EPOCH"), "{stderr}");
+    assert!(!dir.path().join("out").exists(), "something was written");
+
+    assert_eq!(build("1700000000").status.code(), Some(0));
+    // OpenType counts from 1904, the epoch from 1970
+    let wanted = 1_700_000_000 + 2_082_844_800;
+    for name in ["out/test.ttf", "out/test.otf"] {
+        let bytes = fs::read(dir.path().join(name)).expect("a font");
+        let font = FontRef::new(&bytes).expect("a font");
+        let head = font.head().expect("head");
+        assert_eq!(head.created().as_secs(), wanted, "{name}");
+        assert_eq!(head.modified().as_secs(), wanted, "{name}");
+    }
 }
 
 #[test]

@@ -69,7 +69,7 @@ pub struct Drawn {
 #[serde(default, deny_unknown_fields)]
 pub struct Options {
     /// Room beside letters.
-    pub spacing: spacing::Room,
+    pub letters: spacing::Room,
     /// How pairs of letters are drawn together.
     pub kerning: kerning::Options,
     /// How the strokes of joined letters meet.

@@ -164,14 +164,14 @@ pub(super) fn set(drafts: &mut [Draft], info: &Info, stroke: Option<f64>, option
         em,
         rhythm,
         stroke,
-        room: &options.spacing,
+        room: &options.letters,
     };
     for draft in drafts.iter_mut() {
         let (left, right) = terms.ends(draft);
         draft.outline = draft.outline.transformed(Affine::translate((-left, 0.0)));
         draft.advance = (right - left).max(0.0).round();
     }
-    if options.spacing.figures == Figures::Tabular {
+    if options.letters.figures == Figures::Tabular {
         tabular(drafts);
     }
 }
