@@ -74,9 +74,16 @@ impl Fitter for Joint {
                 break;
             }
             sigma *= 0.5;
-            path = Self::search(&s, sigma.max(s.sigma), keeps);
+            let tighter = Self::search(&s, sigma.max(s.sigma), keeps);
+            if tighter.0.elements().is_empty() {
+                break;
+            }
+            path = tighter;
         }
         let (path, parameters) = path;
+        if path.elements().is_empty() && points.len() > 2 * FEW {
+            return self.halves(span, turned, tolerance_px);
+        }
         let worst = points_to_curve(&points, &path).max_px;
         let hopeless = worst > tolerance_px && points.len() <= FEW;
         if !worst.is_finite() || !path.is_finite() || hopeless {
@@ -99,6 +106,37 @@ impl Fitter for Joint {
 }
 
 impl Joint {
+    /// A span that no chain keeps to, for rough paper or a brush's edge, is fit as two.
+    fn halves(&self, span: Span<'_>, turned: bool, tolerance_px: f64) -> Result<Fitted, FitError> {
+        let mut points = span.points().to_vec();
+        if span.is_ring() {
+            points.extend(span.points().first().copied());
+        }
+        let (first, _) = points.split_at(points.len() / 2 + 1);
+        let (_, last) = points.split_at(points.len() / 2);
+        let first = self.fit(Span::Open(first), tolerance_px)?;
+        let last = self.fit(Span::Open(last), tolerance_px)?;
+        let mut path = first.path;
+        path.extend(last.path.elements().iter().skip(1).copied());
+        if span.is_ring() {
+            path.close_path();
+        }
+        let met = first.verdict == Verdict::Met && last.verdict == Verdict::Met;
+        Ok(Fitted {
+            path: if turned {
+                path.reverse_subpaths()
+            } else {
+                path
+            },
+            verdict: if met {
+                Verdict::Met
+            } else {
+                Verdict::Exhausted
+            },
+            parameters: first.parameters + last.parameters,
+        })
+    }
+
     /// The path for points of deviation `sigma`, and how many numbers of it were free: the most refined one
     /// that `keeps` to its span, for a least-squares step can throw a handle far out.
     fn search(s: &Samples, sigma: f64, keeps: impl Fn(&BezPath) -> bool) -> (BezPath, usize) {

@@ -141,3 +141,38 @@ fn leaving(seg: &PathSeg) -> Vec2 {
         other => other.end() - other.start(),
     }
 }
+
+#[test]
+fn a_rough_edge_is_not_its_own_polygon() {
+    // a pen's stroke of 300 px whose edge wanders by a pixel in no regular way, with whiskers of 4 px
+    let mut seed = 12_345_u32;
+    let mut noise = || {
+        seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        f64::from(seed >> 16) / 65_536.0 - 0.5
+    };
+    for turn in 0..12 {
+        let bend = 0.004 * f64::from(turn);
+        let mut drift = 0.0;
+        let points: Vec<Point> = (0..300)
+            .map(|i| {
+                drift = 0.9 * drift + noise();
+                let whisker = if noise() > 0.47 { 4.0 } else { 0.0 };
+                let x = f64::from(i);
+                Point::new(x, 40.0 * (bend * x).sin() + drift + whisker)
+            })
+            .collect();
+        for span in [Span::Open(&points), Span::Ring(&points)] {
+            let fitted = Joint::default().fit(span, 0.5).unwrap();
+            let segments = fitted.path.segments().count();
+            assert!(segments < points.len() / 2, "{turn}: {segments} segments");
+            let ends = (fitted.path.segments().next(), fitted.path.segments().last());
+            let (first, last) = (ends.0.unwrap().start(), ends.1.unwrap().end());
+            let closed = if span.is_ring() {
+                first
+            } else {
+                points[points.len() - 1]
+            };
+            assert!(last.distance(closed) < 1e-9, "{turn}: {last} {closed}");
+        }
+    }
+}
