@@ -51,14 +51,26 @@ const UPRIGHT: f64 = 0.006;
 impl Fitter for Joint {
     fn fit(&self, span: Span<'_>, tolerance_px: f64) -> Result<Fitted, FitError> {
         let (points, turned) = canonical(span);
+        let canonical = match span {
+            Span::Open(_) => Span::Open(&points),
+            Span::Ring(_) => Span::Ring(&points),
+        };
+        let mut fitted = self.walk(canonical, tolerance_px)?;
+        if turned {
+            fitted.path = fitted.path.reverse_subpaths();
+        }
+        Ok(fitted)
+    }
+}
+
+impl Joint {
+    /// Fits a span in the order in which it stands.
+    fn walk(&self, span: Span<'_>, tolerance_px: f64) -> Result<Fitted, FitError> {
+        let points = span.points();
         let length: f64 = points.windows(2).map(|w| w[0].distance(w[1])).sum();
         if points.len() < 3 || length <= 0.0 {
             return Ok(polygon(span));
         }
-        let span = match span {
-            Span::Open(_) => Span::Open(&points),
-            Span::Ring(_) => Span::Ring(&points),
-        };
         let s = Samples::new(span);
         let blurred = if span.is_ring() { 0 } else { BLURRED };
         let inner = points.get(blurred..points.len().saturating_sub(blurred));
@@ -82,19 +94,15 @@ impl Fitter for Joint {
         }
         let (path, parameters) = path;
         if path.elements().is_empty() && points.len() > 2 * FEW {
-            return self.halves(span, turned, tolerance_px);
+            return self.halves(span, tolerance_px);
         }
-        let worst = points_to_curve(&points, &path).max_px;
+        let worst = points_to_curve(points, &path).max_px;
         let hopeless = worst > tolerance_px && points.len() <= FEW;
         if !worst.is_finite() || !path.is_finite() || hopeless {
             return Ok(polygon(span));
         }
         Ok(Fitted {
-            path: if turned {
-                path.reverse_subpaths()
-            } else {
-                path
-            },
+            path,
             verdict: if worst <= tolerance_px {
                 Verdict::Met
             } else {
@@ -103,11 +111,9 @@ impl Fitter for Joint {
             parameters,
         })
     }
-}
 
-impl Joint {
     /// A span that no chain keeps to, for rough paper or a brush's edge, is fit as two.
-    fn halves(&self, span: Span<'_>, turned: bool, tolerance_px: f64) -> Result<Fitted, FitError> {
+    fn halves(&self, span: Span<'_>, tolerance_px: f64) -> Result<Fitted, FitError> {
         let mut points = span.points().to_vec();
         if span.is_ring() {
             points.extend(span.points().first().copied());
@@ -123,11 +129,7 @@ impl Joint {
         }
         let met = first.verdict == Verdict::Met && last.verdict == Verdict::Met;
         Ok(Fitted {
-            path: if turned {
-                path.reverse_subpaths()
-            } else {
-                path
-            },
+            path,
             verdict: if met {
                 Verdict::Met
             } else {
