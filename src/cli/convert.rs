@@ -6,7 +6,7 @@ use super::{Common, Outcome, files};
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 use khatt::pipeline::convert::{Options, Outlines, convert};
-use khatt::quadratic::Method;
+use khatt::quadratic::{Method, rate::Strictness};
 use khatt::read::{self, Reading};
 use khatt::write::{FORMATS, Format, format};
 use std::ffi::OsStr;
@@ -28,6 +28,9 @@ pub(crate) struct Convert {
     /// How cubics become quadratics; `khatt methods` lists the ways
     #[arg(long, value_name = "METHOD", hide_possible_values = true, value_parser = PossibleValuesParser::new(Method::all().iter().map(Method::key)))]
     quadratic: Option<String>,
+    /// What the conversion with fewest bytes keeps beside the shape: extrema, or corners alone
+    #[arg(long, value_name = "WHAT", requires = "quadratic", value_parser = ["extrema", "corners"])]
+    keep: Option<String>,
     /// Convert outlines that the format could store as they are, too
     #[arg(long)]
     optimize: bool,
@@ -109,6 +112,11 @@ impl Convert {
             .find(|m| self.quadratic.as_deref() == Some(m.key()))
         {
             options.quadratic = method;
+        }
+        if let (Method::Rate(rate), Some("corners")) =
+            (&mut options.quadratic, self.keep.as_deref())
+        {
+            rate.keep = Strictness::Corners;
         }
         if self.optimize {
             options.outlines = Outlines::All;

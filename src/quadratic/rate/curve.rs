@@ -60,7 +60,6 @@ pub(super) struct Curve {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Keep {
     pub(super) corner_rad: f64,
-    pub(super) extrema: bool,
     pub(super) tolerance: f64,
     /// Shortest line that stays a line, units.
     pub(super) line: f64,
@@ -145,11 +144,14 @@ impl Course {
 
 impl Curve {
     fn sampled(segs: &[PathSeg], tolerance: f64) -> Self {
+        /// Samples lie no farther apart, units: a bend tighter than that is a corner of the grid.
+        const FINE: f64 = 0.4;
+        let spacing = tolerance.min(FINE);
         let mut table: Vec<(f64, usize, f64)> = Vec::new();
         let mut length = 0.0;
         for (i, seg) in segs.iter().enumerate() {
             let rough = control_length(seg);
-            let m = (rough / (0.5 * tolerance)).ceil().clamp(8.0, 4000.0);
+            let m = (rough / (0.5 * spacing)).ceil().clamp(8.0, 4000.0);
             let mut last = seg.eval(0.0);
             table.push((length, i, 0.0));
             let mut j = 1.0;
@@ -161,7 +163,7 @@ impl Curve {
                 j += 1.0;
             }
         }
-        let n = whole((length / tolerance).ceil().clamp(16.0, 60_000.0));
+        let n = whole((length / spacing).ceil().clamp(16.0, 60_000.0));
         let step = length / count(n);
         let (mut p, mut t, mut at) = (Vec::with_capacity(n + 1), Vec::with_capacity(n + 1), 0);
         for i in 0..=n {
@@ -229,9 +231,7 @@ impl Curve {
             .collect();
         (curve.first, curve.last) = (beyond[0], beyond[0] + p.len() - 1);
         curve.bend();
-        if keep.extrema {
-            curve.gates = curve.extrema(keep.least);
-        }
+        curve.gates = curve.extrema(keep.least);
         curve
     }
 
@@ -247,9 +247,7 @@ impl Curve {
         curve.t = (0..=n + 2 * pad).map(|i| curve.t[from(i)]).collect();
         (curve.first, curve.last) = (pad, pad + n);
         curve.bend();
-        if keep.extrema {
-            curve.gates = curve.extrema(keep.least);
-        }
+        curve.gates = curve.extrema(keep.least);
         let level = Stored::on(curve.p[pad]).y;
         let gate = Gate {
             at: pad,
@@ -300,6 +298,9 @@ impl Curve {
         for _ in 0..6 {
             let r = q - self.p[j];
             along = r.dot(self.t[j]) * per;
+            if along.abs() <= 1.0 {
+                break;
+            }
             let next = if along >= 0.0 {
                 (j + whole(along + 0.5)).min(last)
             } else {
@@ -329,51 +330,64 @@ impl Curve {
         until: f64,
         limit: f64,
     ) -> Option<Followed> {
-        /// Parameters at which a quadratic is measured, the likeliest place of failure first.
-        const LOOK: [f64; 7] = [0.5, 0.25, 0.75, 0.12, 0.88, 0.37, 0.63];
+        /// Places at which a quadratic is measured, in eighths, the likeliest failure first.
+        const LOOK: [usize; 7] = [4, 2, 6, 1, 7, 3, 5];
+        /// The curve's arc between two feet may be so many times the quadratic's mean.
+        const DETOUR: f64 = 1.0;
+        /// A foot may lie so many limits behind the start or beyond the end: what rounding moves it.
+        const BEYOND: f64 = 0.6;
+        let beyond = BEYOND * limit / self.step;
         let (ca, bc) = (c - a, b - c);
         let chord = ca.hypot() + bc.hypot();
-        let (end, d) = self.foot(b, from + chord / self.step);
-        if d.abs() > limit || end > until + 0.5 || end <= from {
+        // Between its chord and its legs, as a quadratic's arc does.
+        let arc = (2.0 * a.distance(b) + chord) / 3.0;
+        let (end, d) = self.foot(b, from + arc / self.step);
+        if d.abs() > limit || end > until + beyond || end <= from {
             return None;
         }
         let mut worst = d.abs();
-        for u in LOOK {
+        let mut feet = [from; 9];
+        feet[8] = end;
+        for i in LOOK {
+            let u = 0.125 * count(i);
             let q = a + ca * (2.0 * u * (1.0 - u) + u * u) + bc * (u * u);
             // Arc length along a quadratic grows about as a blend of its two legs.
             let part = (2.0 * u - u * u) * ca.hypot() + u * u * bc.hypot();
             let (at, d) = self.foot(q, from + (end - from) * part / chord.max(1e-9));
             worst = worst.max(d.abs());
-            if worst > limit || at < from - 0.6 || at > end + 0.6 {
+            if worst > limit || at < from - beyond || at > end + beyond {
                 return None;
             }
+            feet[i] = at;
         }
-        Some(Followed { at: end, worst })
+        // A bend that the quadratic leaves out: the curve goes on much farther than the quadratic does.
+        let longest = 0.25 * DETOUR * chord + 2.0 * limit;
+        let skips = feet.windows(2).any(|f| (f[1] - f[0]) * self.step > longest);
+        (!skips).then_some(Followed { at: end, worst })
     }
 
     /// The largest distance, units, either way, between a quadratic and the samples from `from` to `to`.
     pub(super) fn strays(&self, quad: QuadBez, from: f64, to: f64) -> f64 {
         /// Chords that stand for a quadratic.
         const CHORDS: usize = 32;
+        /// Chords that are looked at beyond the one nearest to the sample before.
+        const AHEAD: usize = 6;
         let dots: Vec<Point> = (0..=CHORDS)
             .map(|i| quad.eval(count(i) / count(CHORDS)))
             .collect();
         let (mut worst, mut at): (f64, f64) = (0.0, from);
         for pair in dots.windows(2) {
-            let (foot, d) = self.foot(pair[1], at + pair[0].distance(pair[1]) / self.step);
-            (worst, at) = (worst.max(d.abs()), foot);
+            at = self
+                .foot(pair[1], at + pair[0].distance(pair[1]) / self.step)
+                .0;
+            let near = whole(at).min(self.p.len() - 1);
+            let around = &self.p[near.saturating_sub(2)..(near + 4).min(self.p.len())];
+            worst = worst.max(beside(pair[1], around, 0, around.len()).1);
         }
-        let off = |q: Point, k: usize| {
-            let (a, v) = (dots[k], dots[k + 1] - dots[k]);
-            let u = ((q - a).dot(v) / v.hypot2().max(1e-12)).clamp(0.0, 1.0);
-            (a + v * u).distance_squared(q)
-        };
         let mut k = 0;
         for q in &self.p[whole(from.ceil().max(0.0))..=whole(to.max(0.0)).min(self.p.len() - 1)] {
-            while k + 1 < CHORDS && off(*q, k + 1) <= off(*q, k) {
-                k += 1;
-            }
-            worst = worst.max(off(*q, k).sqrt());
+            let (nearest, d) = beside(*q, &dots, k, AHEAD);
+            (k, worst) = (nearest, worst.max(d));
         }
         worst
     }
@@ -394,6 +408,20 @@ impl Curve {
                 .collect(),
         )
     }
+}
+
+/// The chord of a polygon nearest to a point, of `many` from `first` on, and its distance.
+fn beside(q: Point, dots: &[Point], first: usize, many: usize) -> (usize, f64) {
+    let off = |pair: &[Point]| {
+        let (a, v) = (pair[0], pair[1] - pair[0]);
+        let u = ((q - a).dot(v) / v.hypot2().max(1e-12)).clamp(0.0, 1.0);
+        (a + v * u).distance_squared(q)
+    };
+    let chords = dots.windows(2).enumerate().skip(first).take(many);
+    let nearest = chords
+        .map(|(k, pair)| (k, off(pair)))
+        .min_by(|a, b| a.1.total_cmp(&b.1));
+    nearest.map_or((first, 0.0), |(k, d)| (k, d.sqrt()))
 }
 
 /// Leaves the extrema that rise at least `least` over both neighbours; ends count as neighbours.

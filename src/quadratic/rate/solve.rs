@@ -47,6 +47,8 @@ fn open(curve: &Curve, effort: Effort, from: Node, to: Node) -> Option<Vec<Join>
     const WIDER: [(f64, f64); 3] = [(1.0, 1.0), (4.0, 1.0), (6.0, 2.0)];
     /// Factor on the limit after a path that was within it only where the search looked.
     const TIGHTER: f64 = 0.95;
+    /// Part of the limit that the dense measure may use: it looks between its samples no closer.
+    const SURE: f64 = 0.998;
     let most = effort.limit;
     let mut limit = most;
     for (slack, grain) in WIDER {
@@ -61,7 +63,7 @@ fn open(curve: &Curve, effort: Effort, from: Node, to: Node) -> Option<Vec<Join>
             let ends = search.run(Start::Node(from));
             let Some(&id) = ends.first() else { break };
             let joins = search.path(id);
-            if strays(curve, &joins) <= most {
+            if strays(curve, &joins) <= SURE * most {
                 return Some(joins);
             }
             limit *= TIGHTER;

@@ -15,7 +15,7 @@ impl Search<'_> {
         let Way { id, gate } = way;
         let i = self.stages[gate].at;
         let g = match self.stages[gate].kind {
-            Kind::Gate(g) => g,
+            Kind::Gate(g) | Kind::Pass(g) => g,
             Kind::End => match self.closing {
                 Some(g) => g,
                 None => return self.reach_end(way, c),
@@ -53,7 +53,7 @@ impl Search<'_> {
 
     /// Control points on a gate's line from which the tangents ahead can be reached.
     pub(super) fn nexts_of(&self, gate: usize) -> Vec<Point> {
-        let Kind::Gate(g) = self.stages[gate].kind else {
+        let Some(g) = self.stages[gate].kind.gate() else {
             return Vec::new();
         };
         let p = on_gate(g, self.curve.p[g.at]);
@@ -69,7 +69,7 @@ impl Search<'_> {
                     out.push(next);
                 }
             }
-            if !matches!(self.stages[s].kind, Kind::Free) {
+            if self.stages[s].kind.blocks() {
                 break;
             }
         }
@@ -143,7 +143,7 @@ impl Search<'_> {
     pub(super) fn towards_gate(&mut self, stage: usize, way: Way, c: Point) {
         let Way { gate, .. } = way;
         let (line, u) = match (self.stages[gate].kind, self.end.along) {
-            (Kind::Gate(g), _) => (
+            (Kind::Gate(g) | Kind::Pass(g), _) => (
                 on_gate(g, self.curve.p[g.at]),
                 gate_direction(g, self.curve.t[g.at]),
             ),

@@ -9,16 +9,21 @@ pub(super) fn half(p: Point) -> Point {
     Point::new(0.5 * near.x, 0.5 * near.y)
 }
 
-/// The nearest point of the grid; `f64::round` costs a call here.
+/// The nearest point of the grid.
+pub(super) fn full(p: Point) -> Point {
+    floor(p + Vec2::new(0.5, 0.5))
+}
+
+/// The point of the grid below and to the left; `f64::floor` costs a call here.
 #[expect(
     clippy::cast_possible_truncation,
     reason = "font units; `as` saturates"
 )]
-pub(super) fn full(p: Point) -> Point {
+pub(super) fn floor(p: Point) -> Point {
     /// Makes every coordinate positive, so that truncation is flooring.
     const LIFT: i32 = 1 << 20;
-    let near = |v: f64| f64::from(((v + 0.5 + f64::from(LIFT)) as i32).saturating_sub(LIFT));
-    Point::new(near(p.x), near(p.y))
+    let low = |v: f64| f64::from(((v + f64::from(LIFT)) as i32).saturating_sub(LIFT));
+    Point::new(low(p.x), low(p.y))
 }
 
 /// A direction may leave the wanted one by 2 degrees, or by what the lattice makes of it.
@@ -44,5 +49,5 @@ pub(super) fn normal(t: Vec2) -> Vec2 {
 }
 
 pub(super) fn level(x: f64, most: f64) -> u64 {
-    whole(x.round().clamp(-most, most) + most) as u64
+    whole(x.clamp(-most, most) + most + 0.5) as u64
 }

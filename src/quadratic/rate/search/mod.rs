@@ -5,11 +5,12 @@ mod lattice;
 mod quad;
 mod stage;
 
+use super::Strictness;
 use super::curve::{Curve, Gate, Node, count};
 use super::glyf::{Pen, Stored};
 use crate::numeric::shortest::{Id, Labels};
 use kurbo::{Point, Vec2};
-use lattice::{normal, smooth};
+use lattice::{floor, normal, smooth};
 use stage::{Kind, Stage, gate_direction, on_gate, stages};
 
 /// Cost of one byte; what is below it breaks ties by error.
@@ -20,6 +21,8 @@ const BYTE: f64 = 4096.0;
 pub(super) struct Effort {
     /// Largest distance, units.
     pub(super) limit: f64,
+    /// Whether extrema must be joins.
+    pub(super) keep: Strictness,
     /// Stages for each √(curvature/tolerance) of arc.
     pub(super) grain: f64,
     /// Bytes a label may cost more than the cheapest beyond it.
@@ -72,6 +75,8 @@ pub(super) struct Search<'a> {
     end: Node,
     /// For each gate, the control points that may follow it.
     nexts: Vec<Vec<Point>>,
+    /// For each stage, the gates that one quadratic may reach: the next two, none beyond one that blocks.
+    ahead: Vec<Vec<usize>>,
     /// Where the span may end.
     ends: Vec<Point>,
     /// The gate at which a ring closes with an implied point.
@@ -89,11 +94,15 @@ impl<'a> Search<'a> {
             labels,
             end,
             ends: Vec::new(),
+            ahead: Vec::new(),
             nexts: Vec::new(),
             closing,
         };
         search.nexts = (0..search.stages.len())
             .map(|s| search.nexts_of(s))
+            .collect();
+        search.ahead = (0..search.stages.len())
+            .map(|s| search.gates_after(s))
             .collect();
         let beyond = curve.p.len() - 1 - curve.last;
         search.ends = if curve.is_ring() {
@@ -170,7 +179,7 @@ impl<'a> Search<'a> {
     fn expand(&mut self, stage: usize, id: Id) {
         let join = *self.labels.item(id);
         let gate = (stage + 1..self.stages.len())
-            .find(|&s| !matches!(self.stages[s].kind, Kind::Free))
+            .find(|&s| self.stages[s].kind.blocks())
             .unwrap_or(self.stages.len() - 1);
         match join.next {
             Some(c) => self.after_control(stage, Way { id, gate }, c),
@@ -184,8 +193,11 @@ impl<'a> Search<'a> {
         const BESIDE: f64 = 2.5;
         let Way { gate, .. } = way;
         let reach = BESIDE * self.effort.limit;
-        self.reach_gate(way, c);
-        self.towards_gate(stage, way, c);
+        for k in 0..self.ahead[stage].len() {
+            let gate = self.ahead[stage][k];
+            self.reach_gate(Way { gate, ..way }, c);
+            self.towards_gate(stage, Way { gate, ..way }, c);
+        }
         let mut inside = false;
         for s in stage + 1..gate {
             let i = self.stages[s].at;
@@ -213,7 +225,8 @@ impl<'a> Search<'a> {
         for s in stage + 1..=gate {
             let i = self.stages[s].at;
             let mut hit = false;
-            let levels: &[f64] = if s == gate { &[0.0] } else { &[0.0, 0.6, -0.6] };
+            let is_gate = !matches!(self.stages[s].kind, Kind::Free);
+            let levels: &[f64] = if is_gate { &[0.0] } else { &[0.0, 0.6, -0.6] };
             for &level in levels {
                 let (target, dir) = self.target(s, level * limit);
                 let turn = own.cross(dir);
@@ -223,8 +236,8 @@ impl<'a> Search<'a> {
                     join.m + own * ((target - join.m).cross(dir) / turn)
                 };
                 for c in self.around(join, c, s) {
-                    hit |= if s == gate {
-                        self.reach_gate(way, c)
+                    hit |= if is_gate {
+                        self.reach_gate(Way { gate: s, ..way }, c)
                     } else {
                         self.join(
                             s,
@@ -250,7 +263,7 @@ impl<'a> Search<'a> {
                 self.curve.p[i] + normal(self.curve.t[i]) * aside,
                 self.curve.t[i],
             ),
-            Kind::Gate(g) => (
+            Kind::Gate(g) | Kind::Pass(g) => (
                 on_gate(g, self.curve.p[i]),
                 gate_direction(g, self.curve.t[i]),
             ),
@@ -263,8 +276,9 @@ impl<'a> Search<'a> {
 
     /// Lattice points near `c` that keep the join smooth.
     fn around(&self, join: Join, c: Point, s: usize) -> Vec<Point> {
-        let mut xs = [c.x.floor(), c.x.ceil()];
-        let mut ys = [c.y.floor(), c.y.ceil()];
+        let low = floor(c);
+        let mut xs = [low.x, low.x + 1.0];
+        let mut ys = [low.y, low.y + 1.0];
         let mut fixed = |u: Vec2, p: Point| {
             if u.x == 0.0 {
                 xs = [p.x; 2];
@@ -276,7 +290,7 @@ impl<'a> Search<'a> {
             fixed(u, join.m);
         }
         match self.stages[s].kind {
-            Kind::Gate(g) => fixed(gate_direction(g, self.curve.t[g.at]), on_gate(g, c)),
+            Kind::Gate(g) | Kind::Pass(g) => fixed(gate_direction(g, self.curve.t[g.at]), on_gate(g, c)),
             Kind::End => self
                 .end
                 .along
@@ -294,6 +308,20 @@ impl<'a> Search<'a> {
                 {
                     out.push(q);
                 }
+            }
+        }
+        out
+    }
+
+    fn gates_after(&self, stage: usize) -> Vec<usize> {
+        let mut out = Vec::new();
+        for s in stage + 1..self.stages.len() {
+            let kind = self.stages[s].kind;
+            if !matches!(kind, Kind::Free) {
+                out.push(s);
+            }
+            if kind.blocks() || out.len() == 2 {
+                break;
             }
         }
         out

@@ -1,6 +1,9 @@
 //! Places along a span where quadratics may join.
 
-use super::super::curve::{Curve, Gate};
+use super::super::{
+    Strictness,
+    curve::{Curve, Gate},
+};
 use super::Effort;
 use kurbo::{Point, Vec2};
 
@@ -8,7 +11,10 @@ use kurbo::{Point, Vec2};
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Kind {
     Free,
+    /// A quadratic must end there, on the extremum's line.
     Gate(Gate),
+    /// A quadratic may end there, on the extremum's line.
+    Pass(Gate),
     End,
 }
 
@@ -22,6 +28,21 @@ pub(super) struct Stage {
     pub(super) spacing: f64,
 }
 
+impl Kind {
+    /// The extremum there.
+    pub(super) const fn gate(self) -> Option<Gate> {
+        match self {
+            Self::Gate(g) | Self::Pass(g) => Some(g),
+            Self::Free | Self::End => None,
+        }
+    }
+
+    /// Whether no quadratic may go on across it.
+    pub(super) const fn blocks(self) -> bool {
+        matches!(self, Self::Gate(_) | Self::End)
+    }
+}
+
 /// Stages between the gates, closer where the curve bends.
 pub(super) fn stages(curve: &Curve, effort: Effort) -> Vec<Stage> {
     /// Stages a unit of arc where the curve is straight.
@@ -33,7 +54,11 @@ pub(super) fn stages(curve: &Curve, effort: Effort) -> Vec<Stage> {
         kind: Kind::Free,
         spacing: 1.0 / dense(first),
     }];
-    let gates = curve.gates.iter().map(|&g| (g.at, Kind::Gate(g)));
+    let kind = match effort.keep {
+        Strictness::Extrema => Kind::Gate,
+        Strictness::Corners => Kind::Pass,
+    };
+    let gates = curve.gates.iter().map(|&g| (g.at, kind(g)));
     let mut from = first;
     for (to, kind) in gates.chain([(last, Kind::End)]) {
         let total: f64 = (from..to).map(|i| dense(i) * curve.step).sum();
