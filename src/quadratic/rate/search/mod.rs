@@ -290,7 +290,9 @@ impl<'a> Search<'a> {
             fixed(u, join.m);
         }
         match self.stages[s].kind {
-            Kind::Gate(g) | Kind::Pass(g) => fixed(gate_direction(g, self.curve.t[g.at]), on_gate(g, c)),
+            Kind::Gate(g) | Kind::Pass(g) => {
+                fixed(gate_direction(g, self.curve.t[g.at]), on_gate(g, c))
+            }
             Kind::End => self
                 .end
                 .along
