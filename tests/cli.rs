@@ -14,11 +14,12 @@ pub(crate) fn khatt(folder: &Path, args: &[&str]) -> Output {
     command(folder, args).output().expect("the program runs")
 }
 
-/// The program with these arguments in `folder`, told no date.
+/// The program with these arguments in `folder`, told no date; what it keeps between runs lies there too.
 pub(crate) fn command(folder: &Path, args: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_khatt"));
     command.args(args).current_dir(folder);
     command.env_remove("SOURCE_DATE_EPOCH");
+    command.env("XDG_CACHE_HOME", folder.join("cache"));
     command
 }
 

@@ -3,7 +3,7 @@
 use crate::common::approved;
 use harfrust::{ShapeOptions, ShaperData, UnicodeBuffer};
 use khatt::assemble::names;
-use khatt::pipeline::{self, Built, Project, Unwatched, World};
+use khatt::pipeline::{self, Built, Nothing, Project, Unwatched, World};
 use khatt::write;
 use kurbo::PathEl;
 use skrifa::{FontRef, GlyphId, MetadataProvider, raw::TableProvider};
@@ -21,6 +21,7 @@ fn demo(name: &str) -> (Built, Vec<(String, Vec<u8>)>) {
         read: &read,
         watch: &Unwatched,
         created: 0,
+        store: &Nothing,
     };
     let built = pipeline::build(&project, world).expect("a font");
     let outputs = pipeline::outputs(&project, &built, world).expect("outputs");

@@ -81,7 +81,10 @@ fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
 #[test]
 fn a_page_becomes_every_output_and_again_the_same_bytes() {
     let dir = project(LETTERS, &page(&[]));
-    let out = khatt(dir.path(), &["build", "font.toml", "--jobs", "1"]);
+    let out = khatt(
+        dir.path(),
+        &["build", "font.toml", "--jobs", "1", "--no-cache"],
+    );
     let stderr = String::from_utf8_lossy(&out.stderr);
     assert_eq!(out.status.code(), Some(0), "{stderr}");
     assert!(stderr.contains("trace "), "the stages are timed: {stderr}");
@@ -107,7 +110,7 @@ fn a_page_becomes_every_output_and_again_the_same_bytes() {
     );
     let again = khatt(
         dir.path(),
-        &["build", "font.toml", "--jobs", "2", "--quiet"],
+        &["build", "font.toml", "--jobs", "2", "--no-cache", "--quiet"],
     );
     assert_eq!((again.status.code(), again.stderr.len()), (Some(0), 0));
     assert!(
@@ -143,6 +146,74 @@ fn the_date_is_the_one_that_reproducible_builds_ask_for() {
         assert_eq!(head.created().as_secs(), wanted, "{name}");
         assert_eq!(head.modified().as_secs(), wanted, "{name}");
     }
+}
+
+#[test]
+fn nothing_is_done_twice() {
+    let dir = project(LETTERS, &page(&[]));
+    let build = |more: &[&str]| {
+        let out = khatt(dir.path(), &[&["build", "font.toml"], more].concat());
+        let stderr = String::from_utf8_lossy(&out.stderr).into_owned();
+        assert_eq!(out.status.code(), Some(0), "{stderr}");
+        stderr
+    };
+    let outputs = || files(&dir.path().join("out"));
+    assert!(
+        build(&[]).contains("load "),
+        "the first build reads the page"
+    );
+    let first = outputs();
+
+    assert!(build(&[]).contains("nothing to do"));
+    assert!(build(&["--no-cache"]).contains("load "));
+    assert_eq!(outputs(), first, "kept or not, the same bytes");
+
+    // an output that is gone comes back, without the page being read
+    fs::remove_file(dir.path().join("out/test.otf")).expect("an output");
+    let said = build(&[]);
+    assert!(!said.contains("load ") && said.contains("write "), "{said}");
+    assert_eq!(outputs(), first, "from what was kept");
+
+    // later stages alone
+    let project = fs::read_to_string(dir.path().join("font.toml")).expect("the project");
+    let wider = project.replace("[output]", "[spacing.letters]\ntracking = 0.1\n[output]");
+    fs::write(dir.path().join("font.toml"), wider).expect("the project");
+    let said = build(&[]);
+    assert!(
+        !said.contains("load ") && said.contains("assemble "),
+        "{said}"
+    );
+    assert_ne!(outputs(), first, "wider letters");
+
+    // another picture
+    fs::write(dir.path().join("font.toml"), project).expect("the project");
+    fs::write(dir.path().join("page.png"), page(&[8])).expect("a picture");
+    let out = khatt(dir.path(), &["build", "font.toml"]);
+    assert_eq!(out.status.code(), Some(1), "a letter is missing now");
+}
+
+#[test]
+fn what_is_kept_may_be_spoilt() {
+    let dir = project(LETTERS, &page(&[]));
+    let args = ["build", "font.toml", "--quiet", "--cache-dir", "kept"];
+    assert_eq!(khatt(dir.path(), &args).status.code(), Some(0));
+    let first = files(&dir.path().join("out"));
+    let kept = files(&dir.path().join("kept"));
+    assert_eq!(kept.len(), 2, "a page and a build: {:?}", kept.keys());
+    for (cut, name) in kept.keys().enumerate() {
+        let path = dir.path().join("kept").join(name);
+        let mut bytes = fs::read(&path).expect("an entry");
+        let middle = bytes.len() / 2;
+        if cut == 0 {
+            bytes.truncate(middle);
+        } else {
+            bytes[middle] ^= 1;
+        }
+        fs::write(&path, bytes).expect("an entry");
+    }
+    fs::remove_dir_all(dir.path().join("out")).expect("outputs");
+    assert_eq!(khatt(dir.path(), &args).status.code(), Some(0));
+    assert_eq!(files(&dir.path().join("out")), first);
 }
 
 #[test]
@@ -308,6 +379,7 @@ fn a_build_reports_lists_its_inputs_and_can_be_locked() {
     let args = [
         "build",
         "font.toml",
+        "--no-cache",
         "--depfile",
         "out/font.d",
         "--keep",

@@ -8,7 +8,7 @@ use crate::cli::{khatt, png, transcript};
 use crate::common::approved;
 use crate::common::camera::Camera;
 use crate::common::moments::Moments;
-use khatt::pipeline::{self, Project, Unwatched, World};
+use khatt::pipeline::{self, Nothing, Project, Unwatched, World};
 use khatt::scan::{self, Polarity};
 use khatt::template::{self, Direction, Layout, Page, Paper, Place, TemplateError};
 use khatt::types::Sheet;
@@ -324,6 +324,7 @@ fn printed(project: &str) -> (Layout, Vec<Page>) {
         read: &|path: &Path| Err(format!("{} is not wanted", path.display())),
         watch: &Unwatched,
         created: 0,
+        store: &Nothing,
     };
     let pages = pipeline::sheets(&project, world).expect("pages");
     (project.template, pages)

@@ -1,7 +1,10 @@
 //! `khatt build`: a project becomes fonts.
 
+use super::cache::{CacheArgs, digest};
+use super::done::Done;
+use super::failure::Failure;
 use super::progress::Times;
-use super::project::Opened;
+use super::project::{Opened, created};
 use super::staged::{self, Staged};
 use super::{Common, Outcome, keep};
 use clap::Args;
@@ -27,48 +30,94 @@ pub(crate) struct Build {
     /// Write nothing; fail where an output is not what would be written
     #[arg(long)]
     locked: bool,
+    #[command(flatten)]
+    cache: CacheArgs,
 }
 
 impl Build {
     pub(crate) fn run(&self, common: &Common) -> Outcome {
         let opened = Opened::new(&self.project)?;
-        let ((built, outputs), total, times) = opened.work(common, |project, world| {
-            let built = pipeline::build(project, world)?;
-            let outputs = pipeline::outputs(project, &built, world)?;
-            Ok((built, outputs))
-        })?;
-        let files = outputs.files.iter();
-        let mut files: Vec<(PathBuf, Files)> = files
-            .map(|(path, files)| (opened.path(path), files.clone()))
-            .collect();
+        let cache = self.cache.open();
+        let key = self.key(&opened)?;
+        if self.keep.is_none()
+            && let Some(said) = Done::recall(&cache, &key)
+        {
+            if !common.quiet {
+                eprint!("{said}");
+                eprintln!("nothing to do: inputs and outputs are as the last build left them");
+            }
+            return Ok(());
+        }
+        let ((built, outputs), total, times) =
+            opened.work_with(&cache, common, |project, world| {
+                let built = pipeline::build(project, world)?;
+                let outputs = pipeline::outputs(project, &built, world)?;
+                Ok((built, outputs))
+            })?;
+        let files = self.files(&opened, &outputs, (total, &times));
         if self.locked {
             return staged::same(&files);
         }
-        if let Some(path) = opened.report() {
-            files.push((path, report(&outputs, total, &times)));
-        }
-        if let Some(path) = &self.depfile {
-            let rule = rule(
-                files.iter().map(|(path, _)| path.as_path()),
-                &opened.inputs(),
-            );
-            files.push((path.clone(), Files::single(rule.into_bytes())));
-        }
-        if let Some(folder) = &self.keep {
-            files.push((folder.clone(), keep::files(&built)));
-        }
+        let said = remarks(&built);
         let mut staged = Staged::default();
         for (path, files) in &files {
             staged.add(path, files)?;
         }
+        if let Some(folder) = &self.keep {
+            staged.add(folder, &keep::files(&built))?;
+        }
         staged.commit()?;
+        if let Some(done) = Done::new(&opened.inputs(), &files, &said) {
+            done.keep(&cache, &key);
+        }
+        cache.trim();
         if !common.quiet {
+            eprint!("{said}");
             say(&built, total, &times);
             files
                 .iter()
                 .for_each(|(path, _)| eprintln!("  {}", path.display()));
         }
         Ok(())
+    }
+
+    /// A digest of what this build is asked for.
+    fn key(&self, opened: &Opened) -> Result<String, Failure> {
+        let project = std::path::absolute(&self.project);
+        let project = project.map_err(|e| Failure::at(self.project.display(), &e))?;
+        let asked = json!([
+            project,
+            opened.text(),
+            self.depfile,
+            self.locked,
+            created()?
+        ]);
+        Ok(digest(asked.to_string().as_bytes()))
+    }
+
+    /// Everything that this build writes; what `--locked` compares where it is asked.
+    fn files(
+        &self,
+        opened: &Opened,
+        outputs: &Outputs,
+        (total, times): (Duration, &Times),
+    ) -> Vec<(PathBuf, Files)> {
+        let files = outputs.files.iter();
+        let mut files: Vec<(PathBuf, Files)> = files
+            .map(|(path, files)| (opened.path(path), files.clone()))
+            .collect();
+        if self.locked {
+            return files;
+        }
+        if let Some(path) = opened.report() {
+            files.push((path, report(outputs, total, times)));
+        }
+        if let Some(path) = &self.depfile {
+            let targets = files.iter().map(|(path, _)| path.as_path());
+            let rule = rule(targets, &opened.inputs());
+            files.push((path.clone(), Files::single(rule.into_bytes())));
+        }
+        files
     }
 }
 
@@ -108,19 +157,22 @@ fn rule<'a>(outputs: impl Iterator<Item = &'a Path>, inputs: &[PathBuf]) -> Stri
     rule
 }
 
+/// What could not be met and what to look at, a line each.
+fn remarks(built: &Built) -> String {
+    let notes = built.notes.iter();
+    let mut lines: Vec<String> = notes
+        .map(|n| format!("note: {}: {}\n", n.glyph, n.message))
+        .collect();
+    for page in &built.pages {
+        let warnings = page.cut.warnings.iter();
+        lines.extend(warnings.map(|w| format!("warning: {}, {w}\n", page.name)));
+    }
+    lines.extend(built.doubts.iter().map(|d| format!("warning: {d}\n")));
+    lines.concat()
+}
+
 /// What was done, on standard error.
 fn say(built: &Built, total: Duration, times: &Times) {
-    for note in &built.notes {
-        eprintln!("note: {}: {}", note.glyph, note.message);
-    }
-    for page in &built.pages {
-        for warning in &page.cut.warnings {
-            eprintln!("warning: {}, {warning}", page.name);
-        }
-    }
-    for doubt in &built.doubts {
-        eprintln!("warning: {doubt}");
-    }
     let stages: Vec<String> = (times.iter())
         .map(|(stage, time)| format!("{stage} {:.2}", time.as_secs_f64()))
         .collect();

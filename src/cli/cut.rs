@@ -90,13 +90,7 @@ fn corners(r: Rect) -> [f64; 4] {
 
 /// Dark ink on white paper, 8 bit.
 pub(crate) fn png(gray: &Gray) -> Vec<u8> {
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "0…255 by the clamp"
-    )]
-    let level = |v: &f32| (255.0 * (1.0 - v.clamp(0.0, 1.0))).round() as u8;
-    let bytes = gray.samples().iter().map(level).collect();
+    let bytes = gray.levels().iter().map(|ink| 255 - ink).collect();
     let size = u32::try_from(gray.width())
         .ok()
         .zip(u32::try_from(gray.height()).ok());

@@ -2,7 +2,6 @@
 
 use super::{cut, trace};
 use khatt::pipeline::{Built, Letter};
-use khatt::trace as contours;
 use khatt::types::{Contour, Files};
 use khatt::write;
 use kurbo::{BezPath, PathEl};
@@ -42,7 +41,6 @@ pub(crate) fn files(built: &Built) -> Files {
 
 /// The contours as closed polygons.
 fn rings(letter: &Letter) -> Vec<BezPath> {
-    let rings = contours::trace(&letter.cell.gray, &contours::Options::default());
     let ring = |c: &Contour| {
         let mut path: BezPath = (c.points().iter().enumerate())
             .map(|(i, &p)| {
@@ -56,5 +54,5 @@ fn rings(letter: &Letter) -> Vec<BezPath> {
         path.close_path();
         path
     };
-    rings.iter().map(ring).collect()
+    letter.edge.iter().map(ring).collect()
 }

@@ -8,8 +8,10 @@
 )]
 
 mod build;
+mod cache;
 mod convert;
 mod cut;
+mod done;
 mod failure;
 mod files;
 mod init;

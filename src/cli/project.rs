@@ -4,7 +4,7 @@ use super::failure::{Complaint, Failure, chain};
 use super::progress::{Progress, Times};
 use super::staged::parent;
 use super::{Common, files};
-use khatt::pipeline::{Problem, Project, ProjectError, World};
+use khatt::pipeline::{Nothing, Problem, Project, ProjectError, Store, World};
 use miette::{
     Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, NamedSource, SourceCode,
 };
@@ -17,6 +17,8 @@ use std::{env, fmt, fs};
 #[derive(Debug)]
 pub(crate) struct Opened {
     project: Project,
+    /// What the project file says.
+    text: String,
     folder: PathBuf,
     inputs: Mutex<Vec<PathBuf>>,
 }
@@ -27,9 +29,11 @@ impl Opened {
         let name = files::name(path);
         let bytes = files::read(path)?;
         let text = String::from_utf8(bytes).map_err(|e| Failure::at(&name, &e))?;
-        let project = Project::parse(&text).map_err(|e| Failure::drawn(draw(&name, text, e)))?;
+        let project =
+            Project::parse(&text).map_err(|e| Failure::drawn(draw(&name, text.clone(), e)))?;
         Ok(Self {
             project,
+            text,
             folder: parent(path).to_owned(),
             inputs: Mutex::new(vec![path.to_owned()]),
         })
@@ -41,9 +45,19 @@ impl Opened {
         self.project.matching.reference = Some(absolute.unwrap_or_else(|_| reference.to_owned()));
     }
 
-    /// Does `work` with the project, watched by a progress bar.
+    /// Does `work` with the project, watched by a progress bar; nothing is kept between runs.
     pub(crate) fn work<T>(
         &self,
+        common: &Common,
+        work: impl FnOnce(&Project, World<'_>) -> Result<T, Vec<Problem>>,
+    ) -> Result<(T, Duration, Times), Failure> {
+        self.work_with(&Nothing, common, work)
+    }
+
+    /// Does `work` with the project and what is kept between runs, watched by a progress bar.
+    pub(crate) fn work_with<T>(
+        &self,
+        store: &dyn Store,
         common: &Common,
         work: impl FnOnce(&Project, World<'_>) -> Result<T, Vec<Problem>>,
     ) -> Result<(T, Duration, Times), Failure> {
@@ -53,6 +67,7 @@ impl Opened {
             read: &read,
             watch: &progress,
             created: created()?,
+            store,
         };
         let done = work(&self.project, world);
         let (total, times) = progress.finish();
@@ -76,6 +91,11 @@ impl Opened {
         Some(self.path(path))
     }
 
+    /// What the project file says.
+    pub(crate) fn text(&self) -> &str {
+        &self.text
+    }
+
     /// The files that were read, the project file first.
     pub(crate) fn inputs(&self) -> Vec<PathBuf> {
         let read = self.inputs.lock().unwrap_or_else(PoisonError::into_inner);
@@ -95,7 +115,7 @@ impl Opened {
 /// The date that reproducible builds ask for, or the day on which dates begin.
 ///
 /// [SOURCE_DATE_EPOCH](https://reproducible-builds.org/specs/source-date-epoch/) counts seconds.
-fn created() -> Result<i64, Failure> {
+pub(crate) fn created() -> Result<i64, Failure> {
     #[expect(
         clippy::disallowed_methods,
         reason = "the program alone reads the environment"

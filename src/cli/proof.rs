@@ -1,5 +1,6 @@
 //! `khatt proof`: every cell with its outline, as a web page.
 
+use super::cache::CacheArgs;
 use super::project::Opened;
 use super::{Common, Outcome, files};
 use clap::Args;
@@ -15,12 +16,14 @@ pub(crate) struct Proof {
     /// Where the page goes, or - for standard output
     #[arg(short, long, value_name = "FILE.html")]
     output: PathBuf,
+    #[command(flatten)]
+    cache: CacheArgs,
 }
 
 impl Proof {
     pub(crate) fn run(&self, common: &Common) -> Outcome {
         let opened = Opened::new(&self.project)?;
-        let (page, ..) = opened.work(common, |project, world| {
+        let (page, ..) = opened.work_with(&self.cache.open(), common, |project, world| {
             let built = pipeline::build(project, world)?;
             pipeline::proof(project, &built, world)
         })?;

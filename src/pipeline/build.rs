@@ -1,14 +1,15 @@
 //! A project → a font: the whole way.
 
+use super::cache::{self, Store};
 use super::labels;
 use super::letter::Letter;
 use super::letters::{self, Doubt};
 use super::page::{self, Page};
 use super::problem::Problem;
-use super::project::Project;
+use super::project::{Project, SheetTable};
 use super::watch::{Stage, Watch};
 use crate::assemble::{self, Drawn, Note};
-use crate::types::{Cell, Font};
+use crate::types::{Cell, Font, Label};
 use rayon::prelude::*;
 use std::path::Path;
 use std::{fmt, mem};
@@ -22,6 +23,8 @@ pub struct World<'a> {
     pub watch: &'a dyn Watch,
     /// Seconds since 1970 that the font gives as its date.
     pub created: i64,
+    /// Where what pages became is kept between runs.
+    pub store: &'a dyn Store,
 }
 
 impl World<'_> {
@@ -88,7 +91,7 @@ pub fn build(project: &Project, world: World<'_>) -> Result<Built, Vec<Problem>>
 /// # Errors
 /// Everything that is wrong with the project, its pages and their cells.
 fn letters(project: &Project, world: World<'_>) -> Result<(Vec<Letter>, Vec<Page>), Vec<Problem>> {
-    let pages = pages(project, world, |mut page| {
+    let trace = |mut page: Page| {
         let cells = mem::take(&mut page.cut.cells);
         let sheet = page.name.as_str();
         world.watch.expect(cells.len());
@@ -100,8 +103,16 @@ fn letters(project: &Project, world: World<'_>) -> Result<(Vec<Letter>, Vec<Page
         // the one place where work is shared out
         let letters = all(cells.into_par_iter().map(letter).collect())?;
         Ok((letters, page))
-    });
-    let (letters, pages): (Vec<_>, Vec<_>) = pages?.into_iter().unzip();
+    };
+    let pages = tables(project, world, |number, table, labels| {
+        let mut pages = cache::recalled((table, labels), project, world, || {
+            page::each((number, table), labels, project, world, trace)
+        })?;
+        // a table that was kept may have stood in another place
+        pages.iter_mut().for_each(|(_, page)| page.table = number);
+        Ok(pages)
+    })?;
+    let (letters, pages): (Vec<_>, Vec<_>) = pages.into_iter().unzip();
     Ok((letters.into_iter().flatten().collect(), pages))
 }
 
@@ -115,12 +126,20 @@ pub fn pages<T>(
     work: impl Fn(Page) -> Result<T, Vec<Problem>>,
 ) -> Result<Vec<T>, Vec<Problem>> {
     let (project, _) = letters::resolve(project, world)?;
-    let project = &project;
+    tables(&project, world, |number, table, labels| {
+        page::each((number, table), labels, &project, world, &work)
+    })
+}
+
+/// What `work` makes of each table of pages, its number and its labels.
+fn tables<T>(
+    project: &Project,
+    world: World<'_>,
+    work: impl Fn(usize, &SheetTable, &[Label]) -> Result<Vec<T>, Vec<Problem>>,
+) -> Result<Vec<T>, Vec<Problem>> {
     let named = labels::of(project, world)?;
-    let sheets = project.sheets.iter().zip(&named);
-    let done = sheets.enumerate().map(|(number, (sheet, labels))| {
-        page::each((number, sheet), labels, project, world, &work)
-    });
+    let tables = project.sheets.iter().zip(&named).enumerate();
+    let done = tables.map(|(number, (table, labels))| work(number, table, labels));
     Ok(all_lists(done.collect())?.into_iter().flatten().collect())
 }
 

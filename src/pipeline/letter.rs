@@ -5,7 +5,8 @@ use super::problem::{Place, Problem};
 use super::watch::{Stage, Watch};
 use crate::assemble::{Drawn, names};
 use crate::finish::place;
-use crate::types::{Cell, Font, Frame};
+use crate::trace;
+use crate::types::{Cell, Contour, Font, Frame, Gray};
 use kurbo::BezPath;
 
 /// What was drawn in a cell, still in the cell's px.
@@ -13,8 +14,10 @@ use kurbo::BezPath;
 pub struct Letter {
     /// The page, as messages name it.
     pub sheet: String,
-    /// The cell: its picture, its rectangle in the page, its guides.
+    /// The cell: its picture in 256 levels, for people to look at, its rectangle in the page, its guides.
     pub cell: Cell,
+    /// The scanned edge that outlines are measured against, px, y up, origin at the picture's bottom left.
+    pub edge: Vec<Contour>,
     /// Its closed curves, px, y up, origin at the picture's bottom left.
     pub paths: Vec<BezPath>,
 }
@@ -35,7 +38,8 @@ impl Letter {
             Ok(paths) if paths.is_empty() => Err(Problem::Empty(Place::of(sheet, &cell))),
             Ok(paths) => Ok(Self {
                 sheet: sheet.to_owned(),
-                cell,
+                edge: trace::trace(&cell.gray, &trace::Options::default()),
+                cell: coarse(cell),
                 paths,
             }),
             Err(source) => Err(Problem::Fit {
@@ -92,5 +96,14 @@ impl Letter {
             outline,
             advance: advance.map(|(left, right)| (units(left), units(right))),
         })
+    }
+}
+
+/// The cell with a picture in 256 levels: all that is shown, and what a cache keeps.
+fn coarse(cell: Cell) -> Cell {
+    let (width, height) = (cell.gray.width(), cell.gray.height());
+    match Gray::from_levels(width, height, &cell.gray.levels()) {
+        Ok(gray) => Cell { gray, ..cell },
+        Err(_) => cell,
     }
 }

@@ -1,6 +1,7 @@
 //! The order of the stages: a page to cells, cells to outlines, outlines to a font.
 
 mod build;
+mod cache;
 pub mod convert;
 mod labels;
 mod letter;
@@ -11,11 +12,13 @@ pub mod picture;
 mod printing;
 mod problem;
 pub mod project;
+mod record;
 pub mod reference;
 mod report;
 mod watch;
 
 pub use build::{Built, World, build, pages};
+pub use cache::{Nothing, Store};
 pub use letter::Letter;
 pub use letters::{Doubt, Matched, match_letters};
 pub use outputs::{Outputs, outputs, proof};

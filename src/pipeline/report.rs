@@ -8,7 +8,6 @@ use super::project::GateTable;
 use crate::assemble::{Note, names};
 use crate::numeric::distance::Polyline;
 use crate::template::Gain;
-use crate::trace;
 use crate::types::{Contour, Font, Outline};
 use kurbo::{BezPath, Point, Rect, flatten};
 use schemars::JsonSchema;
@@ -221,12 +220,11 @@ pub(super) fn deviations(
         let each = lines.iter().map(|line| line.nearest(p).distance);
         each.fold(f64::INFINITY, f64::min)
     };
-    let contours = trace::trace(&letter.cell.gray, &trace::Options::default());
     let ring = |c: &Contour| {
         let points = c.points().iter().map(|&p| map * p);
         points.map(|p| (p, distance(p))).collect()
     };
-    Some(contours.iter().map(ring).collect())
+    Some(letter.edge.iter().map(ring).collect())
 }
 
 fn chords(contour: &BezPath) -> Option<Polyline> {

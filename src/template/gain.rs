@@ -5,9 +5,10 @@ use super::find::{Found, as_f64, floor, sample};
 use super::layout::Layout;
 use crate::types::Sheet;
 use kurbo::{Affine, Point, Rect, Vec2};
+use serde::{Deserialize, Serialize};
 
 /// What the strip says.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Gain {
     /// Standard deviation of the edges' blur, mm.
     pub blur_mm: f64,

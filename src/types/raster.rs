@@ -87,6 +87,27 @@ impl Gray {
         }
     }
 
+    /// A picture of `width` × `height` px from row-major coverage in 255ths.
+    ///
+    /// # Errors
+    /// The number of samples is wrong.
+    pub fn from_levels(width: usize, height: usize, levels: &[u8]) -> Result<Self, RasterError> {
+        let samples = levels.iter().map(|&v| f32::from(v) / 255.0);
+        Self::new(width, height, samples.collect())
+    }
+
+    /// All samples in 255ths, row-major: 0 is paper and 255 is ink.
+    #[must_use]
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "0…255 by the clamp"
+    )]
+    pub fn levels(&self) -> Vec<u8> {
+        let level = |v: &f32| (255.0 * v.clamp(0.0, 1.0)).round() as u8;
+        self.samples.iter().map(level).collect()
+    }
+
     /// Columns, px.
     #[must_use]
     pub const fn width(&self) -> usize {

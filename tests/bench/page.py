@@ -38,7 +38,7 @@ def main():
         low, high = gray.getextrema()
         gray.point(lambda v: 255 * (v > (low + high) / 2)).convert("1").save(bitmap)
         rows = {
-            f"khatt build --jobs {args.jobs}": [args.khatt, "build", args.project, "--jobs", str(args.jobs)],
+            f"khatt build --jobs {args.jobs}": [args.khatt, "build", args.project, "--no-cache", "--jobs", str(args.jobs)],
             "potrace -s (thresholded before)": ["potrace", "-s", bitmap, "-o", svg],
         }
         print(f"{page}: {gray.width * gray.height / 1e6:.1f} Mpx")

@@ -18,6 +18,7 @@ use super::options::{Direction, Layout, Options, Order};
 use crate::types::{Cell, Label};
 use kurbo::{Affine, Point, Rect};
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 use std::fmt;
 
 /// Coverage from which connected ink counts: below the half level, so that thin strokes hold together,
@@ -62,7 +63,7 @@ pub struct Rejected {
 }
 
 /// Why ink is in no cell.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[non_exhaustive]
 pub enum Reason {
     /// A printed line.

@@ -156,13 +156,7 @@ fn path_data(path: &BezPath) -> String {
 
 /// The cell as a PNG in a data URI, dark ink on nothing, so that it also shows on a dark page.
 pub(super) fn picture(gray: &Gray) -> String {
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "0…255 by the clamp"
-    )]
-    let level = |v: &f32| (255.0 * (1.0 - v.clamp(0.0, 1.0))).round() as u8;
-    let bytes: Vec<u8> = gray.samples().iter().map(level).collect();
+    let bytes: Vec<u8> = gray.levels().iter().map(|ink| 255 - ink).collect();
     let mut png = Vec::new();
     let (w, h) = (u32::try_from(gray.width()), u32::try_from(gray.height()));
     let encoder = png::PngEncoder::new_with_quality(
