@@ -1,42 +1,14 @@
 //! The demo sheets: every glyph in its place, a few outlines and the fonts' tables approved, text that joins.
 
 use crate::common::approved;
+use crate::common::demo::{self, Demo, output};
 use harfrust::{ShapeOptions, ShaperData, UnicodeBuffer};
 use khatt::assemble::names;
-use khatt::pipeline::{self, Built, Nothing, Project, Unwatched, World};
+use khatt::pipeline::Built;
 use khatt::write;
 use kurbo::PathEl;
 use skrifa::{FontRef, GlyphId, MetadataProvider, raw::TableProvider};
 use std::fmt::Write;
-use std::fs;
-use std::path::Path;
-
-/// Builds `glyphs/<name>.toml` and gives it with the bytes of its outputs by ending.
-fn demo(name: &str) -> (Built, Vec<(String, Vec<u8>)>) {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("glyphs");
-    let text = fs::read_to_string(folder.join(format!("{name}.toml"))).expect("a project");
-    let project = Project::parse(&text).expect("a project file");
-    let read = |path: &Path| fs::read(folder.join(path)).map_err(|e| e.to_string());
-    let world = World {
-        read: &read,
-        watch: &Unwatched,
-        created: 0,
-        store: &Nothing,
-    };
-    let built = pipeline::build(&project, world).expect("a font");
-    let outputs = pipeline::outputs(&project, &built, world).expect("outputs");
-    let single = outputs.files.into_iter().filter_map(|(path, files)| {
-        let ending = path.extension()?.to_str()?.to_owned();
-        Some((ending, files.0.get("")?.clone()))
-    });
-    let single = single.collect();
-    (built, single)
-}
-
-fn output<'a>(outputs: &'a [(String, Vec<u8>)], ending: &str) -> &'a [u8] {
-    let found = outputs.iter().find(|(e, _)| e == ending);
-    &found.expect("an output").1
-}
 
 /// Tables with their sizes left out where they are coded, characters and advances: what a font says of itself.
 fn dump(bytes: &[u8]) -> String {
@@ -118,7 +90,7 @@ fn shape(built: &Built, bytes: &[u8], text: &str) -> Vec<String> {
 
 #[test]
 fn the_latin_sheet() {
-    let (built, outputs) = demo("latin");
+    let Demo { built, outputs, .. } = demo::built("latin");
     assert_eq!(built.letters.len(), 89);
     for c in "AZaz09.&@$_".chars() {
         let name = names::name_of(&[c]);
@@ -126,7 +98,7 @@ fn the_latin_sheet() {
         assert_eq!(glyph.codepoints, [c], "{name}");
         assert!(!glyph.outline.is_empty(), "{name}");
     }
-    let drawn = outlines(&built, &["A", "g", "i", "ampersand"]);
+    let drawn = outlines(built, &["A", "g", "i", "ampersand"]);
     approved::check("outlines", "latin", &drawn);
     let metrics = built.font.info.metrics;
     assert!((620.0..690.0).contains(&metrics.cap_height), "{metrics:?}");
@@ -135,21 +107,21 @@ fn the_latin_sheet() {
         approved::check(
             "fonts",
             &format!("latin-{ending}"),
-            &dump(output(&outputs, ending)),
+            &dump(output(outputs, ending)),
         );
     }
 }
 
 #[test]
 fn the_arabic_sheets_join() {
-    let (built, outputs) = demo("arabic");
+    let Demo { built, outputs, .. } = demo::built("arabic");
     assert_eq!(built.letters.len(), 119);
-    let drawn = outlines(&built, &["uni0628", "uni0639.medi", "uni06440627.fina"]);
+    let drawn = outlines(built, &["uni0628", "uni0639.medi", "uni06440627.fina"]);
     approved::check("outlines", "arabic", &drawn);
     for ending in ["ttf", "otf"] {
-        let bytes = output(&outputs, ending);
+        let bytes = output(outputs, ending);
         approved::check("fonts", &format!("arabic-{ending}"), &dump(bytes));
-        let shaped = shape(&built, bytes, "بسم الله لا خط");
+        let shaped = shape(built, bytes, "بسم الله لا خط");
         let want = [
             "uni0637.fina",
             "uni062E.init",

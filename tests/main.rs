@@ -10,6 +10,7 @@ mod fonts;
 mod layers;
 mod papers;
 mod published;
+mod recognise;
 mod sheets;
 mod template;
 mod words;

@@ -16,9 +16,9 @@ pub(crate) struct Match {
     /// Project file
     #[arg(value_name = "PROJECT.toml")]
     project: PathBuf,
-    /// TTF or OTF font to compare with [default: the project's]
+    /// TTF or OTF font to compare with; several may be given [default: the project's]
     #[arg(long, value_name = "FONT")]
-    reference: Option<PathBuf>,
+    reference: Vec<PathBuf>,
     /// As JSON
     #[arg(long)]
     json: bool,
@@ -27,8 +27,8 @@ pub(crate) struct Match {
 impl Match {
     pub(crate) fn run(&self, common: &Common) -> Outcome {
         let mut opened = Opened::new(&self.project)?;
-        if let Some(reference) = &self.reference {
-            opened.compare_with(reference);
+        if !self.reference.is_empty() {
+            opened.compare_with(&self.reference);
         }
         let ((cells, remarks), ..) = opened.work(common, match_letters)?;
         if self.json {

@@ -9,6 +9,7 @@
 
 mod build;
 mod cache;
+mod centerline;
 mod convert;
 mod cut;
 mod done;

@@ -39,10 +39,10 @@ impl Opened {
         })
     }
 
-    /// Takes another reference font than the project's; its path starts where the user stands.
-    pub(crate) fn compare_with(&mut self, reference: &Path) {
-        let absolute = std::path::absolute(reference);
-        self.project.matching.reference = Some(absolute.unwrap_or_else(|_| reference.to_owned()));
+    /// Takes other reference fonts than the project's; their paths start where the user stands.
+    pub(crate) fn compare_with(&mut self, references: &[PathBuf]) {
+        let absolute = |p: &PathBuf| std::path::absolute(p).unwrap_or_else(|_| p.clone());
+        self.project.matching.reference = references.iter().map(absolute).collect();
     }
 
     /// Does `work` with the project, watched by a progress bar; nothing is kept between runs.

@@ -1,11 +1,12 @@
 //! `khatt trace`: one picture becomes one SVG path.
 
 use super::failure::{Failure, chain};
-use super::{Outcome, files};
+use super::staged::Staged;
+use super::{Outcome, centerline, files};
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 use khatt::pipeline::picture::{Options, to_picture, trace_picture};
-use khatt::recognise::{self, Centerline};
+use khatt::recognise;
 use khatt::scan::{self, Polarity};
 use khatt::types::Gray;
 use khatt::{corner, fit};
@@ -22,7 +23,7 @@ pub(crate) struct Trace {
     /// Picture to trace, or - for standard input
     #[arg(value_name = "IN")]
     picture: PathBuf,
-    /// Where the SVG goes, or - for standard output
+    /// Where the SVG goes, or - for standard output; of a centreline also OUT.ufo
     #[arg(short, long, value_name = "OUT.svg")]
     output: PathBuf,
     /// How curves are fitted; `khatt methods` lists the ways
@@ -50,12 +51,24 @@ impl Trace {
             return Err(Failure::new(several));
         };
         if self.centerline {
-            let lines = svg_lines(&page.gray, &recognise::centerline(&page.gray));
-            return files::write(&self.output, lines.as_bytes());
+            return self.write_lines(&page.gray);
         }
         let paths =
             trace_picture(&page.gray, &self.options()).map_err(|e| Failure::at(&name, &e))?;
         files::write(&self.output, svg(&page.gray, &paths).as_bytes())
+    }
+
+    /// Writes the middle of the lines: a UFO where the output is named so, else an SVG.
+    fn write_lines(&self, gray: &Gray) -> Outcome {
+        let drawn = recognise::centerline(gray);
+        if self.output.extension().is_none_or(|e| e != "ufo") {
+            return files::write(&self.output, centerline::svg(gray, &drawn).as_bytes());
+        }
+        let ufo = centerline::ufo(gray, &drawn, &self.output);
+        let ufo = ufo.map_err(|e| Failure::at(self.output.display(), &*e))?;
+        let mut staged = Staged::default();
+        staged.add(&self.output, &ufo)?;
+        staged.commit()
     }
 
     /// The defaults with what the command line changes.
@@ -102,38 +115,8 @@ pub(crate) fn svg(gray: &Gray, paths: &[BezPath]) -> String {
     )
 }
 
-/// A stroked path of each line, as wide as the line is in the middle; the width at each of its nodes in
-/// `data-widths`. Dots are circles. User space is the picture's px, y down.
-fn svg_lines(gray: &Gray, drawn: &Centerline) -> String {
-    let (w, h) = (gray.width(), gray.height());
-    let mut out = format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{w}\" height=\"{h}\" viewBox=\"0 0 {w} {h}\">\n\
-         <g fill=\"none\" stroke=\"black\" stroke-linecap=\"round\" stroke-linejoin=\"round\">\n"
-    );
-    for line in &drawn.lines {
-        let mut d = String::new();
-        line.path
-            .elements()
-            .iter()
-            .for_each(|el| path_data(&mut d, *el));
-        let mut sorted = line.widths.clone();
-        sorted.sort_by(f64::total_cmp);
-        let middle = sorted.get(sorted.len() / 2).copied().unwrap_or_default();
-        let widths: Vec<String> = line.widths.iter().map(|w| format!("{w:.2}")).collect();
-        let widths = widths.join(" ");
-        out +=
-            &format!("<path stroke-width=\"{middle:.2}\" data-widths=\"{widths}\" d=\"{d}\"/>\n");
-    }
-    out += "</g>\n";
-    for dot in &drawn.dots {
-        let (x, y, r) = (dot.centre.x, dot.centre.y, dot.radius);
-        out += &format!("<circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"{r:.2}\"/>\n");
-    }
-    out + "</svg>\n"
-}
-
 /// Adds one element to an SVG path's data.
-fn path_data(d: &mut String, el: PathEl) {
+pub(super) fn path_data(d: &mut String, el: PathEl) {
     let (letter, points): (char, &[Point]) = match &el {
         PathEl::MoveTo(p) => ('M', &[*p]),
         PathEl::LineTo(p) => ('L', &[*p]),

@@ -1,9 +1,10 @@
 //! A project → a font: the whole way.
 
 use super::cache::{self, Store};
+use super::doubt::Doubt;
 use super::labels;
 use super::letter::Letter;
-use super::letters::{self, Doubt};
+use super::letters;
 use super::page::{self, Page};
 use super::problem::Problem;
 use super::project::{Project, SheetTable};

@@ -1,6 +1,7 @@
 //! Which letters a project's cells hold, and whether its labels say so.
 
 use super::build::World;
+use super::doubt::Doubt;
 use super::letter::Letter;
 use super::problem::{Place, Problem};
 use super::project::{Labels, Layout, Project, SheetTable};
@@ -11,7 +12,6 @@ use crate::recognise::{Alphabet, Finding, Guess, Look, Method, Reading, check};
 use crate::types::{Cell, Label};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
-use std::fmt;
 
 /// A cell and the letters that it may hold.
 #[derive(Debug, Clone)]
@@ -20,77 +20,6 @@ pub struct Matched {
     pub place: Place,
     /// Likeliest first.
     pub guesses: Vec<Guess>,
-}
-
-/// What does not fit the labels of one page.
-#[derive(Debug, Clone)]
-pub struct Doubt {
-    /// The page, as messages name it.
-    pub sheet: String,
-    /// What does not fit, cells and labels by their index.
-    pub finding: Finding,
-    /// The labels of the page.
-    labels: Vec<String>,
-}
-
-impl fmt::Display for Doubt {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let label = |i: &usize| self.labels.get(*i).map_or("?", String::as_str);
-        write!(f, "{}: ", self.sheet)?;
-        match &self.finding {
-            Finding::Disagrees {
-                cell,
-                like,
-                confidence,
-            } => {
-                let percent = 100.0 * confidence;
-                write!(
-                    f,
-                    "cell {} is labelled {} but looks like {like} ({percent:.0} %)",
-                    cell + 1,
-                    label(cell)
-                )
-            }
-            Finding::Swapped(a, b) => {
-                write!(
-                    f,
-                    "cells {} and {} look as if their labels {} and {} were swapped",
-                    a + 1,
-                    b + 1,
-                    label(a),
-                    label(b)
-                )
-            }
-            Finding::Shifted { first, last, by } => {
-                let side = if *by > 0 { "after" } else { "before" };
-                let (first, last) = (first + 1, last + 1);
-                let places = by.unsigned_abs();
-                write!(
-                    f,
-                    "cells {first} to {last} are shifted: each looks like the label {places} {side} its own"
-                )
-            }
-            Finding::Unsure {
-                cell,
-                like,
-                confidence,
-            } => {
-                let percent = 100.0 * confidence;
-                write!(
-                    f,
-                    "cell {} is left out: perhaps {like} ({percent:.0} %)",
-                    cell + 1
-                )
-            }
-            Finding::Missing(j) => write!(f, "no cell looks like label {} ({})", j + 1, label(j)),
-            Finding::Extra(i) => write!(
-                f,
-                "cell {} ({}) looks like no label near it",
-                i + 1,
-                label(i)
-            ),
-        }
-    }
 }
 
 /// The letters of every page's cells, best first, and what speaks against the labels. Names without a drawing
@@ -197,7 +126,7 @@ pub(super) fn doubts(
     letters: &[Letter],
     world: World<'_>,
 ) -> Result<Vec<Doubt>, Problem> {
-    if project.matching.reference.is_none() {
+    if project.matching.reference.is_empty() {
         return Ok(Vec::new());
     }
     let alphabet = alphabet(project, world)?;
@@ -264,12 +193,12 @@ fn guesses(cells: &[Cell], alphabet: &Alphabet, method: Method) -> Vec<Vec<Guess
     looks.par_iter().map(|l| alphabet.rank(l)).collect()
 }
 
-/// The reference's letters of the scripts that the labels use, and the labels themselves.
+/// The references' letters of the scripts that the labels use, and the labels themselves.
 fn alphabet(project: &Project, world: World<'_>) -> Result<Alphabet, Problem> {
-    let Some(reference) = &project.matching.reference else {
+    let references = &project.matching.reference;
+    if references.is_empty() {
         return Err(Problem::NoReference);
-    };
-    let bytes = world.file(reference)?;
+    }
     let mut labels: Vec<Label> = Vec::new();
     for sheet in project.sheets.iter().filter(|s| !s.glyphs.is_auto()) {
         labels.extend(labels::of_sheet(sheet, world)?);
@@ -280,12 +209,17 @@ fn alphabet(project: &Project, world: World<'_>) -> Result<Alphabet, Problem> {
     } else {
         Vec::new()
     };
-    let samples =
-        samples(&bytes, letters(&labels, scripts)).map_err(|source| Problem::Reference {
+    let wanted = letters(&labels, scripts);
+    let mut pictures = Vec::new();
+    for reference in references {
+        let bytes = world.file(reference)?;
+        let drawn = samples(&bytes, wanted.iter().cloned());
+        pictures.extend(drawn.map_err(|source| Problem::Reference {
             file: reference.display().to_string(),
             source,
-        })?;
-    Ok(Alphabet::new(&samples, project.matching.method))
+        })?);
+    }
+    Ok(Alphabet::new(&pictures, project.matching.method))
 }
 
 /// The labels, and all letters of their scripts and of these.

@@ -3,6 +3,7 @@
 mod build;
 mod cache;
 pub mod convert;
+mod doubt;
 mod labels;
 mod letter;
 mod letters;
@@ -19,8 +20,9 @@ mod watch;
 
 pub use build::{Built, World, build, pages};
 pub use cache::{Nothing, Store};
+pub use doubt::Doubt;
 pub use letter::Letter;
-pub use letters::{Doubt, Matched, match_letters};
+pub use letters::{Matched, match_letters};
 pub use outputs::{Outputs, outputs, proof};
 pub use page::Page;
 pub use printing::sheets;

@@ -3,8 +3,8 @@
 use crate::assemble::names::{self, Form, Identity};
 use crate::recognise::Sample;
 use crate::types::{Gray, Guides, Label};
-use harfrust::{ShapeOptions, ShaperData, UnicodeBuffer};
-use kurbo::{Affine, BezPath, PathEl, Rect, Shape};
+use harfrust::{ShapeOptions, Shaper, ShaperData, UnicodeBuffer};
+use kurbo::{Affine, BezPath, PathEl, Rect, Shape, Vec2};
 use resvg::tiny_skia::{Color, FillRule, Paint, PathBuilder, Pixmap, Transform};
 use skrifa::outline::{DrawSettings, OutlinePen};
 use skrifa::prelude::{LocationRef, Size};
@@ -16,8 +16,9 @@ use thiserror::Error;
 const PX_PER_EM: f64 = 150.0;
 /// Paper around the ink, px.
 const MARGIN: f64 = 2.0;
-/// Joins the letters beside it without being seen.
-const JOINER: char = '\u{200D}';
+/// What joins a letter without being a letter: nothing to be seen, and the stroke that draws a join out as
+/// hands do.
+const JOINERS: [char; 2] = ['\u{200D}', '\u{640}'];
 
 /// Why a font is no reference.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
@@ -101,7 +102,8 @@ pub fn spelling(label: &Label) -> String {
     }
 }
 
-/// Pictures of the letters that the font has, each label once, in order.
+/// Pictures of the letters that the font has, in order: one of each label, and a second with the joins drawn out
+/// of those that join.
 ///
 /// # Errors
 /// The bytes are no font, or it has none of these letters.
@@ -112,6 +114,8 @@ pub fn samples(
     let face = FontRef::new(font).map_err(|e| ReferenceError::Font(e.to_string()))?;
     let data = ShaperData::new(&face);
     let shaper = data.shaper(&face).build();
+    let metrics = face.metrics(Size::unscaled(), LocationRef::default());
+    let units_per_em = f64::from(metrics.units_per_em);
     let mut seen = BTreeSet::new();
     let mut samples = Vec::new();
     for label in labels {
@@ -122,32 +126,14 @@ pub fn samples(
         if !seen.insert(label.clone()) {
             continue;
         }
-        let mut buffer = UnicodeBuffer::new();
-        buffer.push_str(&text(&id));
-        buffer.guess_segment_properties();
-        let shaped = shaper.shape(buffer, ShapeOptions::default());
-        let mut path = BezPath::new();
-        let mut pen = (0.0, 0.0);
-        let (infos, places) = (shaped.glyph_infos(), shaped.glyph_positions());
-        let missing = infos.iter().any(|i| i.glyph_id == 0);
-        for (info, place) in infos.iter().zip(places) {
-            let at = (
-                pen.0 + f64::from(place.x_offset),
-                pen.1 + f64::from(place.y_offset),
-            );
-            path.extend(Affine::translate(at) * outline(&face, info.glyph_id));
-            pen.0 += f64::from(place.x_advance);
-            pen.1 += f64::from(place.y_advance);
+        for text in texts(&id) {
+            let drawn = set(&face, &shaper, &text).and_then(|path| draw(&path, units_per_em));
+            samples.extend(drawn.map(|(gray, guides)| Sample {
+                label: label.clone(),
+                gray,
+                guides: Some(guides),
+            }));
         }
-        let upem = face
-            .metrics(Size::unscaled(), LocationRef::default())
-            .units_per_em;
-        let sample = (!missing).then(|| draw(&path, f64::from(upem))).flatten();
-        samples.extend(sample.map(|(gray, guides)| Sample {
-            label,
-            gray,
-            guides: Some(guides),
-        }));
     }
     if samples.is_empty() {
         Err(ReferenceError::Empty)
@@ -156,16 +142,42 @@ pub fn samples(
     }
 }
 
-/// The text that a shaper sets as this glyph.
-fn text(id: &Identity) -> String {
+/// The texts that a shaper sets as this glyph, one for each of [`JOINERS`] where it joins.
+fn texts(id: &Identity) -> Vec<String> {
     let form = id.form();
-    let before = form.is_some_and(Form::joins_before).then_some(JOINER);
-    let after = form.is_some_and(Form::joins_after).then_some(JOINER);
-    before
-        .into_iter()
-        .chain(id.chars.iter().copied())
-        .chain(after)
-        .collect()
+    let (before, after) = (
+        form.is_some_and(Form::joins_before),
+        form.is_some_and(Form::joins_after),
+    );
+    let ways = if before || after { JOINERS.len() } else { 1 };
+    let text = |joiner: &char| -> String {
+        let letters = id.chars.iter().copied();
+        let start = before.then_some(*joiner).into_iter();
+        start
+            .chain(letters)
+            .chain(after.then_some(*joiner))
+            .collect()
+    };
+    JOINERS.iter().take(ways).map(text).collect()
+}
+
+/// The outlines of a text, font units; `None` where the font lacks one of its letters.
+fn set(face: &FontRef<'_>, shaper: &Shaper<'_>, text: &str) -> Option<BezPath> {
+    let mut buffer = UnicodeBuffer::new();
+    buffer.push_str(text);
+    buffer.guess_segment_properties();
+    let shaped = shaper.shape(buffer, ShapeOptions::default());
+    let mut path = BezPath::new();
+    let mut pen = Vec2::ZERO;
+    for (info, place) in shaped.glyph_infos().iter().zip(shaped.glyph_positions()) {
+        if info.glyph_id == 0 {
+            return None;
+        }
+        let offset = Vec2::new(f64::from(place.x_offset), f64::from(place.y_offset));
+        path.extend(Affine::translate(pen + offset) * outline(face, info.glyph_id));
+        pen += Vec2::new(f64::from(place.x_advance), f64::from(place.y_advance));
+    }
+    Some(path)
 }
 
 /// Collects a glyph's outline.

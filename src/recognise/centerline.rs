@@ -40,7 +40,9 @@ const NOISE: f64 = 0.004;
 const MOST: usize = 40;
 /// Within this many half widths of a junction the other lines' ink hides the border.
 const HIDDEN: f64 = 1.6;
-/// A turn sharper than this, radians, between the chords over 1.5 half widths each way is a corner.
+/// Widths from a corner at which its arms are looked at: nearer, the inks of both run together.
+const ARM: f64 = 0.75;
+/// A turn sharper than this, radians, between the chords to both arms is a corner.
 const CORNER: f64 = 0.9;
 
 /// A point of a line's middle and the ink's width there.
@@ -148,6 +150,43 @@ impl Way {
         (way.hypot() > 0.0).then(|| (tip, way.normalize(), width))
     }
 
+    /// The direction in which the line arrives at its end, its bend carried on: the chords over half a width and
+    /// over a whole one turn by as much as the end does from the first.
+    fn heading(&self, side: usize, otherwise: Vec2) -> Vec2 {
+        let tip = self.back(side, 0.0);
+        let width = if side == 0 {
+            self.middles.first()
+        } else {
+            self.middles.last()
+        };
+        let width = width.map_or(0.0, |m| m.1);
+        let chord = |length: f64| tip - self.back(side, length);
+        let (near, far) = (chord(width / 2.0), chord(width));
+        if near.hypot() <= 0.0 || far.hypot() <= 0.0 {
+            return otherwise;
+        }
+        let (near, far) = (near.normalize(), far.normalize());
+        let (sin, cos) = (far.cross(near), far.dot(near));
+        Vec2::new(near.x * cos - near.y * sin, near.x * sin + near.y * cos)
+    }
+
+    /// The point `length` along the line from its end on that side.
+    fn back(&self, side: usize, length: f64) -> Point {
+        let mut points: Vec<Point> = self.middles.iter().map(|m| m.0).collect();
+        if side == 1 {
+            points.reverse();
+        }
+        let mut left = length;
+        for pair in points.windows(2) {
+            let step = pair[0].distance(pair[1]);
+            if step >= left {
+                return pair[0].lerp(pair[1], left / step.max(f64::MIN_POSITIVE));
+            }
+            left -= step;
+        }
+        points.last().copied().unwrap_or_default()
+    }
+
     /// Takes its ends to the junctions, or to half a width behind the ink's tip.
     fn end_at(&mut self, gray: &Gray, junctions: &[Point]) {
         if self.closed {
@@ -160,7 +199,12 @@ impl Way {
             let junction = self.joins[side].and_then(|j| junctions.get(j));
             let end = junction.copied().unwrap_or_else(|| {
                 let reach = border(gray, tip, way, 1.5 * width + 2.0).unwrap_or(width / 2.0);
-                tip + way * (reach - width / 2.0)
+                let beyond = reach - width / 2.0;
+                if beyond < 0.0 {
+                    self.back(side, -beyond)
+                } else {
+                    tip + self.heading(side, way) * beyond
+                }
             });
             // What lies beyond the end was thinned into a corner of the ink.
             let beyond = |m: &Middle| (m.0 - end).dot(way) > -0.5 && m.0.distance(end) < width;
@@ -186,22 +230,16 @@ impl Way {
         if n < 2 {
             return None;
         }
-        let points: Vec<Point> = self.middles.iter().map(|m| m.0).collect();
         let cubics: Vec<CubicBez> = if self.closed && cuts.is_empty() {
+            let points: Vec<Point> = self.middles.iter().map(|m| m.0).collect();
             curve(Span::Ring(&points))
         } else {
-            let mut ring = points.clone();
-            if self.closed {
-                ring.rotate_left(cuts[0]);
-                ring.push(points[cuts[0]]);
-                let first = cuts[0];
-                cuts.iter_mut().for_each(|c| *c -= first);
-            }
-            cuts.push(ring.len() - 1);
+            // From corner to corner; of a ring the first is the last.
+            let first = if self.closed { cuts[0] } else { 0 };
+            cuts.push(if self.closed { first + n } else { n - 1 });
             cuts.dedup();
-            cuts.windows(2)
-                .flat_map(|w| curve(Span::Open(&ring[w[0]..=w[1]])))
-                .collect()
+            let piece = |w: &[usize]| curve(Span::Open(&self.piece(w[0], w[1])));
+            cuts.windows(2).flat_map(piece).collect()
         };
         let mut path = BezPath::new();
         path.move_to(cubics.first()?.p0);
@@ -223,6 +261,42 @@ impl Way {
         })
     }
 
+    /// The points from one cut to the next, indices modulo the ring's length; near corners, where the ink of both
+    /// arms runs together, only the corner itself.
+    fn piece(&self, from: usize, to: usize) -> Vec<Point> {
+        let n = self.middles.len();
+        let is_corner = |i: usize| self.closed || (i > 0 && i + 1 < n);
+        let end = |i: usize| {
+            let (at, width) = self.middles[i % n];
+            let sharp = is_corner(i).then(|| self.sharp(i % n)).flatten();
+            sharp.map_or((at, at, 0.0), |p| (p, at, ARM * width.max(2.0)))
+        };
+        let (start, stop) = (end(from), end(to));
+        let clear = |p: &Point| p.distance(start.1) >= start.2 && p.distance(stop.1) >= stop.2;
+        let inner = (from + 1..to).map(|i| self.middles[i % n].0).filter(clear);
+        std::iter::once(start.0)
+            .chain(inner)
+            .chain([stop.0])
+            .collect()
+    }
+
+    /// Where the arms of the corner at point `i` meet; `None` for a bend, whose middle lies farther from there
+    /// than that of a corner.
+    fn sharp(&self, i: usize) -> Option<Point> {
+        let (at, width) = self.middles[i];
+        let reach = ARM * width.max(2.0);
+        let arm = |step| {
+            let near = self.walk(i, reach, step)?;
+            Some((near, (near - self.walk(i, 2.0 * reach, step)?).normalize()))
+        };
+        let ((a, u), (b, v)) = (arm(Step::Back)?, arm(Step::On)?);
+        let met = a + u * ((b - a).cross(v) / u.cross(v));
+        // The middle of a corner is as far from the pen's round outside as from the inner corner.
+        let sine_of_half = (0.5 * (1.0 - u.dot(v))).sqrt();
+        let off = 0.25 * width * (1.0 / sine_of_half - 1.0);
+        (met.distance(at) <= 1.5 * off + 0.5).then_some(met)
+    }
+
     fn width_at(&self, p: Point) -> f64 {
         let nearest = self
             .middles
@@ -235,7 +309,7 @@ impl Way {
     fn corners(&self) -> Vec<usize> {
         let n = self.middles.len();
         let turn = |i: usize| -> f64 {
-            let reach = 0.75 * self.middles[i].1.max(2.0);
+            let reach = ARM * self.middles[i].1.max(2.0);
             let (Some(a), Some(b)) = (
                 self.walk(i, reach, Step::Back),
                 self.walk(i, reach, Step::On),
@@ -247,7 +321,7 @@ impl Way {
         };
         let turns: Vec<f64> = (0..n).map(turn).collect();
         let highest = |&i: &usize| {
-            let reach = 0.75 * self.middles[i].1.max(2.0);
+            let reach = ARM * self.middles[i].1.max(2.0);
             let near = |j: &usize| self.middles[*j].0.distance(self.middles[i].0) <= reach;
             let higher = |j: usize| turns[j] > turns[i] || (j < i && turns[j] >= turns[i]);
             turns[i] > CORNER && !(0..n).filter(near).any(higher)

@@ -90,15 +90,13 @@ impl Blob {
         // A pixel has a moment of its own.
         let xx = mean(&|p| (p.x - centre.x).powi(2)) + 1.0 / 12.0;
         let yy = mean(&|p| (p.y - centre.y).powi(2)) + 1.0 / 12.0;
-        let xy = mean(&|p| (p.x - centre.x) * (p.y - centre.y));
-        let (half, spread) = ((xx + yy) / 2.0, ((xx - yy) / 2.0).hypot(xy));
         // Sides of the rectangle with these moments.
         let side = |moment: f64| (12.0 * moment.max(0.0)).sqrt();
         Some(Self {
             area,
             centre,
-            long: side(half + spread),
-            wide: side(half - spread),
+            long: side(xx),
+            wide: side(yy),
         })
     }
 

@@ -51,8 +51,10 @@ pub struct Project {
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct MatchTable {
-    /// A TTF or OTF font, relative to the project file; without one labels are believed.
-    pub reference: Option<PathBuf>,
+    /// TTF or OTF fonts, relative to the project file, one or a list of which the nearest letter counts;
+    /// without one labels are believed.
+    #[serde(deserialize_with = "check::paths")]
+    pub reference: Vec<PathBuf>,
     /// What is compared.
     pub method: recognise::Method,
 }

@@ -1,0 +1,114 @@
+//! Lines that a pen drew, as SVG strokes or as the open contours of a UFO.
+
+use super::trace::path_data;
+use khatt::assemble::names;
+use khatt::pipeline::picture::to_picture;
+use khatt::recognise::{Centerline, Dot, Line};
+use khatt::types::{Files, Gray, Label};
+use kurbo::{Affine, BezPath, PathEl, Point};
+use norad::{Codepoints, Contour, ContourPoint, PointType, WriteOptions};
+use plist::Value;
+use std::error::Error;
+use std::path::Path;
+use std::sync::Mutex;
+
+/// Where a UFO's glyph keeps the ink's width: a list a contour, a number an on-curve point, in units.
+const WIDTHS: &str = "khatt.strokeWidths";
+
+/// A stroked path of each line, as wide as the line is in the middle; the width at each of its nodes in
+/// `data-widths`. Dots are circles. User space is the picture's px, y down.
+pub(super) fn svg(gray: &Gray, drawn: &Centerline) -> String {
+    let (w, h) = (gray.width(), gray.height());
+    let mut out = format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{w}\" height=\"{h}\" viewBox=\"0 0 {w} {h}\">\n\
+         <g fill=\"none\" stroke=\"black\" stroke-linecap=\"round\" stroke-linejoin=\"round\">\n"
+    );
+    for line in &drawn.lines {
+        let mut d = String::new();
+        let elements = line.path.elements().iter();
+        elements.for_each(|el| path_data(&mut d, *el));
+        let mut sorted = line.widths.clone();
+        sorted.sort_by(f64::total_cmp);
+        let middle = sorted.get(sorted.len() / 2).copied().unwrap_or_default();
+        let widths: Vec<String> = line.widths.iter().map(|w| format!("{w:.2}")).collect();
+        let widths = widths.join(" ");
+        out +=
+            &format!("<path stroke-width=\"{middle:.2}\" data-widths=\"{widths}\" d=\"{d}\"/>\n");
+    }
+    out += "</g>\n";
+    for dot in &drawn.dots {
+        let (x, y, r) = (dot.centre.x, dot.centre.y, dot.radius);
+        out += &format!("<circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"{r:.2}\"/>\n");
+    }
+    out + "</svg>\n"
+}
+
+/// A UFO of one glyph: a unit is a px, y up from the picture's lower edge. The glyph bears the output's name, and
+/// its character where that names one. Dots are lines of no length, as wide as the dot.
+pub(super) fn ufo(gray: &Gray, drawn: &Centerline, to: &Path) -> Result<Files, Box<dyn Error>> {
+    let stem = to.file_stem().and_then(|s| s.to_str()).unwrap_or_default();
+    let known = names::identify(&Label(stem.to_owned())).ok();
+    let name = known.as_ref().map_or("drawing", |id| id.name.as_str());
+    let mut glyph = norad::Glyph::new(name);
+    if let Some([c]) = known.as_ref().map(|id| id.chars.as_slice()) {
+        glyph.codepoints = Codepoints::new([*c]);
+    }
+    glyph.width = gray.width() as f64;
+    let up = to_picture(gray).inverse();
+    glyph.contours = drawn
+        .lines
+        .iter()
+        .map(|l| contour(&(up * &l.path)))
+        .collect();
+    glyph.contours.extend(drawn.dots.iter().map(|d| dot(d, up)));
+    let reals = |widths: &[f64]| Value::Array(widths.iter().map(|w| Value::Real(*w)).collect());
+    let lines = drawn.lines.iter().map(|l: &Line| reals(&l.widths));
+    let dots = drawn.dots.iter().map(|d| reals(&[2.0 * d.radius; 2]));
+    let widths = Value::Array(lines.chain(dots).collect());
+    glyph.lib.insert(WIDTHS.to_owned(), widths);
+    let mut font = norad::Font::new();
+    font.default_layer_mut().insert_glyph(glyph);
+    let files = Mutex::new(Files::default());
+    let sink = |path: &Path, data: &[u8]| {
+        let parts: Vec<_> = path.iter().map(|p| p.to_string_lossy()).collect();
+        let mut files = files
+            .lock()
+            .map_err(|e| std::io::Error::other(e.to_string()))?;
+        files.0.insert(parts.join("/"), data.to_vec());
+        Ok(())
+    };
+    font.save_to_sink(&sink, &WriteOptions::default())?;
+    Ok(files.into_inner().unwrap_or_default())
+}
+
+/// A line as the field writes it: an open contour begins with a point of type `move`.
+fn contour(path: &BezPath) -> Contour {
+    let mut points = Vec::new();
+    let mut add = |p: Point, kind| points.push(node(p, kind));
+    let closed = path.elements().last() == Some(&PathEl::ClosePath);
+    for el in path.elements() {
+        match *el {
+            PathEl::MoveTo(p) if !closed => add(p, PointType::Move),
+            PathEl::LineTo(p) => add(p, PointType::Line),
+            PathEl::CurveTo(a, b, p) => {
+                add(a, PointType::OffCurve);
+                add(b, PointType::OffCurve);
+                add(p, PointType::Curve);
+            }
+            PathEl::MoveTo(_) | PathEl::QuadTo(..) | PathEl::ClosePath => {}
+        }
+    }
+    Contour::new(points, None)
+}
+
+fn dot(dot: &Dot, up: Affine) -> Contour {
+    let at = up * dot.centre;
+    Contour::new(
+        vec![node(at, PointType::Move), node(at, PointType::Line)],
+        None,
+    )
+}
+
+fn node(p: Point, kind: PointType) -> ContourPoint {
+    ContourPoint::new(p.x, p.y, kind, false, None, None)
+}
