@@ -68,6 +68,9 @@ fn help_is_approved() {
     for command in [
         "",
         "build",
+        "watch",
+        "page",
+        "merge",
         "sheet",
         "trace",
         "cut",

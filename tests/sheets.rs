@@ -9,7 +9,12 @@ use crate::common::approved;
 use skrifa::{FontRef, raw::TableProvider};
 use std::collections::BTreeMap;
 use std::fs;
+use std::io::{BufRead, BufReader, Read, Write};
+use std::net::TcpStream;
 use std::path::Path;
+use std::process::Stdio;
+use std::thread::sleep;
+use std::time::Duration;
 
 /// Where the grey of a drawn edge begins and ends, px.
 fn edge(distance: f64) -> u8 {
@@ -214,6 +219,93 @@ fn what_is_kept_may_be_spoilt() {
     fs::remove_dir_all(dir.path().join("out")).expect("outputs");
     assert_eq!(khatt(dir.path(), &args).status.code(), Some(0));
     assert_eq!(files(&dir.path().join("out")), first);
+}
+
+#[test]
+fn pages_done_apart_are_merged_to_the_same_bytes() {
+    let dir = project(LETTERS, &page(&[]));
+    fs::write(dir.path().join("more.png"), page(&[4])).expect("a picture");
+    let text = fs::read_to_string(dir.path().join("font.toml")).expect("the project");
+    let second = "[[sheet]]\nimage = \"more.png\"\nlayout = { grid = [3, 3] }\n\
+                  glyphs = \"A p i B _ j C q k\"\npixels_per_em = 150\n[output]";
+    fs::write(
+        dir.path().join("font.toml"),
+        text.replace("[output]", second),
+    )
+    .expect("a project");
+    let run = |args: &[&str]| {
+        let out = khatt(dir.path(), &[args, &["--quiet"]].concat());
+        (
+            out.status.code(),
+            String::from_utf8_lossy(&out.stderr).into_owned(),
+        )
+    };
+    let built = run(&["build", "font.toml", "--no-cache"]);
+    assert_eq!(built.0, Some(0), "{}", built.1);
+    let whole = files(&dir.path().join("out"));
+    fs::remove_dir_all(dir.path().join("out")).expect("outputs");
+
+    let page = |n: &str, to: &str| run(&["page", "font.toml", "--sheet", n, "-o", to]);
+    assert_eq!(page("2", "second").0, Some(0));
+    let (status, said) = run(&["merge", "font.toml", "second"]);
+    assert_eq!(status, Some(1));
+    assert!(
+        said.contains("sheet 1") && said.contains("khatt page"),
+        "{said}"
+    );
+    assert!(!dir.path().join("out").exists(), "something was written");
+
+    assert_eq!(page("1", "first").0, Some(0));
+    let (status, said) = run(&["merge", "font.toml", "second", "first"]);
+    assert_eq!(status, Some(0), "{said}");
+    assert_eq!(files(&dir.path().join("out")), whole);
+
+    assert!(page("3", "third").1.contains("the project has 2 sheets"));
+    assert!(
+        run(&["merge", "font.toml", "page.png"])
+            .1
+            .contains("no result")
+    );
+}
+
+/// What the address answers.
+fn fetch(address: &str, path: &str) -> String {
+    let mut stream = TcpStream::connect(address).expect("a server");
+    write!(stream, "GET {path} HTTP/1.1\r\nHost: {address}\r\n\r\n").expect("a request");
+    let mut answer = String::new();
+    stream.read_to_string(&mut answer).expect("an answer");
+    answer
+}
+
+#[test]
+fn a_watched_project_is_built_again_when_a_page_changes() {
+    let dir = project(LETTERS, &page(&[]));
+    let mut command = command(dir.path(), &["watch", "font.toml", "--port", "0"]);
+    let mut child = command.stderr(Stdio::piped()).spawn().expect("khatt runs");
+    let mut lines = BufReader::new(child.stderr.take().expect("its words")).lines();
+    let first = lines.next().expect("a line").expect("text");
+    let address = first.split('/').nth(2).expect("an address").to_owned();
+    let version = |least: u32| {
+        // the watcher answers when it has built: ten seconds are far more than it needs
+        (0..200).any(|_| {
+            sleep(Duration::from_millis(50));
+            let answer = fetch(&address, "/version");
+            let number = answer.rsplit("\r\n").next().and_then(|n| n.parse().ok());
+            number.is_some_and(|n: u32| n >= least)
+        })
+    };
+    assert!(version(1), "the first build");
+    assert!(fetch(&address, "/").contains("Test Regular"));
+    assert!(dir.path().join("out/test.ttf").exists());
+    fs::write(dir.path().join("page.png"), page(&[8])).expect("a picture");
+    assert!(version(2), "a build of the new picture");
+    assert!(
+        fetch(&address, "/").contains("cell 9"),
+        "the empty cell is named"
+    );
+    assert!(fetch(&address, "/other").starts_with("HTTP/1.1 404"));
+    child.kill().expect("it ends");
+    child.wait().expect("it has ended");
 }
 
 #[test]

@@ -8,7 +8,7 @@ use super::project::{Opened, created};
 use super::staged::{self, Staged};
 use super::{Common, Outcome, keep};
 use clap::Args;
-use khatt::pipeline::{self, Built, Outputs};
+use khatt::pipeline::{self, Built, Outputs, Store};
 use khatt::types::Files;
 use serde_json::json;
 use std::fmt::Write;
@@ -35,6 +35,21 @@ pub(crate) struct Build {
 }
 
 impl Build {
+    /// What the project's [output] names, and nothing else.
+    pub(crate) fn of(project: PathBuf) -> Self {
+        Self {
+            project,
+            keep: None,
+            depfile: None,
+            locked: false,
+            cache: CacheArgs::default(),
+        }
+    }
+
+    pub(crate) fn cached(self, cache: CacheArgs) -> Self {
+        Self { cache, ..self }
+    }
+
     pub(crate) fn run(&self, common: &Common) -> Outcome {
         let opened = Opened::new(&self.project)?;
         let cache = self.cache.open();
@@ -48,17 +63,38 @@ impl Build {
             }
             return Ok(());
         }
+        let (files, said) = self.make(&cache, &opened, common)?;
+        if let Some(done) = Done::new(&opened.inputs(), &files, &said) {
+            done.keep(&cache, &key);
+        }
+        cache.trim();
+        Ok(())
+    }
+
+    /// Builds from what `store` has of the pages.
+    pub(crate) fn run_with(&self, store: &dyn Store, opened: &Opened, common: &Common) -> Outcome {
+        self.make(store, opened, common).map(drop)
+    }
+
+    /// Makes the outputs and tells of it; the outputs, and what was to be remarked.
+    fn make(
+        &self,
+        store: &dyn Store,
+        opened: &Opened,
+        common: &Common,
+    ) -> Result<(Vec<(PathBuf, Files)>, String), Failure> {
         let ((built, outputs), total, times) =
-            opened.work_with(&cache, common, |project, world| {
+            opened.work_with(store, common, |project, world| {
                 let built = pipeline::build(project, world)?;
                 let outputs = pipeline::outputs(project, &built, world)?;
                 Ok((built, outputs))
             })?;
-        let files = self.files(&opened, &outputs, (total, &times));
-        if self.locked {
-            return staged::same(&files);
-        }
+        let files = self.files(opened, &outputs, (total, &times));
         let said = remarks(&built);
+        if self.locked {
+            staged::same(&files)?;
+            return Ok((files, said));
+        }
         let mut staged = Staged::default();
         for (path, files) in &files {
             staged.add(path, files)?;
@@ -67,10 +103,6 @@ impl Build {
             staged.add(folder, &keep::files(&built))?;
         }
         staged.commit()?;
-        if let Some(done) = Done::new(&opened.inputs(), &files, &said) {
-            done.keep(&cache, &key);
-        }
-        cache.trim();
         if !common.quiet {
             eprint!("{said}");
             say(&built, total, &times);
@@ -78,7 +110,7 @@ impl Build {
                 .iter()
                 .for_each(|(path, _)| eprintln!("  {}", path.display()));
         }
-        Ok(())
+        Ok((files, said))
     }
 
     /// A digest of what this build is asked for.

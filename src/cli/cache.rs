@@ -18,7 +18,7 @@ const FULL: u64 = 4 << 30;
 /// Bytes of the checksum at the head of an entry.
 const CHECK: usize = 4;
 
-#[derive(Debug, Args)]
+#[derive(Debug, Clone, Default, Args)]
 pub(crate) struct CacheArgs {
     /// Keep what pages became in this folder [default: khatt in the user's cache folder]
     #[arg(long, value_name = "DIR", conflicts_with = "no_cache")]

@@ -19,6 +19,8 @@ mod init;
 mod keep;
 mod match_letters;
 mod methods;
+mod page_server;
+mod pages;
 mod progress;
 mod project;
 mod proof;
@@ -26,6 +28,7 @@ mod sheet;
 mod shell;
 mod staged;
 mod trace;
+mod watch;
 
 use clap::{Args, Parser, Subcommand};
 use failure::Failure;
@@ -60,6 +63,9 @@ struct Common {
 #[derive(Debug, Subcommand)]
 enum Command {
     Build(build::Build),
+    Watch(watch::Watch),
+    Page(pages::Page),
+    Merge(pages::Merge),
     Sheet(sheet::Sheet),
     Cut(cut::Cut),
     Proof(proof::Proof),
@@ -96,6 +102,9 @@ pub(crate) fn main() -> ExitCode {
 fn run(args: &Khatt) -> Outcome {
     match &args.command {
         Command::Build(build) => build.run(&args.common),
+        Command::Watch(watch) => watch.run(&args.common),
+        Command::Page(page) => page.run(&args.common),
+        Command::Merge(merge) => merge.run(&args.common),
         Command::Sheet(sheet) => sheet.run(&args.common),
         Command::Cut(cut) => cut.run(&args.common),
         Command::Proof(proof) => proof.run(&args.common),

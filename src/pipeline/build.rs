@@ -92,6 +92,19 @@ pub fn build(project: &Project, world: World<'_>) -> Result<Built, Vec<Problem>>
 /// # Errors
 /// Everything that is wrong with the project, its pages and their cells.
 fn letters(project: &Project, world: World<'_>) -> Result<(Vec<Letter>, Vec<Page>), Vec<Problem>> {
+    let pages = tables(project, world, |number, table, labels| {
+        sheet(project, (number, table, labels), world)
+    })?;
+    let (letters, pages): (Vec<_>, Vec<_>) = pages.into_iter().unzip();
+    Ok((letters.into_iter().flatten().collect(), pages))
+}
+
+/// The letters of a table's pages, kept ones where nothing has changed.
+fn sheet(
+    project: &Project,
+    (number, table, labels): (usize, &SheetTable, &[Label]),
+    world: World<'_>,
+) -> Result<Vec<(Vec<Letter>, Page)>, Vec<Problem>> {
     let trace = |mut page: Page| {
         let cells = mem::take(&mut page.cut.cells);
         let sheet = page.name.as_str();
@@ -105,16 +118,52 @@ fn letters(project: &Project, world: World<'_>) -> Result<(Vec<Letter>, Vec<Page
         let letters = all(cells.into_par_iter().map(letter).collect())?;
         Ok((letters, page))
     };
-    let pages = tables(project, world, |number, table, labels| {
-        let mut pages = cache::recalled((table, labels), project, world, || {
-            page::each((number, table), labels, project, world, trace)
-        })?;
-        // a table that was kept may have stood in another place
-        pages.iter_mut().for_each(|(_, page)| page.table = number);
-        Ok(pages)
+    let mut pages = cache::recalled((table, labels), project, world, || {
+        page::each((number, table), labels, project, world, trace)
     })?;
-    let (letters, pages): (Vec<_>, Vec<_>) = pages.into_iter().unzip();
-    Ok((letters.into_iter().flatten().collect(), pages))
+    // a table that was kept may have stood in another place
+    pages.iter_mut().for_each(|(_, page)| page.table = number);
+    Ok(pages)
+}
+
+/// Does the work of one `[[sheet]]`, `number` from 1, and leaves the result in the world's store.
+///
+/// # Errors
+/// There is no such sheet, or something is wrong with the project, its pages and their cells.
+pub fn sheet_letters(
+    project: &Project,
+    number: usize,
+    world: World<'_>,
+) -> Result<(), Vec<Problem>> {
+    let (project, _) = letters::resolve(project, world)?;
+    let named = labels::of(&project, world)?;
+    let found = project
+        .sheets
+        .iter()
+        .zip(&named)
+        .nth(number.wrapping_sub(1));
+    let Some((table, labels)) = found else {
+        return Err(vec![Problem::Sheet {
+            sheet: format!("sheet {number}"),
+            why: format!("the project has {} sheets", project.sheets.len()),
+        }]);
+    };
+    sheet(&project, (number - 1, table, labels), world).map(drop)
+}
+
+/// The `[[sheet]]`s, from 1, whose result is not in the world's store.
+///
+/// # Errors
+/// Something is wrong with the project, or a picture cannot be read.
+pub fn sheets_without_result(
+    project: &Project,
+    world: World<'_>,
+) -> Result<Vec<usize>, Vec<Problem>> {
+    let (project, _) = letters::resolve(project, world)?;
+    tables(&project, world, |number, table, labels| {
+        let has = cache::has((table, labels), &project, world).map_err(|p| vec![p])?;
+        Ok((!has).then_some(number + 1).into_iter().collect())
+    })
 }
 
 /// What `work` makes of each page, one after the other.

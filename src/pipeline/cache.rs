@@ -56,6 +56,18 @@ pub(super) fn recalled(
     Ok(made)
 }
 
+/// Whether the letters and pages of a table are kept.
+pub(super) fn has(
+    (table, labels): (&SheetTable, &[Label]),
+    project: &Project,
+    world: World<'_>,
+) -> Result<bool, Problem> {
+    Ok(world
+        .store
+        .get(&key(table, labels, project, world)?)
+        .is_some())
+}
+
 /// A digest of the pictures and of every setting but those that only later stages look at.
 fn key(
     table: &SheetTable,

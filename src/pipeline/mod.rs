@@ -18,7 +18,7 @@ pub mod reference;
 mod report;
 mod watch;
 
-pub use build::{Built, World, build, pages};
+pub use build::{Built, World, build, pages, sheet_letters, sheets_without_result};
 pub use cache::{Nothing, Store};
 pub use doubt::Doubt;
 pub use letter::Letter;
