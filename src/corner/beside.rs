@@ -5,6 +5,7 @@ use crate::{
     types::Contour,
 };
 use kurbo::Point;
+use std::f64::consts::SQRT_2;
 
 /// Longest stretch that a side is taken from, px.
 const REACH_PX: f64 = 16.0;
@@ -15,12 +16,27 @@ pub(super) fn clearance_px(contour: &Contour) -> f64 {
     1.05 + 1.5 * contour.blur_px()
 }
 
+/// Clearance of a needle, in those of a right angle, at most: further out its sides are seen apart.
+const NEEDLE: f64 = 3.0;
+
+/// A meeting of sides that begin far out is believed where its deviation is below this, px.
+const KNOWN_PX: f64 = 0.5;
+
 /// A contour with some of its points said to be corners.
 pub(super) struct Corners<'a> {
     points: &'a [Point],
+    /// clearance of a right angle, px
     clear: f64,
     /// strictly increasing
     at: &'a [usize],
+}
+
+/// What is known of a corner.
+pub(super) struct Corner {
+    /// where its sides meet
+    pub(super) meeting: Meeting,
+    /// how far along its sides the blur is felt, px
+    pub(super) clear: f64,
 }
 
 impl<'a> Corners<'a> {
@@ -32,26 +48,38 @@ impl<'a> Corners<'a> {
         }
     }
 
-    /// The meeting of the sides of corner number `k`; nothing where they do not meet near it.
-    pub(super) fn meeting(&self, k: usize) -> Option<Meeting> {
+    /// Corner number `k`; nothing where its sides do not meet near it.
+    ///
+    /// Where they meet at an acute angle each side is within the other's blur for longer.
+    pub(super) fn corner(&self, k: usize) -> Option<Corner> {
+        let meeting = self.meeting(k, self.clear)?;
+        let acute = ((std::f64::consts::PI - meeting.turn.abs()) / 2.0).sin() * SQRT_2;
+        let clear = self.clear * (1.0 / acute).clamp(1.0, NEEDLE);
+        let apart = self.meeting(k, clear).filter(|m| m.noise < KNOWN_PX);
+        let meeting = apart.unwrap_or(meeting);
+        Some(Corner { meeting, clear })
+    }
+
+    /// The meeting of the sides of corner number `k` that begin `clear` px from it.
+    fn meeting(&self, k: usize, clear: f64) -> Option<Meeting> {
         let n = self.at.len();
         let i = self.at[k];
-        let mut before = self.stretch(i, self.at[(k + n - 1) % n], Place::Before);
+        let mut before = self.stretch((i, clear), self.at[(k + n - 1) % n], Place::Before);
         before.reverse();
-        let after = self.stretch(i, self.at[(k + 1) % n], Place::After);
+        let after = self.stretch((i, clear), self.at[(k + 1) % n], Place::After);
         let before = Side::beside(&before, Place::Before)?;
         let after = Side::beside(&after, Place::After)?;
-        before.meet(&after, self.points[i], 3.0 * self.clear)
+        before.meet(&after, self.points[i], 3.0 * clear)
     }
 
     /// Points from corner `i` towards the corner `stop`, outside both their clearances, nearest first; of
     /// a stretch that has none, its middle.
-    fn stretch(&self, i: usize, stop: usize, place: Place) -> Vec<Point> {
+    fn stretch(&self, (i, clear): (usize, f64), stop: usize, place: Place) -> Vec<Point> {
         let n = self.points.len();
         let step = if place == Place::After { 1 } else { n - 1 };
         let (mut d, mut j) = (0.0, i);
         let mut walk = Vec::new();
-        while d <= REACH_PX + 2.0 * self.clear && walk.len() < n {
+        while d <= REACH_PX + clear + self.clear && walk.len() < n {
             let next = (j + step) % n;
             d += self.points[j].distance(self.points[next]);
             walk.push((d, self.points[next]));
@@ -65,7 +93,7 @@ impl<'a> Corners<'a> {
             let inside = walk.iter().filter(|(d, _)| (from..=to).contains(d));
             inside.map(|(_, p)| *p).collect()
         };
-        let out = within(self.clear, (end - self.clear).min(self.clear + REACH_PX));
+        let out = within(clear, (end - self.clear).min(clear + REACH_PX));
         if out.len() >= 2 || walk.is_empty() {
             return out;
         }
@@ -79,12 +107,6 @@ impl<'a> Corners<'a> {
             .flatten()
             .collect()
     }
-
-    /// Whether a point is inside the clearance of the corner it is next to, on a stretch long enough to
-    /// do without it.
-    fn rounded(&self, to_corner: f64, stretch: f64) -> bool {
-        to_corner < self.clear.min(stretch * 0.3)
-    }
 }
 
 /// The contour with each corner moved to where its sides meet and the rounded points beside it left
@@ -97,6 +119,7 @@ pub fn sharpen(contour: &Contour, corners: &[usize]) -> (Contour, Vec<usize>) {
     let n = all.points.len();
     let mut points = Vec::with_capacity(n);
     let mut indices = Vec::with_capacity(corners.len());
+    let found: Vec<Option<Corner>> = (0..corners.len()).map(|k| all.corner(k)).collect();
     for (k, &i) in corners.iter().enumerate() {
         let next = corners[(k + 1) % corners.len()];
         let count = (next + n - i - 1) % n + 1;
@@ -108,10 +131,14 @@ pub fn sharpen(contour: &Contour, corners: &[usize]) -> (Contour, Vec<usize>) {
             })
             .collect();
         let length = lengths.last().copied().unwrap_or(0.0);
+        let (here, there) = (&found[k], &found[(k + 1) % corners.len()]);
+        let clear =
+            |c: &Option<Corner>| c.as_ref().map_or(all.clear, |c| c.clear).min(0.3 * length);
+        let (from, to) = (clear(here), length - clear(there));
         indices.push(points.len());
-        points.push(all.meeting(k).map_or(place(0), |m| m.apex));
+        points.push(here.as_ref().map_or(place(0), |c| c.meeting.apex));
         for (j, d) in lengths.iter().enumerate().take(count - 1) {
-            if !all.rounded(d.min(length - d), length) {
+            if (from..=to).contains(d) {
                 points.push(place(j + 1));
             }
         }

@@ -20,6 +20,12 @@ use serde::{Deserialize, Serialize};
 pub trait Detector {
     /// Strictly increasing indices into [`Contour::points`]; none for a smooth ring.
     fn corners(&self, contour: &Contour) -> Vec<usize>;
+
+    /// Corners and places that may be some, for whom the picture may decide: strictly increasing indices. Nothing
+    /// of a method whose answer is final.
+    fn possible(&self, _contour: &Contour) -> Option<Vec<usize>> {
+        None
+    }
 }
 
 /// The detectors one can choose, with their options.

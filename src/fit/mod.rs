@@ -15,7 +15,8 @@ pub mod periodic;
 pub mod timmer;
 pub mod wls;
 
-use crate::types::{Fitted, Span};
+use crate::types::{Fitted, Span, Spans};
+use kurbo::BezPath;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
@@ -44,6 +45,15 @@ pub trait Fitter {
     /// # Errors
     /// An option is outside its range. Degenerate spans are no error: they give their own polygon.
     fn fit(&self, span: Span<'_>, tolerance_px: f64) -> Result<Fitted, FitError>;
+
+    /// One closed path around a whole contour that was cut at its corners. A method that fits the spans
+    /// together may move the corners to where both their sides lead.
+    ///
+    /// # Errors
+    /// As [`Fitter::fit`].
+    fn contour(&self, spans: &Spans, tolerance_px: f64) -> Result<BezPath, FitError> {
+        path::joined(self, spans, tolerance_px)
+    }
 }
 
 /// The fitters one can choose, with their options.

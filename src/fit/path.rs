@@ -1,7 +1,8 @@
 //! What several fitters do with spans and paths.
 
 use super::judge::judge;
-use crate::types::{Fitted, Span, Verdict};
+use super::{FitError, Fitter};
+use crate::types::{Fitted, Span, Spans, Verdict};
 use kurbo::{BezPath, CubicBez, PathEl, Point};
 
 /// The span's own polygon: the answer where there is nothing to fit.
@@ -23,6 +24,27 @@ pub(super) fn polygon(span: Span<'_>) -> Fitted {
         verdict: Verdict::Degenerate,
         parameters: 2 * points.len(),
     }
+}
+
+/// One closed path of the spans' fits in order; each starts where the one before ends.
+pub(super) fn joined<F: Fitter + ?Sized>(
+    fitter: &F,
+    spans: &Spans,
+    tolerance_px: f64,
+) -> Result<BezPath, FitError> {
+    let mut path = BezPath::new();
+    for span in spans.iter() {
+        let fitted = fitter.fit(span, tolerance_px)?;
+        for el in fitted.path.elements() {
+            match el {
+                PathEl::MoveTo(_) if !path.is_empty() => {}
+                PathEl::ClosePath => {}
+                el => path.push(*el),
+            }
+        }
+    }
+    path.close_path();
+    Ok(path)
 }
 
 /// Joined cubics as a path from the first to the last; straight ones become lines.

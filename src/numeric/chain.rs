@@ -6,6 +6,7 @@
 //! handles stay collinear and extrema upright.
 
 use kurbo::{BezPath, CubicBez, PathEl, Point, Vec2};
+use std::ops::Range;
 
 /// What a node holds fixed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -224,6 +225,18 @@ impl Chain {
             d / length
         } else {
             self.nodes[a].leave
+        }
+    }
+
+    /// Some segments in a row as an open chain; of a ring the last may lead back to its first node.
+    #[must_use]
+    pub fn part(&self, segments: Range<usize>) -> Self {
+        let n = self.nodes.len();
+        let kinds = segments.clone().map(|i| self.kinds[i % n]).collect();
+        let nodes = (segments.start..=segments.end).map(|i| self.nodes[i % n]);
+        Self {
+            nodes: nodes.collect(),
+            kinds,
         }
     }
 

@@ -56,8 +56,16 @@ const HANDLE: f64 = 0.37;
 /// How far handles stray from [`HANDLE`], in chords. Wide: it only decides what the samples leave open.
 const HANDLE_SPREAD: f64 = 0.4;
 
+/// A handle longer than this, in chords, makes the curve run past its end where no sample holds it.
+const LONGEST: f64 = 1.0;
+/// How soon that is felt, in chords.
+const LONGEST_SPREAD: f64 = 0.05;
+/// A free direction leaves the chord by no more than this, radians: further, the curve would hook back.
+const HOOK: f64 = 1.75;
 /// How far a node may go from where it was, in shorter sides: only what the samples leave open is held by it.
 const FREEDOM: f64 = 0.5;
+/// How far a loose end may go, in deviations of a sample: as far as a corner is found astray.
+const LOOSE: f64 = 16.0;
 /// How far in one step, in shorter sides.
 const STRIDE: f64 = 0.35;
 
@@ -117,7 +125,8 @@ impl Powers {
 /// Working memory of [`Refit::run`], used again from call to call.
 #[derive(Debug, Clone, Default)]
 pub struct Refit {
-    ring: bool,
+    /// Nodes over which no foot slides: corners, whose sides may run close together, and ends.
+    sealed: Vec<bool>,
     slots: Vec<Slots>,
     powers: Vec<Powers>,
     blocks: Vec<Block>,
@@ -143,7 +152,7 @@ impl Refit {
     ) -> f64 {
         chain.settle();
         let free = self.lay_out(chain);
-        self.drop_anchors(chain);
+        self.drop_anchors(chain, scale.sigma);
         let mut cost = self.evaluate(chain, samples, feet, scale);
         let mut lambda = 1e-3;
         for _ in 0..stop.rounds {
@@ -257,7 +266,13 @@ impl Refit {
         feet: &mut [Foot],
         scale: Scale,
     ) -> f64 {
-        self.ring = chain.is_ring();
+        self.sealed.clear();
+        let last = chain.nodes.len() - 1;
+        self.sealed
+            .extend(chain.nodes.iter().enumerate().map(|(i, n)| {
+                let end = !chain.is_ring() && (i == 0 || i == last);
+                end || n.join == Join::Corner || n.join.is_end()
+            }));
         self.powers.clear();
         self.blocks.clear();
         let mut cost = 0.0;
@@ -310,9 +325,9 @@ impl Refit {
                 break;
             }
             let turned = if over { came < 0 } else { came > 0 };
-            let open = !self.ring && foot.segment == if over { n - 1 } else { 0 };
+            let node = (foot.segment + usize::from(over)) % self.sealed.len();
             foot.t = f64::from(u8::from(over));
-            if turned || open {
+            if turned || self.sealed[node] {
                 break;
             }
             foot.segment = if over {
@@ -390,10 +405,15 @@ impl Refit {
         })
     }
 
-    fn drop_anchors(&mut self, chain: &Chain) {
+    fn drop_anchors(&mut self, chain: &Chain, sigma: f64) {
         self.anchors.clear();
         for (i, node) in chain.nodes.iter().enumerate() {
-            let reach = FREEDOM * shorter_side(chain, i);
+            let side = FREEDOM * shorter_side(chain, i);
+            let reach = if node.join == Join::Loose {
+                side.min(LOOSE * sigma)
+            } else {
+                side
+            };
             self.anchors
                 .push((node.point, 1.0 / (reach * reach).max(1e-6)));
         }
@@ -436,7 +456,31 @@ impl Refit {
             node.back = grow(node.back, step(s.back));
             node.ahead = grow(node.ahead, step(s.ahead));
         }
+        unhook(chain);
         chain.align();
+    }
+}
+
+/// Turns directions at corners and ends back towards the chords.
+fn unhook(chain: &mut Chain) {
+    for i in 0..chain.kinds.len() {
+        let (a, b) = chain.ends(i);
+        let chord = chain.direction(i);
+        let within = |d: Vec2| {
+            let turn = chord.cross(d).atan2(chord.dot(d));
+            if turn.abs() <= HOOK {
+                return d;
+            }
+            let (s, c) = HOOK.copysign(turn).sin_cos();
+            Vec2::new(c * chord.x - s * chord.y, s * chord.x + c * chord.y)
+        };
+        let free = |join: Join| join == Join::Corner || join.is_end();
+        if free(chain.nodes[a].join) {
+            chain.nodes[a].leave = within(chain.nodes[a].leave);
+        }
+        if free(chain.nodes[b].join) {
+            chain.nodes[b].arrive = within(chain.nodes[b].arrive);
+        }
     }
 }
 
@@ -478,6 +522,13 @@ fn handle_prior(chain: &Chain, segment: usize, block: &mut Block) -> f64 {
         cost += 0.5 * off * off;
         block.gradient[k] += off * slope;
         block.hessian[k][k] += slope * slope;
+        let over = (handle / chord - LONGEST) / LONGEST_SPREAD;
+        if over > 0.0 {
+            let slope = 1.0 / (chord * LONGEST_SPREAD);
+            cost += 0.5 * over * over;
+            block.gradient[k] += over * slope;
+            block.hessian[k][k] += slope * slope;
+        }
     }
     cost
 }

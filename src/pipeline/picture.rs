@@ -3,10 +3,11 @@
 use crate::{
     corner,
     fit::{self, FitError},
-    refine, trace,
-    types::{Contour, Fitted, Gray},
+    refine::{self, Cornered},
+    trace,
+    types::Gray,
 };
-use kurbo::{Affine, BezPath, PathEl};
+use kurbo::{Affine, BezPath};
 use serde::{Deserialize, Serialize};
 
 /// How a picture becomes curves.
@@ -40,32 +41,104 @@ impl Default for Options {
 /// # Errors
 /// An option of the fitter is outside its range.
 pub fn trace_picture(gray: &Gray, options: &Options) -> Result<Vec<BezPath>, FitError> {
-    let edges = edges(gray, options);
-    let fits = edges
-        .iter()
-        .map(|(contour, corners)| fit_contour(contour, corners, options));
-    fits.collect()
+    let (coverage, found) = found(gray, options);
+    let fitter = options.fit.fitter();
+    let fit =
+        |(contour, corners): &Cornered| fitter.contour(&contour.cut(corners), options.tolerance_px);
+    let edges = sharp(&coverage, &found, options);
+    let mut paths: Vec<BezPath> = edges.iter().map(fit).collect::<Result<_, _>>()?;
+    let fewer = doubted(&coverage, &found, &paths, options);
+    if fewer != found {
+        // corners that are drawn round: their contours once more without them
+        let edges = sharp(&coverage, &fewer, options);
+        let changed = found.iter().zip(&fewer).map(|(a, b)| a != b);
+        for ((path, edge), changed) in paths.iter_mut().zip(&edges).zip(changed) {
+            if changed {
+                *path = fit(edge)?;
+            }
+        }
+    }
+    Ok(paths)
 }
 
 /// The contours of a picture's ink with their corners sharp, and the corners' indices.
 #[must_use]
-pub fn edges(gray: &Gray, options: &Options) -> Vec<(Contour, Vec<usize>)> {
+pub fn edges(gray: &Gray, options: &Options) -> Vec<Cornered> {
+    let (coverage, found) = found(gray, options);
+    sharp(&coverage, &found, options)
+}
+
+/// The picture's coverage, and its contours as they were traced with the indices of their corners.
+fn found(gray: &Gray, options: &Options) -> (Gray, Vec<Cornered>) {
     let coverage = trace::level(gray);
-    let contours = trace::trace(&coverage, &options.trace);
     let detector = options.corners.detector();
+    let contours = trace::trace(&coverage, &options.trace).into_iter();
+    let found = contours.map(|c| {
+        let at = detector.corners(&c);
+        (c, at)
+    });
+    let found = found.collect();
+    let found = decided(&coverage, found, options);
+    (coverage, found)
+}
+
+/// The contours with their corners sharp, moved to where the picture has its edges.
+fn sharp(coverage: &Gray, found: &[Cornered], options: &Options) -> Vec<Cornered> {
     if options.trace.boundary == trace::Boundary::Chain {
         // the boundary that the papers start from is taken as it is
-        let found = contours.into_iter().map(|c| {
-            let at = detector.corners(&c);
-            (c, at)
-        });
-        return found.collect();
+        return found.to_vec();
     }
-    let sharp = contours
-        .iter()
-        .map(|c| corner::sharpen(c, &detector.corners(c)));
-    let sharp: Vec<_> = sharp.collect();
-    refine::contours(&coverage, &sharp)
+    let sharp: Vec<_> = found.iter().map(|(c, at)| corner::sharpen(c, at)).collect();
+    refine::contours(coverage, &sharp)
+}
+
+/// The corners that the picture bears out, where the detector leaves it to it.
+fn decided(coverage: &Gray, found: Vec<Cornered>, options: &Options) -> Vec<Cornered> {
+    let detector = options.corners.detector();
+    let possible: Option<Vec<Vec<usize>>> =
+        found.iter().map(|(c, _)| detector.possible(c)).collect();
+    let Some(possible) = possible.filter(|_| options.trace.boundary == trace::Boundary::Iso) else {
+        return found;
+    };
+    let pairs = || found.iter().zip(&possible);
+    let sharp: Vec<Cornered> = pairs()
+        .map(|((c, _), may)| corner::sharpen(c, may))
+        .collect();
+    let seen: Vec<Vec<bool>> = pairs()
+        .map(|((_, at), may)| may.iter().map(|i| at.contains(i)).collect())
+        .collect();
+    let kept = refine::confirmed(coverage, &sharp, &seen);
+    let chosen = possible.iter().zip(kept).map(|(may, kept)| {
+        let both = may.iter().zip(kept);
+        both.filter_map(|(i, kept)| kept.then_some(*i)).collect()
+    });
+    let contours = found.iter().map(|(c, _)| c.clone());
+    contours.zip(chosen).collect()
+}
+
+/// The contours without the corners that the fitted paths show to be none.
+fn doubted(
+    coverage: &Gray,
+    found: &[Cornered],
+    paths: &[BezPath],
+    options: &Options,
+) -> Vec<Cornered> {
+    let mut found = found.to_vec();
+    let joint = matches!(options.fit, fit::Method::Joint(_));
+    let Some(blur) = found.first().map(|(c, _)| c.blur_px()).filter(|_| joint) else {
+        return found;
+    };
+    let bad = refine::undrawn(coverage, paths, blur);
+    for ((contour, at), bad) in found.iter_mut().zip(bad) {
+        for p in bad {
+            let off = |i: &usize| contour.points()[*i].distance_squared(p);
+            let nearest = (0..at.len()).min_by(|a, b| off(&at[*a]).total_cmp(&off(&at[*b])));
+            nearest.into_iter().for_each(|k| {
+                at.remove(k);
+            });
+        }
+    }
+    found
 }
 
 /// The map from the curves' space (y up) to the picture's (y down).
@@ -76,32 +149,4 @@ pub fn edges(gray: &Gray, options: &Options) -> Vec<(Contour, Vec<usize>)> {
 )]
 pub fn to_picture(gray: &Gray) -> Affine {
     Affine::new([1.0, 0.0, 0.0, -1.0, 0.0, gray.height() as f64])
-}
-
-fn fit_contour(
-    contour: &Contour,
-    corners: &[usize],
-    options: &Options,
-) -> Result<BezPath, FitError> {
-    let spans = contour.cut(corners);
-    let fitter = options.fit.fitter();
-    let pieces: Result<Vec<Fitted>, FitError> = spans
-        .iter()
-        .map(|s| fitter.fit(s, options.tolerance_px))
-        .collect();
-    Ok(join(&pieces?))
-}
-
-/// One closed path of the spans' paths in order; each starts where the one before ends.
-fn join(pieces: &[Fitted]) -> BezPath {
-    let mut path = BezPath::new();
-    for (i, el) in pieces.iter().flat_map(|f| f.path.elements()).enumerate() {
-        match el {
-            PathEl::MoveTo(_) if i > 0 => {}
-            PathEl::ClosePath => {}
-            el => path.push(*el),
-        }
-    }
-    path.close_path();
-    path
 }

@@ -9,9 +9,12 @@
 //! Here the shape itself is drawn, blurred as the picture is and compared with it; each point then moves by
 //! what the difference around it says. Nothing is approximated but the linear step, which is repeated.
 
+mod corners;
 mod residual;
 #[cfg(test)]
 mod tests;
+
+pub use corners::{confirmed, undrawn};
 
 use crate::{
     numeric::side::{Place, Side},
@@ -65,14 +68,9 @@ impl<'a> Ring<'a> {
         let (start, corners) = (self.from.0.points(), &self.from.1);
         let mut corner = vec![false; n];
         corners.iter().for_each(|&i| corner[i] = true);
-        let shift = |i: usize| {
-            if corner[i] {
-                0.0
-            } else {
-                residual.shift(self.points[i])
-            }
-        };
-        let shifts: Vec<f64> = (0..n).map(shift).collect();
+        let told = self.told(residual.reach_px());
+        let shift = |i: usize| told[i].then(|| residual.shift(self.points[i]));
+        let shifts: Vec<Option<f64>> = (0..n).map(shift).collect();
         let shifts = averaged(&shifts, &corner, &residual.kernel());
         let outward = |i: usize| {
             let along = self.points[(i + 1) % n] - self.points[(i + n - 1) % n];
@@ -87,6 +85,26 @@ impl<'a> Ring<'a> {
                 self.points[i] = within(start[i], apex, CORNER_REACH_PX);
             }
         }
+    }
+
+    /// Whether the differences around each point are its own edge's: around a corner they are those of its place,
+    /// which is not known yet.
+    fn told(&self, reach: f64) -> Vec<bool> {
+        let p = &self.points;
+        let n = p.len();
+        let mut told = vec![true; n];
+        for &i in &self.from.1 {
+            told[i] = false;
+            for step in [1, n - 1] {
+                let first = p[(i + step) % n];
+                let mut j = (i + step) % n;
+                while p[j].distance(first) < reach && told[j] {
+                    told[j] = false;
+                    j = (j + step) % n;
+                }
+            }
+        }
+        told
     }
 
     /// Where the sides of corner number `k` meet now.
@@ -125,11 +143,12 @@ impl<'a> Ring<'a> {
 }
 
 /// Values of a ring's points, each averaged with its neighbours by `kernel` (weights from the point itself
-/// outwards) as far as the next corner.
-fn averaged(values: &[f64], corner: &[bool], kernel: &[f64]) -> Vec<f64> {
+/// outwards) as far as the next corner; 0 where none has a value.
+fn averaged(values: &[Option<f64>], corner: &[bool], kernel: &[f64]) -> Vec<f64> {
     let n = values.len();
     let average = |i: usize| {
-        let (mut sum, mut total) = (values[i], 1.0);
+        let mut sum = values[i].unwrap_or(0.0);
+        let mut total = f64::from(u8::from(values[i].is_some()));
         for step in [1, n - 1] {
             let mut j = i;
             for k in kernel.iter().skip(1) {
@@ -137,15 +156,34 @@ fn averaged(values: &[f64], corner: &[bool], kernel: &[f64]) -> Vec<f64> {
                 if corner[j] {
                     break;
                 }
-                sum += k * values[j];
-                total += k;
+                if let Some(v) = values[j] {
+                    sum += k * v;
+                    total += k;
+                }
             }
         }
-        sum / total
+        if total > 0.0 {
+            sum / total
+        } else {
+            nearest(values, corner, i)
+        }
     };
     (0..n)
         .map(|i| if corner[i] { 0.0 } else { average(i) })
         .collect()
+}
+
+/// The value nearest to point `i`, as far as the next corners; 0 where there is none.
+fn nearest(values: &[Option<f64>], corner: &[bool], i: usize) -> f64 {
+    let n = values.len();
+    let walk = |step: usize| {
+        let way = (1..n).map(move |d| (i + d * step) % n);
+        way.take_while(|&j| !corner[j])
+            .enumerate()
+            .find_map(|(d, j)| values[j].map(|v| (d, v)))
+    };
+    let both = [walk(1), walk(n - 1)].into_iter().flatten();
+    both.min_by_key(|(d, _)| *d).map_or(0.0, |(_, v)| v)
 }
 
 /// `to`, or where the way there leaves the circle of `reach` around `from`.

@@ -75,11 +75,32 @@ impl Residual {
         (0..=index(2.5 * sigma)).map(weight).collect()
     }
 
+    /// Deviation of the lens' blur alone, px.
+    pub(super) const fn lens_px(&self) -> f64 {
+        self.lens
+    }
+
+    /// Sum of the differences within `reach` px of `p`: ink that the model lacks, px².
+    pub(super) fn sum(&self, p: Point, reach: f64) -> f64 {
+        let (cx, cy) = (p.x - 0.5, self.height as f64 - p.y - 0.5);
+        let span = |c: f64, n: usize| index((c - reach).ceil())..index(c + reach + 1.0).min(n);
+        let places = span(cy, self.height).flat_map(|y| span(cx, self.width).map(move |x| (x, y)));
+        let inside = places.filter(|&(x, y)| (x as f64 - cx).hypot(y as f64 - cy) <= reach);
+        inside
+            .map(|(x, y)| f64::from(self.off[y * self.width + x]))
+            .sum()
+    }
+
+    /// Radius of the neighbourhood that moves an edge, px.
+    pub(super) fn reach_px(&self) -> f64 {
+        2.5 * self.spread
+    }
+
     /// How far outwards an edge through `p` must move, px; linear, good for fractions of a pixel.
     pub(super) fn shift(&self, p: Point) -> f64 {
         let (w, h) = (self.width, self.height);
         let (cx, cy) = (p.x - 0.5, h as f64 - p.y - 0.5);
-        let reach = 2.5 * self.spread;
+        let reach = self.reach_px();
         let span = |c: f64, n: usize| index((c - reach).ceil())..index(c + reach + 1.0).min(n);
         let weight = |d: f64| (-0.5 * (d / self.spread).powi(2)).exp();
         let columns: Vec<(usize, f64)> = span(cx, w).map(|x| (x, weight(x as f64 - cx))).collect();

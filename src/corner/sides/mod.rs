@@ -53,15 +53,24 @@ const NEEDLE: f64 = 1.2;
 
 impl Detector for Sides {
     fn corners(&self, contour: &Contour) -> Vec<usize> {
+        self.kept(contour, |i, m| self.is_corner(contour, i, m))
+    }
+
+    fn possible(&self, contour: &Contour) -> Option<Vec<usize>> {
+        let turn = self.turn_deg.to_radians();
+        Some(self.kept(contour, |_, m| m.turn.abs() >= turn))
+    }
+}
+
+impl Sides {
+    /// The candidates whose sides meet as `fits` asks.
+    fn kept(&self, contour: &Contour, fits: impl Fn(usize, &Meeting) -> bool) -> Vec<usize> {
         let mut at = self.candidates(contour);
         // each refusal frees its neighbours' sides
         loop {
             let all = Corners::new(contour, &at);
             let kept: Vec<usize> = (0..at.len())
-                .filter(|&k| {
-                    all.meeting(k)
-                        .is_some_and(|m| self.is_corner(contour, at[k], &m))
-                })
+                .filter(|&k| all.corner(k).is_some_and(|c| fits(at[k], &c.meeting)))
                 .map(|k| at[k])
                 .collect();
             let done = kept.len() == at.len();
@@ -71,9 +80,7 @@ impl Detector for Sides {
             }
         }
     }
-}
 
-impl Sides {
     /// Where the contour turns more than anywhere near.
     fn candidates(&self, contour: &Contour) -> Vec<usize> {
         let p = contour.points();

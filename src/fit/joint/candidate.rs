@@ -46,7 +46,8 @@ pub(super) fn candidates(s: &Samples) -> Vec<Candidate> {
         }
     }
     if !s.ring {
-        marks.retain(|m| m.index >= apart && m.index + apart < n);
+        let told = |i: usize| s.weight.get(i).is_some_and(|w| *w >= 1.0);
+        marks.retain(|m| m.index >= apart && m.index + apart < n && told(m.index));
         for k in [0, n - 1] {
             let join = Join::End;
             marks.push(Candidate { join, ..smooth(k) });

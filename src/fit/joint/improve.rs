@@ -4,7 +4,7 @@
 use super::cost;
 use crate::numeric::chain::{Chain, Join, Kind, Node};
 use crate::numeric::refit::{Foot, Refit, Sample, Scale, Stop};
-use kurbo::{CubicBez, ParamCurve, ParamCurveDeriv, Point, Vec2};
+use kurbo::{CubicBez, ParamCurve, ParamCurveDeriv, Vec2};
 
 /// Nodes on each side of a change that are refitted with it.
 const AROUND: usize = 2;
@@ -14,6 +14,8 @@ const ROUNDS: usize = 8;
 const GAIN: f64 = 0.02;
 /// Times that all changes are tried.
 const SWEEPS: usize = 4;
+/// Samples on each side of a new node.
+const TOLD: usize = 2;
 /// Directions so near to an axis may be meant to lie on it, radians.
 const SNAP: f64 = 0.08;
 /// A line's ends turn less than this from its direction, radians.
@@ -66,28 +68,6 @@ impl Work<'_> {
             enough: f64::INFINITY,
         };
         self.refit.run(&mut self.chain, data, self.scale, stop);
-    }
-
-    /// Lets the ends of an open chain give way: where they were put may be wrong by more than the noise of the points,
-    /// and no structure should pay for it.
-    pub(super) fn loosen(&mut self) {
-        for node in &mut self.chain.nodes {
-            if node.join == Join::End {
-                node.join = Join::Loose;
-            }
-        }
-    }
-
-    /// Puts the ends back to where they are given.
-    pub(super) fn pin(&mut self, [start, end]: [Point; 2]) {
-        let last = self.chain.nodes.len() - 1;
-        for (i, at) in [(0, start), (last, end)] {
-            let node = &mut self.chain.nodes[i];
-            if node.join == Join::Loose {
-                node.join = Join::End;
-                node.point = at;
-            }
-        }
     }
 
     /// Tries all changes until none helps.
@@ -280,13 +260,26 @@ impl Work<'_> {
     }
 }
 
+impl Window {
+    /// Whether samples were measured on both sides of a place on a segment.
+    fn told(&self, segment: usize, t: f64) -> bool {
+        let feet = self.samples.iter().zip(&self.feet);
+        let here =
+            feet.filter(|(s, f)| f.segment == segment && s.weight * cost::CORRELATION >= 1.0);
+        let (mut before, mut after) = (0, 0);
+        here.for_each(|(_, f)| *(if f.t < t { &mut before } else { &mut after }) += 1);
+        before >= TOLD && after >= TOLD
+    }
+}
+
 /// What may be changed at node `at` of a window and at the segment after it.
 fn changes(w: &Window, at: usize) -> Vec<Change> {
     let mut out = Vec::new();
     let chain = &w.chain;
     let node = &chain.nodes[at];
     let least = if chain.is_ring() { 3 } else { 2 };
-    if !node.join.is_fixed() && !node.join.is_end() && chain.nodes.len() > least {
+    let kept = node.join.is_fixed() || node.join.is_end() || node.join == Join::Corner;
+    if !kept && chain.nodes.len() > least {
         let kinds = [chain.kind(chain.before(at)), chain.kind(chain.after(at))];
         out.push(Change::Drop(at, Kind::Cubic));
         if kinds.contains(&Some(Kind::Line)) {
@@ -303,18 +296,18 @@ fn changes(w: &Window, at: usize) -> Vec<Change> {
     if at < chain.kinds.len() && chain.kinds[at] == Kind::Cubic {
         let (a, b) = chain.ends(at);
         let d = chain.direction(at);
-        let bends = |v: Vec2, join: Join| !join.is_end() && d.cross(v).abs() > STRAIGHT;
-        let lines = [chain.before(a), chain.after(b)]
-            .into_iter()
-            .any(|s| chain.kind(s) == Some(Kind::Line));
-        if !lines
-            && !bends(chain.nodes[a].leave, chain.nodes[a].join)
-            && !bends(chain.nodes[b].arrive, chain.nodes[b].join)
-        {
+        let turns = |join: Join| join.is_end() || join == Join::Corner;
+        let bars = |v: Vec2, join: Join, beside: Option<usize>| {
+            !turns(join) && (d.cross(v).abs() > STRAIGHT || chain.kind(beside) == Some(Kind::Line))
+        };
+        let (p, q) = (&chain.nodes[a], &chain.nodes[b]);
+        if !bars(p.leave, p.join, chain.before(a)) && !bars(q.arrive, q.join, chain.after(b)) {
             out.push(Change::Straighten(at));
         }
         for (t, join) in cost::inner_extrema(&chain.cubic(at)) {
-            out.push(Change::Split(at, t, join));
+            if w.told(at, t) {
+                out.push(Change::Split(at, t, join));
+            }
         }
     }
     out

@@ -7,16 +7,19 @@
 
 mod candidate;
 mod choose;
+mod contour;
 mod cost;
+mod found;
 mod improve;
 mod piece;
 mod samples;
 
 use super::judge::{judge, points_to_curve};
+use super::path;
 use super::{FitError, Fitter};
-use crate::numeric::chain::{Chain, Join, Kind};
-use crate::numeric::refit::{Refit, Sample, Scale};
-use crate::types::{Fitted, Span, Verdict};
+use crate::types::{Fitted, Span, Spans, Verdict};
+use candidate::Candidate;
+use found::{Draft, Found};
 use kurbo::{BezPath, Point};
 use samples::Samples;
 use serde::{Deserialize, Serialize};
@@ -37,16 +40,10 @@ impl Default for Joint {
 
 /// Searches with half the noise each, when the tolerance is missed.
 const TIGHTER: usize = 2;
-/// Distance, in sigmas, from which a point counts as an outlier.
-const ROBUST: f64 = 4.0;
 /// With so few points their own polygon is better than curves that miss the tolerance.
 const FEW: usize = 16;
-/// Points at each end of an open span that may be outliers: the blur of a corner.
-const BLURRED: usize = 4;
 /// A curve further than this from its span, in tolerances, has lost its way.
 const STRAY: f64 = 8.0;
-/// A line so near to an axis is meant to be parallel to it, radians.
-const UPRIGHT: f64 = 0.006;
 
 impl Fitter for Joint {
     fn fit(&self, span: Span<'_>, tolerance_px: f64) -> Result<Fitted, FitError> {
@@ -61,6 +58,13 @@ impl Fitter for Joint {
         }
         Ok(fitted)
     }
+
+    fn contour(&self, spans: &Spans, tolerance_px: f64) -> Result<BezPath, FitError> {
+        match contour::welded(self, spans, tolerance_px) {
+            Some(path) => Ok(path),
+            None => path::joined(self, spans, tolerance_px),
+        }
+    }
 }
 
 impl Joint {
@@ -71,34 +75,16 @@ impl Joint {
         if points.len() < 3 || length <= 0.0 {
             return Ok(polygon(span));
         }
-        let s = Samples::new(span);
-        let blurred = if span.is_ring() { 0 } else { BLURRED };
-        let inner = points.get(blurred..points.len().saturating_sub(blurred));
-        let mut sigma = s.sigma.max(self.least_noise * tolerance_px);
-        let keeps = |path: &BezPath| {
-            let max = judge(span, path).max_px();
-            path.is_finite() && max <= STRAY * tolerance_px
+        let Some((path, parameters)) = self.pinned(span, tolerance_px) else {
+            return if points.len() > 2 * FEW {
+                self.halves(span, tolerance_px)
+            } else {
+                Ok(polygon(span))
+            };
         };
-        let mut path = Self::search(&s, sigma, keeps);
-        for _ in 0..TIGHTER {
-            let missed = inner.is_some_and(|p| points_to_curve(p, &path.0).max_px > tolerance_px);
-            if !missed || sigma <= s.sigma {
-                break;
-            }
-            sigma *= 0.5;
-            let tighter = Self::search(&s, sigma.max(s.sigma), keeps);
-            if tighter.0.elements().is_empty() {
-                break;
-            }
-            path = tighter;
-        }
-        let (path, parameters) = path;
-        if path.elements().is_empty() && points.len() > 2 * FEW {
-            return self.halves(span, tolerance_px);
-        }
         let worst = points_to_curve(points, &path).max_px;
         let hopeless = worst > tolerance_px && points.len() <= FEW;
-        if !worst.is_finite() || !path.is_finite() || hopeless {
+        if !worst.is_finite() || hopeless {
             return Ok(polygon(span));
         }
         Ok(Fitted {
@@ -139,53 +125,48 @@ impl Joint {
         })
     }
 
-    /// The path for points of deviation `sigma`, and how many numbers of it were free: the most refined one
-    /// that `keeps` to its span, for a least-squares step can throw a handle far out.
-    fn search(s: &Samples, sigma: f64, keeps: impl Fn(&BezPath) -> bool) -> (BezPath, usize) {
-        let marks = candidate::candidates(s);
-        let (mut chain, feet) = choose::choose(s, &marks, sigma);
-        if chain.nodes.len() < 2 {
-            return (BezPath::new(), 0);
+    /// The path that ends where the span does, and how many numbers of it were free: the most refined one that
+    /// keeps to the span, for a least-squares step can throw a handle far out.
+    fn pinned(&self, span: Span<'_>, tolerance_px: f64) -> Option<(BezPath, usize)> {
+        let keeps = |path: &BezPath| {
+            let max = judge(span, path).max_px();
+            path.is_finite() && max <= STRAY * tolerance_px
+        };
+        let s = [Samples::new(span)];
+        let mut found = self.search(&s, tolerance_px, |mut drafts| drafts.pop())?;
+        let points = span.points();
+        let ends = [points[0], points[points.len() - 1]];
+        found::pin(&mut found.chain, ends);
+        found::pin(&mut found.chosen, ends);
+        let loose = found.chain.clone();
+        found.settle(20, 1e-3);
+        let mut stages = [found.chain, loose, found.chosen].into_iter();
+        let kept = stages.find(|chain| keeps(&chain.to_path()))?;
+        Some((kept.to_path(), found.refit.free(&kept)))
+    }
+
+    /// The least structure that follows the points of some spans; `weld` makes one draft of theirs.
+    fn search(
+        &self,
+        spans: &[Samples],
+        tolerance_px: f64,
+        weld: impl Fn(Vec<Draft>) -> Option<Draft>,
+    ) -> Option<Found> {
+        let least = spans.iter().map(|s| s.sigma).fold(f64::INFINITY, f64::min);
+        let mut sigma = self.least_noise * tolerance_px;
+        let marks: Vec<Vec<Candidate>> = spans.iter().map(candidate::candidates).collect();
+        let mut tighter = 0;
+        loop {
+            let pairs = spans.iter().zip(&marks);
+            let drafts: Option<Vec<Draft>> =
+                pairs.map(|(s, m)| Draft::choose(s, m, sigma)).collect();
+            let found = weld(drafts?)?.refine(sigma);
+            if tighter == TIGHTER || sigma <= least || found.worst() <= tolerance_px {
+                return Some(found);
+            }
+            tighter += 1;
+            sigma *= 0.5;
         }
-        upright(&mut chain);
-        let weighed = |at, steps| Sample {
-            at,
-            weight: steps / cost::CORRELATION,
-        };
-        let all: Vec<Sample> = s.at.iter().map(|&at| weighed(at, 1.0)).collect();
-        let (indices, points) = s.thinned();
-        let few: Vec<Sample> = points
-            .into_iter()
-            .map(|(at, steps)| weighed(at, steps))
-            .collect();
-        let mut work = improve::Work {
-            chain,
-            feet: indices.iter().map(|&k| feet[k]).collect(),
-            samples: &few,
-            scale: Scale {
-                sigma,
-                robust: ROBUST,
-            },
-            refit: Refit::default(),
-            stale: Vec::new(),
-        };
-        let chosen = work.chain.clone();
-        work.loosen();
-        work.settle(8, 0.1);
-        work.improve();
-        work.pin([s.at[0], s.at[s.len() - 1]]);
-        // Each sample's foot is near that of its neighbour among the few.
-        let near = |k: usize| indices.partition_point(|&i| i < k).min(indices.len() - 1);
-        work.feet = (0..all.len()).map(|k| work.feet[near(k)]).collect();
-        work.samples = &all;
-        let improved = work.chain.clone();
-        work.settle(20, 1e-3);
-        let settled = work.chain.clone();
-        let mut stages = [settled, improved, chosen].into_iter();
-        let kept = stages.find(|chain| keeps(&chain.to_path()));
-        kept.map_or_else(Default::default, |chain| {
-            (chain.to_path(), work.refit.free(&chain))
-        })
     }
 }
 
@@ -209,26 +190,6 @@ fn canonical(span: Span<'_>) -> (Vec<Point>, bool) {
         p.reverse();
     }
     (p, turned)
-}
-
-/// Lines that are all but upright or level become so, where their ends are free.
-fn upright(chain: &mut Chain) {
-    for i in 0..chain.kinds.len() {
-        let (a, b) = chain.ends(i);
-        let d = chain.direction(i);
-        let axis = if d.y.abs() < UPRIGHT {
-            Join::Horizontal
-        } else {
-            Join::Vertical
-        };
-        if chain.kinds[i] == Kind::Line && d.x.abs().min(d.y.abs()) < UPRIGHT {
-            for n in [a, b] {
-                if chain.nodes[n].join == Join::Smooth {
-                    chain.nodes[n].join = axis;
-                }
-            }
-        }
-    }
 }
 
 /// The points themselves, joined by lines.

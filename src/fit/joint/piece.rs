@@ -25,7 +25,7 @@ const ROBUST: f64 = 4.0;
 /// Power sums over the samples, so that a line's cost is found without looking at them.
 #[derive(Debug)]
 pub(super) struct Lines {
-    sums: Vec<[f64; 5]>,
+    sums: Vec<[f64; 6]>,
     origin: Point,
 }
 
@@ -35,15 +35,16 @@ impl Lines {
         let turns = if s.ring { 2 } else { 1 };
         let origin = s.at[0];
         let mut sums = Vec::with_capacity(turns * s.len() + 1);
-        let mut sum = [0.0; 5];
+        let mut sum = [0.0; 6];
         sums.push(sum);
         for k in 0..turns * s.len() {
             let p = s.point(k) - origin;
+            let w = s.weight[k % s.len()];
             for (a, b) in sum
                 .iter_mut()
-                .zip([p.x, p.y, p.x * p.x, p.x * p.y, p.y * p.y])
+                .zip([p.x, p.y, p.x * p.x, p.x * p.y, p.y * p.y, 1.0])
             {
-                *a += b;
+                *a += w * b;
             }
             sums.push(sum);
         }
@@ -52,12 +53,11 @@ impl Lines {
 
     /// Sum of squared distances of samples `i..=j` to their best line, and that line's direction.
     fn best(&self, i: usize, j: usize) -> (f64, Vec2) {
-        let m = (j - i + 1) as f64;
-        let mut d = [0.0; 5];
+        let mut d = [0.0; 6];
         for (k, d) in d.iter_mut().enumerate() {
             *d = self.sums[j + 1][k] - self.sums[i][k];
         }
-        let [x, y, xx, xy, yy] = d;
+        let [x, y, xx, xy, yy, m] = d;
         let (xx, xy, yy) = (xx - x * x / m, xy - x * y / m, yy - y * y / m);
         let half = (0.25 * (xx - yy) * (xx - yy) + xy * xy).sqrt();
         let turn = 0.5 * (2.0 * xy).atan2(xx - yy);
@@ -66,9 +66,8 @@ impl Lines {
 
     /// Centre of samples `i..=j`.
     fn middle(&self, i: usize, j: usize) -> Point {
-        let m = (j - i + 1) as f64;
-        let [x, y] = [0, 1].map(|k| (self.sums[j + 1][k] - self.sums[i][k]) / m);
-        self.origin + Vec2::new(x, y)
+        let [x, y, m] = [0, 1, 5].map(|k| self.sums[j + 1][k] - self.sums[i][k]);
+        self.origin + Vec2::new(x, y) / m
     }
 
     /// Cost of a line from `a` to `b`: what the samples and the directions of both candidates say against it.
@@ -121,8 +120,8 @@ struct Trial<'a> {
     /// Deviations of the first four.
     slacks: [f64; 4],
     chord: f64,
-    /// Points to pass, and their parameters.
-    looks: [(Point, f64); LOOKS],
+    /// Points to pass, their parameters, and what they tell.
+    looks: [(Point, f64, f64); LOOKS],
     count: usize,
     sigma: f64,
     /// Measurements that a point stands for.
@@ -169,7 +168,7 @@ impl<'a> Trial<'a> {
         let places = [s.point(i), s.point(j)];
         let count = (j - i).clamp(1, LOOKS);
         let length = (j - i) as f64 * s.step;
-        let mut looks = [(Point::ORIGIN, 0.0); LOOKS];
+        let mut looks = [(Point::ORIGIN, 0.0, 1.0); LOOKS];
         for (m, look) in looks.iter_mut().take(count).enumerate() {
             // The middle of part m of `count`, in halves of a part.
             let (k, rest) = (
@@ -179,7 +178,8 @@ impl<'a> Trial<'a> {
             let at = s
                 .point(i + k)
                 .lerp(s.point(i + k + 1), rest as f64 / (2 * count) as f64);
-            *look = (at, (m as f64 + 0.5) / count as f64);
+            let tells = s.weight[(i + k) % s.len()];
+            *look = (at, (m as f64 + 0.5) / count as f64, tells);
         }
         Self {
             ends: [a, b],
@@ -212,7 +212,7 @@ impl<'a> Trial<'a> {
         let (nu, nw) = (perp(self.ends[0].heading), perp(self.ends[1].heading));
         let (p0, p3) = (self.places[0] + v[0] * nu, self.places[1] + v[2] * nw);
         let curve = [p0, p0 + v[4] * u, p3 - v[5] * w, p3];
-        for (point, t) in self.looks.iter_mut().take(self.count) {
+        for (point, t, tells) in self.looks.iter_mut().take(self.count) {
             let (offset, along) = foot(curve, *point, t);
             let n = perp(along);
             let d = offset.dot(n);
@@ -222,7 +222,8 @@ impl<'a> Trial<'a> {
             } else {
                 (0.5 * r * r, 1.0)
             };
-            sums.cost += self.weight * rho;
+            let weight = self.weight * *tells;
+            sums.cost += weight * rho;
             let (t, o) = (*t, 1.0 - *t);
             let (b1, b2) = (3.0 * o * o * t, 3.0 * o * t * t);
             let (start, end) = (o * o * o + b1, t * t * t + b2);
@@ -234,7 +235,7 @@ impl<'a> Trial<'a> {
                 b1 * u.dot(n),
                 -b2 * w.dot(n),
             ];
-            let weight = self.weight * pull / (self.sigma * self.sigma);
+            let weight = weight * pull / (self.sigma * self.sigma);
             for (k, rk) in row.iter().enumerate() {
                 sums.g[k] += weight * rk * d;
                 for (h, rl) in sums.h[k].iter_mut().zip(&row[..=k]) {

@@ -1,6 +1,6 @@
 //! A span at even steps: directions, bends, and how much noise there is.
 
-use crate::types::Span;
+use crate::{numeric::cast::index, types::Span};
 use kurbo::{Point, Vec2};
 
 /// A span has at least so many steps.
@@ -19,6 +19,8 @@ const REACH_MOST: usize = 9;
 pub(super) struct Samples {
     /// Points; of an open span both ends are among them, of a ring the first is not repeated.
     pub(super) at: Vec<Point>,
+    /// What each tells, of a measured one's: the way from a given end to the first point beside it is a guess.
+    pub(super) weight: Vec<f64>,
     /// Whether it closes.
     pub(super) ring: bool,
     /// Arc length from one to the next, px.
@@ -37,8 +39,10 @@ impl Samples {
     /// Resamples a span of different points.
     pub(super) fn new(span: Span<'_>) -> Self {
         let (at, step) = resample(span);
+        let weight = weights(span, &at, step);
         let mut s = Self {
             at,
+            weight,
             ring: span.is_ring(),
             step,
             sigma: 0.0,
@@ -86,10 +90,11 @@ impl Samples {
         let mut m = [Vec2::ZERO; 3];
         for i in 0..=lo + hi {
             let x = i as f64 - lo as f64;
-            let q = self.point(k + n + i - lo).to_vec2() - origin;
-            let (x2, qx) = (x * x, q * x);
-            s[0] += 1.0;
-            s[1] += x;
+            let w = self.weight[(k + n + i - lo) % n];
+            let q = w * (self.point(k + n + i - lo).to_vec2() - origin);
+            let (x2, qx) = (w * x * x, q * x);
+            s[0] += w;
+            s[1] += w * x;
             s[2] += x2;
             s[3] += x2 * x;
             s[4] += x2 * x2;
@@ -125,7 +130,7 @@ impl Samples {
                 self.parabola(mid, reach, reach)[0].to_point()
             };
             indices.push(mid);
-            points.push((at, stride as f64));
+            points.push((at, self.weight[k..k + stride].iter().sum()));
             k += stride;
         }
         (indices, points)
@@ -164,13 +169,42 @@ fn solve3(s: &[f64; 5], m: [Vec2; 3]) -> Option<[Vec2; 3]> {
     let (ca, cb, cc) = (d * f - e * e, c * e - b * f, b * e - c * d);
     let (cd, ce, cf) = (a * f - c * c, b * c - a * e, a * d - b * b);
     let det = a * ca + b * cb + c * cc;
-    (s[0] >= 3.0 && det.abs() > 1e-9).then(|| {
+    (det.abs() > 1e-9).then(|| {
         [
             (m[0] * ca + m[1] * cb + m[2] * cc) / det,
             (m[0] * cb + m[1] * cd + m[2] * ce) / det,
             (m[0] * cc + m[1] * ce + m[2] * cf) / det,
         ]
     })
+}
+
+/// A first or last edge this many times as long as the middling one holds no measured point.
+const GAP: f64 = 1.6;
+/// What a sample without measurement tells.
+const GUESS: f64 = 0.02;
+
+/// What samples tell: next to nothing on the way from a given end to the first point that was measured.
+fn weights(span: Span<'_>, at: &[Point], step: f64) -> Vec<f64> {
+    let mut out = vec![1.0; at.len()];
+    let p = span.points();
+    let mut edges: Vec<f64> = p.windows(2).map(|w| w[0].distance(w[1])).collect();
+    if span.is_ring() || edges.len() < 3 {
+        return out;
+    }
+    let (first, last) = (edges[0], edges[edges.len() - 1]);
+    let mid = edges.len() / 2;
+    let usual = *edges.select_nth_unstable_by(mid, f64::total_cmp).1;
+    let guessed = |gap: f64| {
+        if gap > GAP * usual {
+            index((gap / step).ceil())
+        } else {
+            0
+        }
+    };
+    let guess = |w: &mut f64| *w = GUESS;
+    out.iter_mut().take(guessed(first)).for_each(guess);
+    out.iter_mut().rev().take(guessed(last)).for_each(guess);
+    out
 }
 
 fn resample(span: Span<'_>) -> (Vec<Point>, f64) {
