@@ -18,6 +18,9 @@ const ROUND_LENS: f64 = 0.4;
 /// That times this where the contour alone looks like a corner, and where it does not.
 const DOUBT: [f64; 2] = [0.8, 1.3];
 
+/// A fitted corner may reach further than its tip is drawn by this, px, and by this for each px of the lens' deviation.
+const LONG_PX: (f64, f64) = (1.0, 1.2);
+
 /// Which of the corners of sharpened contours are drawn as corners. `seen` says what the contour alone tells of
 /// each; where the picture tells nothing, that holds.
 #[must_use]
@@ -63,6 +66,9 @@ pub fn undrawn(gray: &Gray, paths: &[BezPath], blur_px: f64) -> Vec<Vec<Point>> 
         let corners = segments.iter().zip(before).filter_map(|(after, before)| {
             let (u, v) = (arriving(before), leaving(after));
             let radius = radius(&residual, (after.p0, reach(u, v, blur_px)), (u, v))?;
+            let (long, more) = LONG_PX;
+            let tip = 1.0 / (u.cross(v).atan2(u.dot(v)) / 2.0).cos() - 1.0;
+            let limit = limit.min((long + more * residual.lens_px()) / tip);
             (radius > limit).then_some(after.p0)
         });
         corners.collect()
