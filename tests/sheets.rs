@@ -198,6 +198,72 @@ fn nothing_is_done_twice() {
 }
 
 #[test]
+fn anchors_kerning_and_features_may_be_set_by_hand() {
+    let dir = project(LETTERS, &page(&[]));
+    let text = fs::read_to_string(dir.path().join("font.toml")).expect("the project");
+    let build = |font: &str, more: &str| {
+        let text = text.replace("[font]", &format!("[font]\n{font}"));
+        fs::write(dir.path().join("font.toml"), format!("{text}{more}")).expect("the project");
+        khatt(dir.path(), &["build", "font.toml", "--quiet"])
+    };
+    let features = |text: &str| fs::write(dir.path().join("own.fea"), text).expect("features");
+    let own = "features = \"own.fea\"";
+
+    features("feature ss01 {\n    sub H by o;\n} ss01;\n");
+    let out = build(
+        own,
+        "[anchors]\nH = { top = [50, 710] }\n[kerning]\n\"H o\" = -33\n",
+    );
+    assert_eq!(
+        out.status.code(),
+        Some(0),
+        "{}",
+        String::from_utf8_lossy(&out.stderr)
+    );
+    let ufo = norad::Font::load(dir.path().join("out/test.ufo")).expect("a UFO");
+    assert!(ufo.features.contains("sub H by o"));
+    let letter = ufo.get_glyph("H").expect("the letter");
+    let top = letter
+        .anchors
+        .iter()
+        .find(|a| a.name.as_deref() == Some("top"));
+    assert!(
+        top.is_some_and(|a| (a.x, a.y) == (50.0, 710.0)),
+        "{:?}",
+        letter.anchors
+    );
+    let kerned = ufo.kerning.get("H").and_then(|second| second.get("o"));
+    assert_eq!(kerned, Some(&-33.0));
+
+    features("feature ss01 {\n    sub H by o;\n    sub nothing by o;\n} ss01;\n");
+    let cases = [
+        (own, "", "own.fea"),
+        ("", "[anchors]\nH = { top = [50, 71000] }\n", "lies outside"),
+        ("", "[anchors]\nQ = { top = [50, 71] }\n", "no glyph “Q”"),
+        ("", "[kerning]\nHo = 3\n", "two glyph names"),
+        ("", "[kerning]\n\"H Q\" = 3\n", "no glyph “Q”"),
+    ];
+    let before = files(&dir.path().join("out"));
+    for (font, more, says) in cases {
+        let out = build(font, more);
+        let stderr = String::from_utf8_lossy(&out.stderr);
+        assert_eq!(out.status.code(), Some(1), "{more}");
+        assert!(stderr.contains(says), "{stderr}");
+        if font == own {
+            assert!(
+                stderr.contains("nothing") && stderr.contains('3'),
+                "the line: {stderr}"
+            );
+        }
+    }
+    assert_eq!(
+        files(&dir.path().join("out")),
+        before,
+        "nothing was written"
+    );
+}
+
+#[test]
 fn what_is_kept_may_be_spoilt() {
     let dir = project(LETTERS, &page(&[]));
     let args = ["build", "font.toml", "--quiet", "--cache-dir", "kept"];

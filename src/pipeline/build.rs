@@ -1,5 +1,6 @@
 //! A project → a font: the whole way.
 
+use super::by_hand;
 use super::cache::{self, Store};
 use super::doubt::Doubt;
 use super::labels;
@@ -79,7 +80,7 @@ pub fn build(project: &Project, world: World<'_>) -> Result<Built, Vec<Problem>>
     let info = project.font.info(world.created);
     let assembled = assemble::font(drawn, info, &project.spacing).map_err(|e| vec![e.into()])?;
     Ok(Built {
-        font: assembled.font,
+        font: by_hand::set(assembled.font, project, world)?,
         letters,
         pages,
         notes: assembled.notes,

@@ -78,6 +78,9 @@ fn key(
     let mut earlier = project.clone();
     earlier.sheets = vec![table.clone()];
     earlier.spacing = <_>::default();
+    earlier.anchors = <_>::default();
+    earlier.kerning = <_>::default();
+    earlier.font.features = None;
     earlier.quadratic = <_>::default();
     earlier.gate = <_>::default();
     earlier.matching = <_>::default();

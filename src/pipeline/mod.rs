@@ -1,6 +1,7 @@
 //! The order of the stages: a page to cells, cells to outlines, outlines to a font.
 
 mod build;
+mod by_hand;
 mod cache;
 pub mod convert;
 mod doubt;

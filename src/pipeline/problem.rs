@@ -138,6 +138,16 @@ pub enum Problem {
         /// what the project allows, font units
         limit: f64,
     },
+    /// An anchor or a pair set by hand does not fit the font.
+    #[error("[{table}] “{key}”: {why}")]
+    ByHand {
+        /// the table of the project
+        table: &'static str,
+        /// its key
+        key: String,
+        /// what is wrong
+        why: String,
+    },
     /// The glyphs make no font.
     #[error(transparent)]
     Assemble(#[from] AssembleError),
@@ -158,6 +168,9 @@ impl Problem {
             }
             Self::Twice { .. } => {
                 "rename one, give it a suffix such as .alt, or skip its cell with _"
+            }
+            Self::ByHand { .. } => {
+                "glyph names are those of the font; `khatt build` with report lists them"
             }
             Self::Gate { .. } => {
                 "look at the glyph in `khatt proof`; scan it larger, trace with a smaller tolerance_px, or raise the gate"

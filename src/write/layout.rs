@@ -243,11 +243,24 @@ fn rule(glyph: &Glyph, carrier: Class, name: &str) -> Option<String> {
 
 /// GSUB, GPOS and GDEF of the font.
 pub(super) fn compile(font: &Font) -> Result<Compilation, WriteError> {
+    compiled(font, SOURCE, text(font))
+}
+
+/// Whether a feature text compiles by itself for the glyphs of a font; messages call it `name`.
+///
+/// # Errors
+/// What is wrong with it, line by line.
+pub fn check(font: &Font, name: &str, text: &str) -> Result<(), WriteError> {
+    compiled(font, name, text.to_owned()).map(drop)
+}
+
+fn compiled(font: &Font, source: &str, text: String) -> Result<Compilation, WriteError> {
     let names = GlyphMap::new(font.glyphs().iter().map(|g| g.name.as_str()))
         .map_err(|e| WriteError::Features(e.to_string()))?;
-    let text: Arc<str> = text(font).into();
+    let text: Arc<str> = text.into();
+    let only = source.to_owned();
     let resolver = move |path: &Path| {
-        if path == Path::new(SOURCE) {
+        if path == Path::new(&only) {
             Ok(text.clone())
         } else {
             Err(SourceLoadError::new(
@@ -256,7 +269,7 @@ pub(super) fn compile(font: &Font) -> Result<Compilation, WriteError> {
             ))
         }
     };
-    Compiler::<NopFeatureProvider, NopVariationInfo>::new(SOURCE, &names)
+    Compiler::<NopFeatureProvider, NopVariationInfo>::new(source, &names)
         .with_resolver(resolver)
         .compile()
         .map_err(|e| WriteError::Features(message(&e)))

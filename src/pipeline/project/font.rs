@@ -3,6 +3,7 @@
 use super::check;
 use crate::types::Info;
 use serde::{Deserialize, Serialize};
+use std::path::PathBuf;
 
 /// What the font says about itself.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -26,6 +27,8 @@ pub struct FontTable {
     /// Angle of the stems, degrees counter-clockwise from upright: negative for an italic.
     #[serde(default, deserialize_with = "check::slant")]
     pub italic_angle: f64,
+    /// A feature file of the user's own, relative to the project file.
+    pub features: Option<PathBuf>,
     /// Copyright notice.
     pub copyright: Option<String>,
     /// Designer.

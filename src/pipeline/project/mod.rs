@@ -13,6 +13,7 @@ use super::picture;
 use crate::write::{FORMATS, Format};
 use crate::{assemble, quadratic, recognise, template};
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 /// A whole project file.
@@ -33,6 +34,12 @@ pub struct Project {
     /// Room between letters, overlap of joined ones, vertical measures.
     #[serde(default)]
     pub spacing: assemble::Options,
+    /// Anchors by glyph name and their own name, font units: they win over those that follow from shapes.
+    #[serde(default)]
+    pub anchors: BTreeMap<String, BTreeMap<String, (f64, f64)>>,
+    /// Kerning by two glyph names with a space between, font units: it wins over what is measured.
+    #[serde(default)]
+    pub kerning: BTreeMap<String, f64>,
     /// How cubics become TrueType's quadratics.
     #[serde(default)]
     pub quadratic: QuadraticTable,
