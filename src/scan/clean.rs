@@ -5,6 +5,7 @@
 //! are then measured for the whole page.
 
 use super::error::ScanError;
+use super::paper::Paper;
 use super::whole::{floor, narrow, ratio};
 use crate::types::{Gray, Sheet};
 use rayon::prelude::*;
@@ -37,6 +38,8 @@ pub struct Page {
     pub noise: f32,
     /// Contrast of the ink against the paper before it was set to 1, of black against white.
     pub contrast: f32,
+    /// Where the paper lies, in a picture that shows more than it.
+    pub(super) paper: Option<Paper>,
 }
 
 /// Evens out the light of a page.
@@ -44,10 +47,17 @@ pub struct Page {
 /// # Errors
 /// Nothing on the page is darker than its paper.
 pub fn clean(sheet: Sheet) -> Result<Page, ScanError> {
-    let Sheet { gray, dpi, source } = sheet;
+    let Sheet {
+        gray,
+        colours,
+        dpi,
+        source,
+    } = sheet;
     let (width, height) = (gray.width(), gray.height());
     let field = Field::measure(&gray);
-    let levels = Levels::measure(&gray, &field).ok_or_else(|| ScanError::Blank {
+    let paper = Paper::find(&field.values, field.columns, field.block);
+    let levels = Levels::measure(&gray, &field, paper.as_ref());
+    let levels = levels.ok_or_else(|| ScanError::Blank {
         source_name: source.clone(),
     })?;
     let mut samples = gray.into_samples();
@@ -65,9 +75,15 @@ pub fn clean(sheet: Sheet) -> Result<Page, ScanError> {
         why: e.to_string(),
     })?;
     Ok(Page {
-        sheet: Sheet { gray, dpi, source },
+        sheet: Sheet {
+            gray,
+            colours,
+            dpi,
+            source,
+        },
         noise: levels.noise * scale,
         contrast: levels.ink - levels.paper,
+        paper,
     })
 }
 
@@ -192,9 +208,9 @@ struct Levels {
 }
 
 impl Levels {
-    fn measure(gray: &Gray, field: &Field) -> Option<Self> {
+    fn measure(gray: &Gray, field: &Field, paper: Option<&Paper>) -> Option<Self> {
         let step = (gray.width().min(gray.height()) / 1500).max(1);
-        let histogram = histogram(gray, field, step);
+        let histogram = histogram(gray, field, paper, step);
         let peak = (0..BINS).max_by_key(|&i| histogram[i])?;
         let paper = level(peak);
         let below = (0..peak).map(|i| (f64::from(level(i) - paper).powi(2), histogram[i]));
@@ -228,12 +244,16 @@ fn level(bin: usize) -> f32 {
 }
 
 /// Every `step`-th sample of every `step`-th row, light divided out.
-fn histogram(gray: &Gray, field: &Field, step: usize) -> Vec<usize> {
+fn histogram(gray: &Gray, field: &Field, paper: Option<&Paper>, step: usize) -> Vec<usize> {
     let rows: Vec<usize> = (0..gray.height()).step_by(step).collect();
     let add = |mut sum: Vec<usize>, &y: &usize| {
         let mut buffer = Vec::new();
         field.row(y, &mut buffer);
-        for (v, light) in gray.row(y).iter().zip(field.along(&buffer)).step_by(step) {
+        let pixels = gray.row(y).iter().zip(field.along(&buffer)).enumerate();
+        for (x, (v, light)) in pixels.step_by(step) {
+            if paper.is_some_and(|p| !p.holds(x, y)) {
+                continue;
+            }
             let place = f64::from(reflected(*v, light) + 0.25) / 1.25;
             sum[floor(place * BINS as f64).min(BINS - 1)] += 1;
         }

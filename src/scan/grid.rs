@@ -60,6 +60,11 @@ impl Axis {
         inside.then(|| floor(place).min(self.count - 1))
     }
 
+    /// Whether a place lies in a cell.
+    pub(super) fn holds(&self, at: f64) -> bool {
+        (0.0..self.count as f64).contains(&((at - self.start) / self.pitch))
+    }
+
     /// Where cell `i` begins.
     pub(super) fn begin(&self, i: usize) -> f64 {
         self.start + i as f64 * self.pitch

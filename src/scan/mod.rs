@@ -16,13 +16,16 @@ mod deskew;
 mod error;
 mod grid;
 mod header;
+mod ink;
 mod letters;
 mod load;
 mod options;
+mod paper;
 mod whole;
 
 pub use clean::{Page, clean};
 pub use cut::{Cut, Reason, Rejected, Warning, cut};
 pub use error::ScanError;
+pub use ink::Ink;
 pub use load::{Polarity, load};
 pub use options::{Direction, Layout, Options, Order, Scale};

@@ -1,5 +1,6 @@
 //! What a user says about a page.
 
+use super::Ink;
 use serde::{Deserialize, Serialize};
 
 /// How the cells lie on the page.
@@ -63,6 +64,8 @@ pub struct Options {
     pub direction: Direction,
     /// Rows or columns first.
     pub order: Order,
+    /// The ink of the letters; ink of other colours is in no cell.
+    pub ink: Ink,
     /// The size of an em; measured from the letters' usual heights where it is not given.
     pub scale: Option<Scale>,
 }

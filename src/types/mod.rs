@@ -30,4 +30,4 @@ pub use font::{Font, FontError, Info, Kerning, Metrics};
 pub use glyph::{Anchor, Component, Glyph, Name, NameError};
 pub use outline::{Frame, Outline, OutlineError};
 pub use raster::{Bitmap, Gray, RasterError};
-pub use sheet::{Cell, Guides, Label, Sheet};
+pub use sheet::{Cell, Colours, Guides, Label, Sheet};

@@ -8,10 +8,34 @@ use kurbo::{Affine, Rect};
 pub struct Sheet {
     /// Ink coverage, px, y down.
     pub gray: Gray,
+    /// Which light it swallows, of a picture in colours.
+    pub colours: Option<Colours>,
     /// Resolution, dots an inch, where the file says so.
     pub dpi: Option<f64>,
     /// The file it came from, as messages name it.
     pub source: String,
+}
+
+/// Shares of red, green and blue light that the square blocks of a picture swallow, row by row, 255 for all of it.
+/// A picture's colours are seldom finer than this: cameras and files reduce them.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Colours {
+    /// Side of a block, px.
+    pub block: usize,
+    /// Blocks in a row.
+    pub columns: usize,
+    /// A value a block.
+    pub swallowed: Vec<[u8; 3]>,
+}
+
+impl Colours {
+    /// The block around the pixel in column `x` of row `y`; nothing swallowed outside the picture.
+    #[must_use]
+    pub fn at(&self, x: usize, y: usize) -> [u8; 3] {
+        let (column, row) = (x / self.block.max(1), y / self.block.max(1));
+        let here = (column < self.columns).then(|| self.swallowed.get(row * self.columns + column));
+        here.flatten().copied().unwrap_or_default()
+    }
 }
 
 /// The glyph name or character that a cell is said to hold, as the user wrote it.

@@ -17,17 +17,29 @@ from scipy.signal import fftconvolve
 UPPER, LOWER, DIGITS = string.ascii_uppercase, string.ascii_lowercase, string.digits
 BOXES = UPPER + LOWER + DIGITS + ".,;:!?\"'-+=/%&()[]"
 FREE = LOWER + UPPER + "1234567890"
-# the tablet page repeats letters, so its cells get private characters
+KUFI = [18, 9, 14, 16, 20]
+NOTEBOOK = [12, 15, 9, 9, 8, 11, 11, 10, 11]
+
+
+def private(count):
+    """Names for letters that repeat."""
+    return [f"uni{0xE000 + i:04X}" for i in range(count)]
+
+
+# page, layout, further keys, names in reading order, letters of each row
 PAGES = [
-    ("latin-free-flatbed.jpg", '"free"', "rows", list(FREE), [7, 8, 7, 7, 6, 6, 7, 9, 5]),
-    ("latin-boxes-scan.jpg", '"boxes"', "rows", list(BOXES), [8] * 10),
-    ("latin-boxes-phone.jpg", '"boxes"', "rows", list(BOXES), [8] * 10),
-    ("latin-tablet-grid.png", "{ grid = [10, 10] }", "columns", [f"uni{0xE000 + i:04X}" for i in range(100)], [10] * 10),
+    ("latin-free-flatbed.jpg", '"free"', "", list(FREE), [7, 8, 7, 7, 6, 6, 7, 9, 5]),
+    ("latin-boxes-scan.jpg", '"boxes"', "", list(BOXES), [8] * 10),
+    ("latin-boxes-phone.jpg", '"boxes"', "", list(BOXES), [8] * 10),
+    ("latin-marks-blue-pen.jpg", "{ grid = [8, 8] }", 'ink = "blue"', [f"uni{c:04X}" for c in range(0x21, 0x60)], [8] * 7 + [7]),
+    ("latin-tablet-grid.png", "{ grid = [10, 10] }", 'order = "columns"', private(100), [10] * 10),
+    ("arabic-kufi-sheet.jpg", '"free"', 'direction = "rtl"', private(sum(KUFI)), KUFI),
+    ("arabic-notebook-photo.jpg", '"free"', 'direction = "rtl"', private(sum(NOTEBOOK)), NOTEBOOK),
 ]
 IOU = 0.9
 
 
-def cut(khatt, page, layout, order, names):
+def cut(khatt, page, layout, keys, names):
     """The cells of a page as `khatt cut` lists them, or what it said."""
     with tempfile.TemporaryDirectory() as out:
         project = os.path.join(out, "p.toml")
@@ -35,7 +47,7 @@ def cut(khatt, page, layout, order, names):
         with open(project, "w") as f:
             f.write(
                 f'[font]\nfamily = "P"\n[[sheet]]\nimage = {json.dumps(os.path.abspath(page))}\n'
-                f"layout = {layout}\norder = \"{order}\"\nglyphs = {quoted}\n"
+                f"layout = {layout}\n{keys}\nglyphs = {quoted}\n"
             )
         run = subprocess.run([khatt, "cut", project, "-o", os.path.join(out, "cells")], capture_output=True, text=True)
         if run.returncode:
@@ -74,10 +86,11 @@ def overlap(a, b):
     return both / (area(a) + area(b) - both)
 
 
-def in_place(cells, rows, order):
+def in_place(cells, rows, keys):
     """Cells whose neighbours before and after in reading order stand where they should."""
     middle = {c["cell"] - 1: ((c["box_px"][0] + c["box_px"][2]) / 2, (c["box_px"][1] + c["box_px"][3]) / 2) for c in cells}
-    along, across = (0, 1) if order == "rows" else (1, 0)
+    along, across = (1, 0) if "columns" in keys else (0, 1)
+    sign = -1 if "rtl" in keys else 1
     starts = np.cumsum([0] + rows)
     lines = [range(a, b) for a, b in zip(starts, starts[1:])]
     level = [np.median([middle[i][across] for i in line if i in middle]) for line in lines]
@@ -88,7 +101,7 @@ def in_place(cells, rows, order):
             if i not in middle or abs(middle[i][across] - y) > gap / 2:
                 continue
             others = [j for j in line if j in middle and j != i]
-            if all((middle[j][along] < middle[i][along]) == (j < i) for j in others):
+            if all((sign * middle[j][along] < sign * middle[i][along]) == (j < i) for j in others):
                 good.add(i)
     return good
 
@@ -99,12 +112,12 @@ def main():
     ap.add_argument("scans")
     a = ap.parse_args()
     print("| page | letters | right | wrong | missing | least overlap |\n|---|---:|---:|---:|---:|---:|")
-    for name, layout, order, names, rows in PAGES:
+    for name, layout, keys, names, rows in PAGES:
         page = os.path.join(a.scans, name)
-        cells, said = cut(a.khatt, page, layout, order, names)
+        cells, said = cut(a.khatt, page, layout, keys, names)
         folder = os.path.splitext(page)[0] + "-letters"
         true = true_boxes(page, folder) if os.path.isdir(folder) else {}
-        good = in_place(cells, rows, order) if cells else set()
+        good = in_place(cells, rows, keys) if cells else set()
         scores = {c["label"]: overlap(c["box_px"], true[c["label"]]) for c in cells if c["label"] in true}
         right = sum(c["cell"] - 1 in good and scores.get(c["label"], 1) >= IOU for c in cells)
         least = f"{min(scores.values()):.3f} ({len(scores)} crops)" if scores else ""

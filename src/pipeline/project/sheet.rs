@@ -1,7 +1,7 @@
 //! `[[sheet]]`: a page and what is drawn on it.
 
 use super::check;
-use crate::scan::{self, Direction, Options, Order, Polarity, Scale};
+use crate::scan::{self, Direction, Ink, Options, Order, Polarity, Scale};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
@@ -27,6 +27,9 @@ pub struct SheetTable {
     /// Which of dark and light is the ink.
     #[serde(default)]
     pub polarity: Polarity,
+    /// Which ink the letters are drawn with, where the page has other colours too.
+    #[serde(default)]
+    pub ink: Ink,
     /// What the cells hold, in reading order.
     pub glyphs: Labels,
     /// Pixels an em.
@@ -149,6 +152,7 @@ impl SheetTable {
             layout,
             direction: self.direction,
             order: self.order,
+            ink: self.ink,
             scale: given.first().map(|(_, scale)| *scale),
         })
     }

@@ -18,6 +18,10 @@ const LINE_LENGTH: f64 = 1.5;
 /// Thickness of a faint line's scraps at most, in the page's stroke widths, and their length at least, in
 /// usual letters' heights.
 const SCRAP: (f64, f64) = (0.2, 0.3);
+/// Strokes of a label or a guide at most, in the page's stroke widths, where they are told from letters.
+const THIN: f64 = 0.4;
+/// Pieces of such thin ink at least, for each name: labels stand beside every letter.
+const MANY: f64 = 0.5;
 /// A part that is joined to something above or below is lower than this share of a usual letter.
 const SMALL: f64 = 0.35;
 /// Joins that cost more are never made: about this share of a usual letter lies between the two.
@@ -42,9 +46,12 @@ pub(super) fn place(
         line || (long > SCRAP.1 * height && thin < SCRAP.0 * stroke)
     };
     let (lines, ink): (Vec<usize>, Vec<usize>) = (0..all.len()).partition(|&i| is_line(&all[i]));
-    let mut rejected: Vec<(usize, Reason)> = lines.into_iter().map(|i| (i, Reason::Line)).collect();
-    let mut groups = letters(all, &ink, height, labels.len());
-    rejected.extend(drop_dirt(all, &mut groups, labels.len()));
+    let lines: Vec<(usize, Reason)> = lines.into_iter().map(|i| (i, Reason::Line)).collect();
+    let Gathered {
+        mut groups, out, ..
+    } = choose(all, &ink, (height, stroke), labels.len());
+    let mut rejected = lines;
+    rejected.extend(out);
     let boxes: Vec<Rect> = groups.iter().map(|g| bounds(all, g)).collect();
     let mut order = rows(&boxes);
     if options.direction == Direction::Rtl {
@@ -81,6 +88,48 @@ pub(super) fn place(
     })
 }
 
+/// Letters and what is left out.
+struct Gathered {
+    groups: Vec<Vec<usize>>,
+    out: Vec<(usize, Reason)>,
+    /// Cost of the dearest join.
+    dearest: f64,
+}
+
+/// Gathers all ink, or without what is drawn with a far thinner pen where that is so much that it must be labels
+/// and guides, and the letters come out with more obvious joins.
+fn choose(
+    all: &[Component],
+    ink: &[usize],
+    (height, stroke): (f64, f64),
+    wanted: usize,
+) -> Gathered {
+    let whole = gather(all, ink, height, wanted);
+    let (thin, thick): (Vec<usize>, Vec<usize>) =
+        ink.iter().partition(|&&i| all[i].stroke() < THIN * stroke);
+    if (thin.len() as f64) < MANY * wanted as f64 || thick.len() < wanted {
+        return whole;
+    }
+    let mut part = gather(all, &thick, height, wanted);
+    part.out.extend(thin.into_iter().map(|i| (i, Reason::Thin)));
+    let better = part.dearest < whole.dearest || whole.groups.len() != wanted;
+    if part.groups.len() == wanted && better {
+        part
+    } else {
+        whole
+    }
+}
+
+fn gather(all: &[Component], ink: &[usize], height: f64, wanted: usize) -> Gathered {
+    let (mut groups, dearest) = letters(all, ink, height, wanted);
+    let out = drop_dirt(all, &mut groups, wanted);
+    Gathered {
+        groups,
+        out,
+        dearest,
+    }
+}
+
 fn bounds(all: &[Component], group: &[usize]) -> Rect {
     let boxes = group.iter().map(|&i| all[i].upright);
     boxes.reduce(|a, b| a.union(b)).unwrap_or(Rect::ZERO)
@@ -103,8 +152,9 @@ fn count_error(source: &str, order: &[Vec<usize>], labels: &[Label]) -> ScanErro
     }
 }
 
-/// Joins ink, the most obvious pairs first, until `wanted` groups are left or no pair is near.
-fn letters(all: &[Component], ink: &[usize], height: f64, wanted: usize) -> Vec<Vec<usize>> {
+/// Joins ink, the most obvious pairs first, until `wanted` groups are left or no pair is near; the groups, and the
+/// cost of the last join.
+fn letters(all: &[Component], ink: &[usize], height: f64, wanted: usize) -> (Vec<Vec<usize>>, f64) {
     let mut pairs: Vec<(f64, usize, usize)> = Vec::new();
     for (i, &a) in ink.iter().enumerate() {
         for (j, &b) in ink.iter().enumerate().skip(i + 1) {
@@ -117,7 +167,8 @@ fn letters(all: &[Component], ink: &[usize], height: f64, wanted: usize) -> Vec<
     pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
     let mut group: Vec<usize> = (0..ink.len()).collect();
     let mut left = ink.len();
-    for (_, i, j) in pairs {
+    let mut dearest = 0.0;
+    for (cost, i, j) in pairs {
         if left <= wanted {
             break;
         }
@@ -128,6 +179,7 @@ fn letters(all: &[Component], ink: &[usize], height: f64, wanted: usize) -> Vec<
                 .filter(|g| **g == from)
                 .for_each(|g| *g = to);
             left -= 1;
+            dearest = cost;
         }
     }
     let of = |id: usize| {
@@ -136,7 +188,8 @@ fn letters(all: &[Component], ink: &[usize], height: f64, wanted: usize) -> Vec<
             .map(|i| ink[i])
             .collect::<Vec<_>>()
     };
-    (0..ink.len()).map(of).filter(|g| !g.is_empty()).collect()
+    let groups = (0..ink.len()).map(of).filter(|g| !g.is_empty()).collect();
+    (groups, dearest)
 }
 
 /// Height of a usual letter, px: the median over the ink, each piece by its area.

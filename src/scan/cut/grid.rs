@@ -85,10 +85,25 @@ pub(super) fn place(
         });
     };
     let mut cells: Vec<Vec<usize>> = vec![Vec::new(); plan.rows * plan.columns];
+    let mut beyond = Vec::new();
     for &i in &letters {
-        match y.cell(all[i].centre.y).zip(x.cell(all[i].centre.x)) {
-            Some((r, c)) => cells[r * plan.columns + c].push(i),
+        let centre = all[i].centre;
+        match y.cell(centre.y).zip(x.cell(centre.x)) {
+            Some((r, c)) if x.holds(centre.x) && y.holds(centre.y) => {
+                cells[r * plan.columns + c].push(i)
+            }
+            Some((r, c)) => beyond.push((i, r * plan.columns + c)),
             None => rejected.push((i, Reason::Outside)),
+        }
+    }
+    // ink beside the grid belongs to the next cell if that holds nothing else or it stands close
+    let empty: Vec<bool> = cells.iter().map(Vec::is_empty).collect();
+    for (i, cell) in beyond {
+        let near = |&b: &usize| gap(&all[i], &all[b]) < NEAR * y.pitch.min(x.pitch) / 2.0;
+        if empty[cell] || cells[cell].iter().any(near) {
+            cells[cell].push(i);
+        } else {
+            rejected.push((i, Reason::Outside));
         }
     }
     settle_small_parts(all, &mut cells, &x, &y);

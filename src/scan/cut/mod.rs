@@ -11,7 +11,7 @@ mod rows;
 mod window;
 
 use super::clean::Page;
-use super::components::{Component, components};
+use super::components::{Component, Run, components};
 use super::deskew::skew_deg;
 use super::error::ScanError;
 use super::options::{Direction, Layout, Options, Order};
@@ -31,6 +31,8 @@ const NOISE: f32 = 6.0;
 /// Ink smaller than a square of this many stroke widths is a speck: the dot of a letter is a disc of at least one
 /// stroke (0.89 of its side as a square), and loses a little to the threshold.
 const SPECK: f64 = 0.7;
+/// Share of a piece of ink that lies on the page at least.
+const ON_PAPER: f64 = 0.8;
 /// Skews below this, degrees, are left alone: over a page they move a letter by a hair.
 const LEAST_SKEW_DEG: f64 = 0.01;
 
@@ -74,6 +76,12 @@ pub enum Reason {
     Outside,
     /// Its cell is marked to be skipped.
     Skipped,
+    /// It is of another colour than the letters' ink.
+    OtherInk,
+    /// It lies beside the paper in a picture that shows more than the page.
+    OffPage,
+    /// A label or a guide: its strokes are far thinner than the letters'.
+    Thin,
     /// The edge of the scan: it touches the picture's border and is far larger than a letter.
     Border,
 }
@@ -96,6 +104,9 @@ impl fmt::Display for Reason {
             Self::Dirt => "dirt",
             Self::Outside => "outside",
             Self::Skipped => "skipped",
+            Self::OtherInk => "other ink",
+            Self::OffPage => "off the page",
+            Self::Thin => "thin",
             Self::Border => "border",
         })
     }
@@ -153,8 +164,14 @@ struct Layer {
 pub fn cut(page: &Page, labels: &[Label], options: &Options) -> Result<Cut, ScanError> {
     let gray = &page.sheet.gray;
     let low = LOW.max(NOISE * page.noise);
-    let mut all = components(gray, low, SEED.max(low));
-    let specks = drop_specks(&mut all);
+    let found = components(gray, low, SEED.max(low));
+    let (found, beyond) = found.into_iter().partition(|c| on_paper(c, page));
+    let (mut all, mut other) = options.ink.part(found, page.sheet.colours.as_ref());
+    let least = speck_limit(&all);
+    let before = all.len() + other.len();
+    all.retain(|c| c.area as f64 >= least);
+    other.retain(|c| c.area as f64 >= least);
+    let specks = before - all.len() - other.len();
     let borders = take_borders(&mut all, gray.width(), gray.height());
     let skew_deg = skew_deg(&all.iter().collect::<Vec<_>>());
     let skew_deg = if skew_deg.abs() < LEAST_SKEW_DEG {
@@ -207,8 +224,13 @@ pub fn cut(page: &Page, labels: &[Label], options: &Options) -> Result<Cut, Scan
         .rejected
         .iter()
         .map(|&(i, reason)| rejected(&all[i], reason));
+    let large = beyond
+        .iter()
+        .filter(|c: &&Component| c.area as f64 >= least);
     let rejected = rest
         .chain(borders.iter().map(|c| rejected(c, Reason::Border)))
+        .chain(other.iter().map(|c| rejected(c, Reason::OtherInk)))
+        .chain(large.map(|c| rejected(c, Reason::OffPage)))
         .collect();
     warnings.sort_by_key(|w| w.index);
     Ok(Cut {
@@ -229,12 +251,19 @@ fn rejected(c: &Component, reason: Reason) -> Rejected {
     }
 }
 
-/// Removes what is smaller than any dot; how many pieces that was.
-fn drop_specks(all: &mut Vec<Component>) -> usize {
-    let stroke = stroke_width(all);
-    let before = all.len();
-    all.retain(|c| c.area as f64 >= (SPECK * stroke).powi(2).max(2.0));
-    before - all.len()
+/// Whether most of a piece of ink lies on the paper.
+fn on_paper(c: &Component, page: &Page) -> bool {
+    let Some(paper) = &page.paper else {
+        return true;
+    };
+    let on = |r: &Run| (r.start..r.end).filter(|&x| paper.holds(x, r.y)).count();
+    let inside: usize = c.runs.iter().map(on).sum();
+    inside as f64 >= ON_PAPER * c.area as f64
+}
+
+/// Area of the smallest piece of ink that may be a dot, px².
+fn speck_limit(all: &[Component]) -> f64 {
+    (SPECK * stroke_width(all)).powi(2).max(2.0)
 }
 
 /// The page's usual stroke width, px: the median over the ink, each piece by its area.

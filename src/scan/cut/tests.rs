@@ -72,6 +72,7 @@ impl Paper {
         });
         Sheet {
             gray,
+            colours: None,
             dpi: Some(300.0),
             source: "page.png".to_owned(),
         }

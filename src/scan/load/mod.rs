@@ -1,5 +1,6 @@
 //! Picture files → [`Sheet`]s: decoded, turned as the file says, grey, ink made 1.
 
+mod colour;
 mod pdf;
 
 use super::error::{MAX_PIXELS, ScanError};
@@ -79,9 +80,11 @@ fn sheet(
     polarity: Polarity,
 ) -> Result<Sheet, ScanError> {
     let (width, height) = (image.width() as usize, image.height() as usize);
+    let mut colours = colour::colours(&image);
     let mut samples = ink(image);
     if light_on_dark(&samples, width, polarity) {
         samples.par_iter_mut().for_each(|v| *v = 1.0 - *v);
+        colours = None; // what light ink swallows says nothing of it
     }
     let gray = Gray::new(width, height, samples).map_err(|e| ScanError::Decode {
         source_name: source.to_owned(),
@@ -89,6 +92,7 @@ fn sheet(
     })?;
     Ok(Sheet {
         gray,
+        colours,
         dpi,
         source: source.to_owned(),
     })

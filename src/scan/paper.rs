@@ -1,0 +1,129 @@
+//! Where the paper lies in a picture that shows more than it: a table, a hand, the scanner's lid.
+//!
+//! Light changes slowly on paper and at once where it ends. Blocks whose paper levels hardly differ from their
+//! neighbours' grow together; of these regions the one that is large and light, with the holes in it, is the page.
+
+/// Neighbouring blocks of one sheet of paper differ by less than this, of black against white.
+const STEP: f32 = 0.03;
+/// The page covers at least this share of the picture.
+const LEAST: f64 = 0.1;
+/// A page that covers more than this share of the picture is all of it: the rest are corners and punched holes.
+const MOST: f64 = 0.97;
+
+/// The blocks that show the page.
+#[derive(Debug, Clone)]
+pub(super) struct Paper {
+    block: usize,
+    columns: usize,
+    inside: Vec<bool>,
+}
+
+impl Paper {
+    /// Finds the page among the paper levels of a picture's blocks; `None` where the picture shows nothing else,
+    /// or no region is large enough to be a page.
+    pub(super) fn find(levels: &[f32], columns: usize, block: usize) -> Option<Self> {
+        let regions = regions(levels.len(), columns, |a, b| {
+            (levels[a] - levels[b]).abs() < STEP
+        });
+        let mut light = vec![0.0f32; levels.len()];
+        for (&r, level) in regions.iter().zip(levels) {
+            light[r] += (1.0 - level).powi(2);
+        }
+        let page = (0..levels.len()).max_by(|&a, &b| light[a].total_cmp(&light[b]))?;
+        let outside: Vec<bool> = regions.iter().map(|&r| r != page).collect();
+        let holes = regions_of(&outside, columns);
+        let reaches = edges(&holes, columns);
+        let inside: Vec<bool> = (0..levels.len())
+            .map(|i| !outside[i] || !reaches[holes[i]])
+            .collect();
+        let share = inside.iter().filter(|i| **i).count() as f64 / levels.len() as f64;
+        (LEAST..MOST).contains(&share).then_some(Self {
+            block,
+            columns,
+            inside,
+        })
+    }
+
+    /// Whether the pixel in column `x` of row `y` is on the page.
+    pub(super) fn holds(&self, x: usize, y: usize) -> bool {
+        let i = y / self.block * self.columns + x / self.block;
+        self.inside.get(i).copied().unwrap_or(false)
+    }
+}
+
+/// Regions of the blocks that are out, by a number that one of each region's blocks has.
+fn regions_of(out: &[bool], columns: usize) -> Vec<usize> {
+    regions(out.len(), columns, |a, b| out[a] && out[b])
+}
+
+/// For each region's number whether it reaches the picture's edge.
+fn edges(regions: &[usize], columns: usize) -> Vec<bool> {
+    let rows = regions.len() / columns.max(1);
+    let mut reaches = vec![false; regions.len()];
+    for (i, &r) in regions.iter().enumerate() {
+        let (x, y) = (i % columns, i / columns);
+        reaches[r] |= x == 0 || y == 0 || x + 1 == columns || y + 1 == rows;
+    }
+    reaches
+}
+
+/// The region of each of `count` blocks in rows of `columns`: neighbours that are `alike` share one.
+fn regions(count: usize, columns: usize, alike: impl Fn(usize, usize) -> bool) -> Vec<usize> {
+    let mut region: Vec<usize> = vec![usize::MAX; count];
+    let mut stack = Vec::new();
+    for first in 0..count {
+        if region[first] != usize::MAX {
+            continue;
+        }
+        region[first] = first;
+        stack.push(first);
+        while let Some(i) = stack.pop() {
+            let (x, y) = (i % columns, i / columns);
+            let left = (x > 0).then(|| i - 1);
+            let right = (x + 1 < columns).then_some(i + 1);
+            let up = (y > 0).then(|| i - columns);
+            let down = Some(i + columns).filter(|&d| d < count);
+            for next in [left, right, up, down].into_iter().flatten() {
+                if region[next] == usize::MAX && alike(i, next) {
+                    region[next] = first;
+                    stack.push(next);
+                }
+            }
+        }
+    }
+    region
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Levels of 30 × 20 blocks: a page shaded from left to right on a dark table, with a blot in it.
+    fn table(dark: bool) -> Vec<f32> {
+        let level = |i: usize| {
+            let (x, y) = (i % 30, i / 30);
+            let page = (3..22).contains(&x) && (2..19).contains(&y);
+            let blot = (8..11).contains(&x) && (5..8).contains(&y);
+            match (page || !dark, blot) {
+                (true, false) => 0.05 + 0.01 * x as f32,
+                (true, true) => 0.9,
+                (false, _) => 0.6 + 0.1 * ((7 * x + 5 * y) % 3) as f32,
+            }
+        };
+        (0..600).map(level).collect()
+    }
+
+    #[test]
+    fn a_page_on_a_table_is_told_from_it() {
+        let paper = Paper::find(&table(true), 30, 10).unwrap();
+        assert!(paper.holds(35, 25) && paper.holds(215, 185) && paper.holds(95, 65));
+        assert!(!paper.holds(25, 25) && !paper.holds(225, 100) && !paper.holds(299, 199));
+        assert!(!paper.holds(5000, 5000));
+    }
+
+    #[test]
+    fn a_page_that_fills_its_picture_needs_no_telling() {
+        assert!(Paper::find(&table(false), 30, 10).is_none());
+        assert!(Paper::find(&[], 0, 10).is_none());
+    }
+}
