@@ -1,10 +1,12 @@
 //! `khatt cut`: the cells of a project's pages as pictures, and where they come from.
 
+use super::failure::Failure;
 use super::project::Opened;
 use super::staged::Staged;
 use super::{Common, Outcome};
 use clap::Args;
 use image::{GrayImage, ImageFormat};
+use khatt::pipeline::project::{CellTable, Cells, Layout};
 use khatt::pipeline::{self, Page};
 use khatt::types::{Cell, Files, Gray};
 use kurbo::Rect;
@@ -19,27 +21,70 @@ pub(crate) struct Cut {
     #[arg(value_name = "PROJECT.toml")]
     project: PathBuf,
     /// Folder for the pictures
-    #[arg(short, long, value_name = "DIR")]
-    output: PathBuf,
+    #[arg(
+        short,
+        long,
+        value_name = "DIR",
+        required_unless_present = "write_overrides"
+    )]
+    output: Option<PathBuf>,
+    /// Also write where each letter was found, to be corrected: `cells_file` of the project
+    #[arg(long, value_name = "CELLS.toml")]
+    write_overrides: Option<PathBuf>,
 }
 
 impl Cut {
     pub(crate) fn run(&self, common: &Common) -> Outcome {
         let opened = Opened::new(&self.project)?;
         let (pages, ..) = opened.work(common, |project, world| {
-            pipeline::pages(project, world, |page| Ok(entry(&page)))
+            pipeline::pages(project, world, |page| {
+                let table = project.sheets.get(page.table);
+                let layout = table.map(|t| t.layout);
+                Ok((entry(&page), found(&page, layout)))
+            })
         })?;
-        let (mut files, mut list) = (Files::default(), Vec::new());
-        for (pictures, entry) in pages {
+        let (mut files, mut list, mut cells) = (Files::default(), Vec::new(), Cells::new());
+        for ((pictures, entry), found) in pages {
             files.0.extend(pictures);
             list.push(entry);
+            cells.extend(found);
         }
         let text = format!("{:#}\n", Value::Array(list));
         files.0.insert("cells.json".to_owned(), text.into_bytes());
         let mut staged = Staged::default();
-        staged.add(&self.output, &files)?;
+        if let Some(output) = &self.output {
+            staged.add(output, &files)?;
+        }
+        if let Some(path) = &self.write_overrides {
+            let tables = toml::to_string(&cells).map_err(|e| Failure::at(path.display(), &e))?;
+            let text = format!("{HEAD}{tables}");
+            staged.add(path, &Files::single(text.into_bytes()))?;
+        }
         staged.commit()
     }
+}
+
+/// What stands above the corrections.
+const HEAD: &str = "\
+# Where khatt found each letter; name this file in the project file: cells_file = \"…\", above its first table.
+# Change what is wrong and delete the rest: box (left, top, right, bottom, px of the picture) or polygon,
+# rotation (degrees clockwise), baseline_shift (font units upwards), threshold (0.1 to 0.9), ignore = true, trace.
+
+";
+
+/// Where a page's letters were found; a template's page says that itself.
+fn found(page: &Page, layout: Option<Layout>) -> Cells {
+    let free = layout != Some(Layout::Template);
+    let cells = page.cut.cells.iter().map(|c| {
+        let table = CellTable {
+            bounds: free.then(|| corners(c.in_sheet)),
+            rotation: free.then_some(0.0),
+            baseline_shift: Some(0.0),
+            ..CellTable::default()
+        };
+        (c.label.0.clone(), table)
+    });
+    cells.collect()
 }
 
 /// The pictures of a page's cells and its entry in the list.

@@ -14,4 +14,5 @@ pub mod refit;
 pub mod shortest;
 pub mod side;
 pub mod skyline;
+pub mod tone;
 pub mod turns;

@@ -2,6 +2,7 @@
 
 use super::by_hand;
 use super::cache::{self, Store};
+use super::corrections::Corrections;
 use super::doubt::Doubt;
 use super::labels;
 use super::letter::Letter;
@@ -106,12 +107,14 @@ fn sheet(
     (number, table, labels): (usize, &SheetTable, &[Label]),
     world: World<'_>,
 ) -> Result<Vec<(Vec<Letter>, Page)>, Vec<Problem>> {
+    let corrections = Corrections::of(project)?;
     let trace = |mut page: Page| {
         let cells = mem::take(&mut page.cut.cells);
         let sheet = page.name.as_str();
         world.watch.expect(cells.len());
         let letter = |cell: Cell| {
-            let letter = Letter::new(sheet, cell, &project.trace, world.watch);
+            let options = corrections.trace(&cell.label, &project.trace);
+            let letter = Letter::new(sheet, cell, options, world.watch);
             world.watch.done();
             letter
         };
@@ -189,6 +192,10 @@ fn tables<T>(
     work: impl Fn(usize, &SheetTable, &[Label]) -> Result<Vec<T>, Vec<Problem>>,
 ) -> Result<Vec<T>, Vec<Problem>> {
     let named = labels::of(project, world)?;
+    let unused = Corrections::of(project)?.unused(named.iter().flatten());
+    if !unused.is_empty() {
+        return Err(unused);
+    }
     let tables = project.sheets.iter().zip(&named).enumerate();
     let done = tables.map(|(number, (table, labels))| work(number, table, labels));
     Ok(all_lists(done.collect())?.into_iter().flatten().collect())

@@ -6,7 +6,7 @@ use super::letter::Letter;
 use super::problem::{Place, Problem};
 use super::project::{Labels, Layout, Project, SheetTable};
 use super::reference::{Script, samples, spelling};
-use super::{labels, page};
+use super::{corrections, labels, page};
 use crate::assemble::names;
 use crate::recognise::{Alphabet, Finding, Guess, Look, Method, Reading, check};
 use crate::types::{Cell, Label};
@@ -59,7 +59,8 @@ pub(super) fn resolve(
     project: &Project,
     world: World<'_>,
 ) -> Result<(Project, Vec<Doubt>), Vec<Problem>> {
-    let (mut project, mut remarks) = (project.clone(), Vec::new());
+    let project = corrections::gathered(project, world).map_err(|p| vec![p])?;
+    let (mut project, mut remarks) = (project, Vec::new());
     if !project.sheets.iter().any(|s| s.glyphs.is_auto()) {
         return Ok((project, remarks));
     }

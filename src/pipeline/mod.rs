@@ -4,6 +4,7 @@ mod build;
 mod by_hand;
 mod cache;
 pub mod convert;
+mod corrections;
 mod doubt;
 mod labels;
 mod letter;

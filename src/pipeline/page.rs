@@ -1,12 +1,13 @@
 //! One table of pages → their cells.
 
 use super::build::World;
+use super::corrections::Corrections;
 use super::labels::skips;
 use super::printing::Printing;
 use super::problem::{Place, Problem};
 use super::project::{Layout, Project, SheetTable};
 use super::watch::Stage;
-use crate::scan::{self, Cut};
+use crate::scan::{self, Cut, Pin};
 use crate::template::Gain;
 use crate::types::{Cell, Label, Sheet};
 use std::collections::BTreeSet;
@@ -35,7 +36,11 @@ pub(super) fn each<T>(
     world: World<'_>,
     work: impl Fn(Page) -> Result<T, Vec<Problem>>,
 ) -> Result<Vec<T>, Vec<Problem>> {
-    let checked = |page: Page, wanted: &[(usize, Label)]| {
+    let corrections = Corrections::of(project)?;
+    let checked = |mut page: Page, wanted: &[(usize, Label)]| {
+        corrections.apply(&mut page.cut, project.font.units_per_em);
+        page.cut.cells.retain(|c| !corrections.ignores(&c.label));
+        let wanted = wanted.iter().filter(|w| !corrections.ignores(&w.1));
         let problems = gaps(&page, wanted);
         if problems.is_empty() {
             work(Page {
@@ -47,12 +52,17 @@ pub(super) fn each<T>(
         }
     };
     if table.layout == Layout::Template {
+        if let Some(problem) = corrections.unfit(labels.iter()) {
+            return Err(vec![problem]);
+        }
         return Printing::new(project, table, labels)
             .map_err(|p| vec![p])?
             .each(world, checked);
     }
-    let page = read(table, labels, project.font.units_per_em, world)?;
-    let wanted: Vec<(usize, Label)> = labels.iter().cloned().enumerate().collect();
+    let labels = corrections.kept(labels);
+    let pins = corrections.pins(&labels);
+    let page = read(table, (&labels, &pins), project.font.units_per_em, world)?;
+    let wanted: Vec<(usize, Label)> = labels.into_iter().enumerate().collect();
     Ok(vec![checked(page, &wanted)?])
 }
 
@@ -71,14 +81,16 @@ pub(super) fn cells(
         let pages = printing.each(world, |page, _| Ok(page.cut.cells))?;
         return Ok(pages.into_iter().flatten().collect());
     }
-    Ok(read(table, labels, project.font.units_per_em, world)?
-        .cut
-        .cells)
+    Ok(
+        read(table, (labels, &[]), project.font.units_per_em, world)?
+            .cut
+            .cells,
+    )
 }
 
 fn read(
     table: &SheetTable,
-    labels: &[Label],
+    (labels, pins): (&[Label], &[Pin]),
     units_per_em: u16,
     world: World<'_>,
 ) -> Result<Page, Vec<Problem>> {
@@ -93,7 +105,7 @@ fn read(
         scan::clean(sheet).map_err(|e| vec![e.into()])?
     };
     let _time = world.watch.enter(Stage::Cut);
-    let cut = scan::cut(&page, labels, &options).map_err(|e| vec![Problem::from(e)])?;
+    let cut = scan::cut_with(&page, labels, &options, pins).map_err(|e| vec![Problem::from(e)])?;
     Ok(Page {
         name: table.name(),
         table: 0,
@@ -103,9 +115,9 @@ fn read(
 }
 
 /// Names without a letter.
-fn gaps(page: &Page, wanted: &[(usize, Label)]) -> Vec<Problem> {
+fn gaps<'a>(page: &Page, wanted: impl Iterator<Item = &'a (usize, Label)>) -> Vec<Problem> {
     let drawn: BTreeSet<usize> = page.cut.cells.iter().map(|c| c.index).collect();
-    let named = wanted.iter().filter(|(_, label)| !skips(label));
+    let named = wanted.filter(|(_, label)| !skips(label));
     let empty = named.filter(|(index, _)| !drawn.contains(index));
     let empty = empty.map(|(index, label)| {
         Problem::Empty(Place {

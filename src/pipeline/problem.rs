@@ -72,6 +72,14 @@ pub enum Problem {
         /// what is missing or too much, and what to do
         why: String,
     },
+    /// A correction of a single letter means nothing.
+    #[error("[cells] “{name}”: {why}")]
+    Correction {
+        /// the glyph
+        name: String,
+        /// what is wrong
+        why: String,
+    },
     /// A cell that should hold something is empty.
     #[error("{0}: the cell is empty")]
     Empty(Place),
@@ -162,7 +170,9 @@ impl Problem {
     pub fn help(&self) -> Option<&'static str> {
         Some(match self {
             Self::File { .. } => "paths start from the project file's folder",
-            Self::Empty(_) => "draw the letter, or write _ in `glyphs` to skip the cell",
+            Self::Empty(_) => {
+                "draw the letter, or leave it out: ignore = true under [cells.NAME], or _ in `glyphs`"
+            }
             Self::Label { .. } => {
                 "give a character, an AGL name, uniXXXX, or a name such as beh-ar.init"
             }

@@ -90,6 +90,52 @@ impl Component {
         2.0 * self.area as f64 / ((sides.max(flats) + sides.min(flats) / 2) as f64).max(1.0)
     }
 
+    /// The pieces into which a border through its pixels cuts it.
+    pub(super) fn parted(&self, inside: impl Fn(usize, usize) -> bool) -> Vec<Self> {
+        let mut sides = [Vec::new(), Vec::new()];
+        for r in &self.runs {
+            let mut start = r.start;
+            while start < r.end {
+                let side = inside(start, r.y);
+                let end = (start + 1..r.end).find(|&x| inside(x, r.y) != side);
+                let end = end.unwrap_or(r.end);
+                sides[usize::from(side)].push(Run { y: r.y, start, end });
+                start = end;
+            }
+        }
+        if sides.iter().any(Vec::is_empty) {
+            return vec![self.clone()];
+        }
+        sides.iter().flat_map(|runs| self.pieces(runs)).collect()
+    }
+
+    /// Connected pieces of some of its runs.
+    fn pieces(&self, runs: &[Run]) -> Vec<Self> {
+        let full = self.full as f64 / self.area.max(1) as f64;
+        let groups = group(runs, Touch::Corners).into_iter();
+        let pieces = groups.map(|g| {
+            let runs: Vec<Run> = g.into_iter().map(|i| runs[i]).collect();
+            let area: usize = runs.iter().map(|r| r.end - r.start).sum();
+            Self::new(runs, floor(full * area as f64))
+        });
+        pieces.collect()
+    }
+
+    /// Whether less than `reach` px of paper lies between its ink and another piece's.
+    pub(super) fn is_near(&self, other: &Self, reach: f64) -> bool {
+        let (rows, first) = (floor(reach) + 1, |y| {
+            other.runs.partition_point(|r| r.y < y)
+        });
+        self.runs.iter().any(|a| {
+            let near = &other.runs[first(a.y.saturating_sub(rows))..];
+            near.iter().take_while(|b| b.y <= a.y + rows).any(|b| {
+                let across = a.start.max(b.start).saturating_sub(a.end.min(b.end));
+                let down = a.y.abs_diff(b.y).saturating_sub(1);
+                (across as f64).hypot(down as f64) < reach
+            })
+        })
+    }
+
     /// The pieces of it whose runs' middles lie inside a rectangle of the upright page.
     pub(super) fn within(&self, upright: Affine, area: Rect) -> Vec<Self> {
         let back = upright.inverse().transform_rect_bbox(area);
@@ -99,16 +145,9 @@ impl Component {
             (start < end && area.contains(middle)).then_some(Run { y: r.y, start, end })
         };
         let runs: Vec<Run> = self.runs.iter().filter_map(clip).collect();
-        let full = self.full as f64 / self.area.max(1) as f64;
-        let groups = group(&runs, Touch::Corners).into_iter();
-        let pieces = groups.map(|g| {
-            let runs: Vec<Run> = g.into_iter().map(|i| runs[i]).collect();
-            let area: usize = runs.iter().map(|r| r.end - r.start).sum();
-            let mut piece = Self::new(runs, floor(full * area as f64));
-            piece.stand(upright);
-            piece
-        });
-        pieces.collect()
+        let mut pieces = self.pieces(&runs);
+        pieces.iter_mut().for_each(|p| p.stand(upright));
+        pieces
     }
 }
 

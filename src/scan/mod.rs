@@ -24,7 +24,7 @@ mod paper;
 mod whole;
 
 pub use clean::{Page, clean};
-pub use cut::{Cut, Reason, Rejected, Warning, cut};
+pub use cut::{Cut, Pin, Reason, Region, Rejected, Warning, cut, cut_with};
 pub use error::ScanError;
 pub use ink::Ink;
 pub use load::{Polarity, load};

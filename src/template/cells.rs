@@ -6,6 +6,7 @@ use super::gain::Gain;
 use super::layout::{Layout, Place};
 use super::tile::Tile;
 use super::view::View;
+use crate::numeric::tone;
 use crate::types::{Cell, Gray, Guides, Label, Sheet};
 use kurbo::{Affine, Line, Point, Rect, Vec2};
 use rayon::prelude::*;
@@ -64,7 +65,6 @@ fn drawing(
             );
         }
         (ink, specks) = tile.dust();
-        tile.tone(level);
     } else {
         tile.samples.fill(0.0);
     }
@@ -84,7 +84,7 @@ fn drawing(
             px_per_em: layout.em() * px_per_mm,
             advance_px: None,
         },
-        gray: crop(&tile, window),
+        gray: crop(&tile, window, level),
     };
     let joins = joining(&place.label);
     Drawing {
@@ -119,14 +119,16 @@ fn resample(sheet: &Sheet, view: &View, field: Rect, px_per_mm: f64) -> Tile {
     Tile { samples, w, h }
 }
 
-/// Whole pixels of a tile.
-fn crop(tile: &Tile, window: Rect) -> Gray {
+/// Whole pixels of a tile, the edges put where ink that has spread had them: coverage `level` becomes a half.
+fn crop(tile: &Tile, window: Rect, level: f64) -> Gray {
     let (left, top) = (floor(window.x0), floor(window.y0));
     #[expect(
         clippy::cast_possible_truncation,
         reason = "samples are single precision"
     )]
-    let at = |x: usize, y: usize| tile.samples[(y + top) * tile.w + x + left] as f32;
+    let at = |x: usize, y: usize| {
+        tone::at_half(tile.samples[(y + top) * tile.w + x + left] as f32, level)
+    };
     Gray::from_fn(floor(window.width()), floor(window.height()), at)
 }
 

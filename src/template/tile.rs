@@ -121,14 +121,6 @@ impl Tile {
         (bounds, dust.len())
     }
 
-    /// Puts the edge of ink that has spread back where it was: coverage `level`, at which it lies, becomes a half.
-    pub(super) fn tone(&mut self, level: f64) {
-        let odds = (1.0 - level) / level;
-        for v in self.samples.iter_mut().filter(|v| (0.0..1.0).contains(*v)) {
-            *v = *v * odds / (*v * odds + 1.0 - *v);
-        }
-    }
-
     /// Level and slopes of the paper, by least squares over the samples below `most`.
     fn paper_plane(&self, most: f64) -> [f64; 3] {
         let mut a = nalgebra::Matrix3::zeros();

@@ -92,6 +92,26 @@ pub(super) fn optional_size<'de, D: Deserializer<'de>>(from: D) -> Result<Option
     }
 }
 
+/// Degrees of a turn.
+pub(super) fn optional_angle<'de, D: Deserializer<'de>>(from: D) -> Result<Option<f64>, D::Error> {
+    let angle = f64::deserialize(from)?;
+    if angle.abs() <= 360.0 {
+        Ok(Some(angle))
+    } else {
+        Err(D::Error::custom("must be between -360 and 360 degrees"))
+    }
+}
+
+/// A contour's coverage.
+pub(super) fn optional_level<'de, D: Deserializer<'de>>(from: D) -> Result<Option<f64>, D::Error> {
+    let level = f64::deserialize(from)?;
+    if (0.1..=0.9).contains(&level) {
+        Ok(Some(level))
+    } else {
+        Err(D::Error::custom("must be between 0.1 and 0.9"))
+    }
+}
+
 /// A file, or a list of files.
 pub(super) fn one_or_several<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<PathBuf>, D::Error> {
     #[derive(Deserialize)]

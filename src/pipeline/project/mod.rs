@@ -1,10 +1,12 @@
 //! The project file: what a user writes to say how pages become a font.
 
+mod cell;
 mod check;
 mod font;
 mod parse;
 mod sheet;
 
+pub use cell::{CellTable, Cells};
 pub use font::FontTable;
 pub use parse::ProjectError;
 pub use sheet::{Labels, Layout, SheetTable};
@@ -25,6 +27,12 @@ pub struct Project {
     /// The pages, in order.
     #[serde(rename = "sheet", deserialize_with = "check::some_sheets")]
     pub sheets: Vec<SheetTable>,
+    /// Corrections of single letters, by the glyph's name as in `glyphs`.
+    #[serde(default, skip_serializing_if = "Cells::is_empty")]
+    pub cells: Cells,
+    /// A file of such tables, relative to the project file; what stands here goes before.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub cells_file: Option<PathBuf>,
     /// How pages to draw on are laid out.
     #[serde(default)]
     pub template: template::Layout,

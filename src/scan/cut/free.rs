@@ -24,6 +24,8 @@ const THIN: f64 = 0.4;
 const MANY: f64 = 0.5;
 /// A part that is joined to something above or below is lower than this share of a usual letter.
 const SMALL: f64 = 0.35;
+/// Two large pieces one above the other are one letter within this share of a stroke's width.
+const TORN: f64 = 0.35;
 /// Joins that cost more are never made: about this share of a usual letter lies between the two.
 const DEAREST: f64 = 0.75;
 /// Groups of less ink than this share of a usual letter's may be dirt.
@@ -33,6 +35,7 @@ const DIRT: f64 = 0.06;
 pub(super) fn place(
     all: &[Component],
     labels: &[Label],
+    claims: &[(usize, Vec<usize>)],
     options: &Options,
     source: &str,
 ) -> Result<Layer, ScanError> {
@@ -45,28 +48,39 @@ pub(super) fn place(
         let line = long > LINE_LENGTH * height && thin < LINE_SHAPE * long;
         line || (long > SCRAP.1 * height && thin < SCRAP.0 * stroke)
     };
-    let (lines, ink): (Vec<usize>, Vec<usize>) = (0..all.len()).partition(|&i| is_line(&all[i]));
+    let claimed = |i: &usize| claims.iter().any(|(_, parts)| parts.contains(i));
+    let free = (0..all.len()).filter(|i| !claimed(i));
+    let (lines, ink): (Vec<usize>, Vec<usize>) = free.partition(|&i| is_line(&all[i]));
+    let unclaimed = |index: &usize| claims.iter().all(|(c, _)| c != index);
+    let names: Vec<usize> = (0..labels.len()).filter(unclaimed).collect();
     let lines: Vec<(usize, Reason)> = lines.into_iter().map(|i| (i, Reason::Line)).collect();
     let Gathered {
         mut groups, out, ..
-    } = choose(all, &ink, (height, stroke), labels.len());
+    } = choose(all, &ink, (height, stroke), names.len());
     let mut rejected = lines;
     rejected.extend(out);
+    if groups.len() != names.len() {
+        let boxes: Vec<Rect> = groups.iter().map(|g| bounds(all, g)).collect();
+        return Err(count_error(source, &rows(&boxes), names.len()));
+    }
+    let found = groups.len();
+    groups.extend(claims.iter().map(|(_, parts)| parts.clone()));
     let boxes: Vec<Rect> = groups.iter().map(|g| bounds(all, g)).collect();
     let mut order = rows(&boxes);
     if options.direction == Direction::Rtl {
         order.iter_mut().for_each(|r| r.reverse());
     }
-    let found: usize = order.iter().map(Vec::len).sum();
-    if found != labels.len() {
-        return Err(count_error(source, &order, labels));
-    }
-    let mut slots = Vec::new();
+    let (mut slots, mut next) = (Vec::new(), names.into_iter());
     let places = order
         .iter()
         .enumerate()
         .flat_map(|(r, row)| row.iter().map(move |&g| (r, g)));
-    for (index, ((row, g), label)) in places.zip(labels).enumerate() {
+    for (row, g) in places {
+        let claim = g.checked_sub(found).and_then(|k| claims.get(k));
+        let index = claim.map(|(index, _)| *index).or_else(|| next.next());
+        let Some((index, label)) = index.and_then(|i| Some((i, labels.get(i)?))) else {
+            continue;
+        };
         let parts = std::mem::take(&mut groups[g]);
         if label.0 == "_" {
             rejected.extend(parts.iter().map(|&i| (i, Reason::Skipped)));
@@ -81,6 +95,7 @@ pub(super) fn place(
             });
         }
     }
+    slots.sort_by_key(|s| s.index);
     Ok(Layer {
         slots,
         rows: order.len(),
@@ -96,21 +111,16 @@ struct Gathered {
     dearest: f64,
 }
 
-/// Gathers all ink, or without what is drawn with a far thinner pen where that is so much that it must be labels
+/// `scale` is a usual letter's height and stroke. Gathers all ink, or without what is drawn with a far thinner pen where that is so much that it must be labels
 /// and guides, and the letters come out with more obvious joins.
-fn choose(
-    all: &[Component],
-    ink: &[usize],
-    (height, stroke): (f64, f64),
-    wanted: usize,
-) -> Gathered {
-    let whole = gather(all, ink, height, wanted);
+fn choose(all: &[Component], ink: &[usize], scale: (f64, f64), wanted: usize) -> Gathered {
+    let whole = gather(all, ink, scale, wanted);
     let (thin, thick): (Vec<usize>, Vec<usize>) =
-        ink.iter().partition(|&&i| all[i].stroke() < THIN * stroke);
+        ink.iter().partition(|&&i| all[i].stroke() < THIN * scale.1);
     if (thin.len() as f64) < MANY * wanted as f64 || thick.len() < wanted {
         return whole;
     }
-    let mut part = gather(all, &thick, height, wanted);
+    let mut part = gather(all, &thick, scale, wanted);
     part.out.extend(thin.into_iter().map(|i| (i, Reason::Thin)));
     let better = part.dearest < whole.dearest || whole.groups.len() != wanted;
     if part.groups.len() == wanted && better {
@@ -120,8 +130,8 @@ fn choose(
     }
 }
 
-fn gather(all: &[Component], ink: &[usize], height: f64, wanted: usize) -> Gathered {
-    let (mut groups, dearest) = letters(all, ink, height, wanted);
+fn gather(all: &[Component], ink: &[usize], scale: (f64, f64), wanted: usize) -> Gathered {
+    let (mut groups, dearest) = letters(all, ink, scale, wanted);
     let out = drop_dirt(all, &mut groups, wanted);
     Gathered {
         groups,
@@ -142,23 +152,28 @@ fn level(boxes: &[Rect], row: &[usize]) -> f64 {
     feet.get(feet.len() / 2).copied().unwrap_or(0.0)
 }
 
-fn count_error(source: &str, order: &[Vec<usize>], labels: &[Label]) -> ScanError {
+fn count_error(source: &str, order: &[Vec<usize>], names: usize) -> ScanError {
     let rows: Vec<String> = order.iter().map(|r| r.len().to_string()).collect();
     ScanError::Count {
         source_name: source.to_owned(),
         found: order.iter().map(Vec::len).sum(),
         rows: rows.join(", "),
-        names: labels.len(),
+        names,
     }
 }
 
 /// Joins ink, the most obvious pairs first, until `wanted` groups are left or no pair is near; the groups, and the
 /// cost of the last join.
-fn letters(all: &[Component], ink: &[usize], height: f64, wanted: usize) -> (Vec<Vec<usize>>, f64) {
+fn letters(
+    all: &[Component],
+    ink: &[usize],
+    scale: (f64, f64),
+    wanted: usize,
+) -> (Vec<Vec<usize>>, f64) {
     let mut pairs: Vec<(f64, usize, usize)> = Vec::new();
     for (i, &a) in ink.iter().enumerate() {
         for (j, &b) in ink.iter().enumerate().skip(i + 1) {
-            let cost = cost(all[a].upright, all[b].upright, height);
+            let cost = cost(&all[a], &all[b], scale);
             if cost < DEAREST {
                 pairs.push((cost, i, j));
             }
@@ -206,13 +221,19 @@ fn usual_height(all: &[Component]) -> f64 {
 }
 
 /// How far two pieces are from being one letter: the gap between them as a share of a usual height, more
-/// where they stand beside rather than above each other. Two full letters one above the other never are.
-fn cost(a: Rect, b: Rect, height: f64) -> f64 {
+/// where they stand beside rather than above each other. Two full letters one above the other never are, unless
+/// hardly anything is between them: a pen that ran dry, a stroke parted by a cut.
+fn cost(one: &Component, other: &Component, (height, stroke): (f64, f64)) -> f64 {
+    let (a, b) = (one.upright, other.upright);
     let dx = (a.x0 - b.x1).max(b.x0 - a.x1);
     let dy = (a.y0 - b.y1).max(b.y0 - a.y1);
     let low = a.height().min(b.height());
     let narrow = a.width().min(b.width()).max(1.0);
     let small = low < SMALL * height;
+    let torn = TORN * stroke;
+    if -dx > narrow / 2.0 && dy < torn && one.is_near(other, torn) {
+        return 0.0;
+    }
     match (dx < 0.0, dy < 0.0) {
         (true, true) => {
             0.8 * (1.0 - dx * dy / (narrow * low.max(1.0))).max(0.0) + if small { 0.0 } else { 0.2 }

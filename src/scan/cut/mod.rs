@@ -7,6 +7,7 @@ mod free;
 mod grid;
 mod guides;
 mod odd;
+mod pins;
 mod rows;
 mod window;
 
@@ -20,6 +21,8 @@ use kurbo::{Affine, Point, Rect};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::fmt;
+
+pub use pins::{Pin, Region};
 
 /// Coverage from which connected ink counts: below the half level, so that thin strokes hold together,
 /// and above printed guides in a light colour.
@@ -80,6 +83,8 @@ pub enum Reason {
     OtherInk,
     /// It lies beside the paper in a picture that shows more than the page.
     OffPage,
+    /// A user said that its cell's ink lies elsewhere.
+    Overridden,
     /// A label or a guide: its strokes are far thinner than the letters'.
     Thin,
     /// The edge of the scan: it touches the picture's border and is far larger than a letter.
@@ -107,6 +112,7 @@ impl fmt::Display for Reason {
             Self::OtherInk => "other ink",
             Self::OffPage => "off the page",
             Self::Thin => "thin",
+            Self::Overridden => "overridden",
             Self::Border => "border",
         })
     }
@@ -162,6 +168,19 @@ struct Layer {
 /// # Errors
 /// The layout does not hold the labels, ink has no label, or the em cannot be measured.
 pub fn cut(page: &Page, labels: &[Label], options: &Options) -> Result<Cut, ScanError> {
+    cut_with(page, labels, options, &[])
+}
+
+/// The same where a user says the places of some cells.
+///
+/// # Errors
+/// As of [`cut`].
+pub fn cut_with(
+    page: &Page,
+    labels: &[Label],
+    options: &Options,
+    pins: &[Pin],
+) -> Result<Cut, ScanError> {
     let gray = &page.sheet.gray;
     let low = LOW.max(NOISE * page.noise);
     let found = components(gray, low, SEED.max(low));
@@ -181,16 +200,17 @@ pub fn cut(page: &Page, labels: &[Label], options: &Options) -> Result<Cut, Scan
     };
     let middle = Point::new(gray.width() as f64 / 2.0, gray.height() as f64 / 2.0);
     let upright = Affine::rotate_about(-skew_deg.to_radians(), middle);
+    let claims = pins::claim(&mut all, pins);
     all.par_iter_mut().for_each(|c| c.stand(upright));
 
     let (source, whole) = (page.sheet.source.as_str(), all.len());
-    let layer = match options.layout {
+    let mut layer = match options.layout {
         Layout::Grid(rows, columns) => grid::place(
             &all,
             labels,
             &grid::Plan::new(page, options, rows, columns)?,
         )?,
-        Layout::Free => free::place(&all, labels, options, source)?,
+        Layout::Free => free::place(&all, labels, &claims, options, source)?,
         Layout::Boxes => {
             let plan = boxes::Plan {
                 gray,
@@ -202,6 +222,7 @@ pub fn cut(page: &Page, labels: &[Label], options: &Options) -> Result<Cut, Scan
             boxes::place(&mut all, labels, &plan)?
         }
     };
+    pins::settle(&mut layer, &claims);
     let guides = guides::measure(&layer, &all, page, options)?;
     let mut warnings = guides.warnings;
     let inked: Vec<&Slot> = layer.slots.iter().filter(|s| !s.parts.is_empty()).collect();
@@ -217,6 +238,7 @@ pub fn cut(page: &Page, labels: &[Label], options: &Options) -> Result<Cut, Scan
             slot,
             &parts,
             (slot.level + guides.drop[slot.row], guides.px_per_em),
+            pins::rotation(slot, pins),
         )
     });
     let cells: Vec<Cell> = cells.collect();

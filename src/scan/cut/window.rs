@@ -38,12 +38,24 @@ impl Shutter<'_> {
         slot: &Slot,
         parts: &[&Component],
         (baseline, px_per_em): (f64, f64),
+        rotation_deg: f64,
     ) -> Cell {
         let union =
             |of: fn(&Component) -> Rect| parts.iter().map(|c| of(c)).reduce(|a, b| a.union(b));
-        let ink = union(|c| c.upright).unwrap_or(Rect::ZERO);
+        let mut ink = union(|c| c.upright).unwrap_or(Rect::ZERO);
+        let mut upright = self.upright;
+        if rotation_deg.abs() > 0.0 {
+            let foot = Point::new(ink.center().x, baseline);
+            upright = Affine::rotate_about(rotation_deg.to_radians(), foot) * upright;
+            let turned = parts.iter().map(|&c| {
+                let mut c = c.clone();
+                c.stand(upright);
+                c.upright
+            });
+            ink = turned.reduce(|a, b| a.union(b)).unwrap_or(ink);
+        }
         let window = ink.inflate(MARGIN, MARGIN).expand();
-        let to_sheet = self.upright.inverse() * Affine::translate(window.origin().to_vec2());
+        let to_sheet = upright.inverse() * Affine::translate(window.origin().to_vec2());
         Cell {
             label: slot.label.clone(),
             index: slot.index,

@@ -1,0 +1,135 @@
+//! Letters whose place on the page a user says.
+
+use super::{Layer, Reason, Slot};
+use crate::scan::components::{Component, Run};
+use kurbo::{BezPath, Point, Rect, Shape};
+
+/// Share of a piece of ink that a box must hold to take it.
+const MOST: f64 = 0.5;
+
+/// Where the ink of a cell lies, px of the sheet's picture.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Region {
+    /// All pieces of ink that lie in it for the larger part, whole.
+    Box(Rect),
+    /// All ink inside it, cut at its edge.
+    Polygon(Vec<Point>),
+}
+
+/// What a user says about one cell.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Pin {
+    /// The cell, in reading order.
+    pub index: usize,
+    /// Where its ink lies; left out, where the layout finds it.
+    pub region: Option<Region>,
+    /// Turns the letter clockwise about the middle of its baseline, degrees.
+    pub rotation_deg: f64,
+}
+
+/// The pieces of ink that regions take, by the cell's index. Pieces that a polygon's edge cuts become two.
+pub(super) fn claim(all: &mut Vec<Component>, pins: &[Pin]) -> Vec<(usize, Vec<usize>)> {
+    for pin in pins {
+        if let Some(Region::Polygon(points)) = &pin.region {
+            split(all, points);
+        }
+    }
+    let regions = pins
+        .iter()
+        .filter_map(|p| Some((p.index, p.region.as_ref()?)));
+    let mut claims: Vec<(usize, Vec<usize>)> = regions.clone().map(|(i, _)| (i, vec![])).collect();
+    for (i, c) in all.iter().enumerate() {
+        let shares = regions.clone().map(|(_, r)| r.share(c)).enumerate();
+        let best = shares.max_by(|a, b| a.1.total_cmp(&b.1));
+        if let Some((k, _)) = best.filter(|b| b.1 > MOST) {
+            claims[k].1.push(i);
+        }
+    }
+    claims
+}
+
+impl Region {
+    /// Share of a piece of ink inside it.
+    fn share(&self, c: &Component) -> f64 {
+        let inside = match self {
+            Self::Box(r) => {
+                let middle =
+                    |run: &Run| (run.y as f64 + 0.5 >= r.y0) && (run.y as f64 + 0.5 < r.y1);
+                let across = |run: &Run| {
+                    let (a, b) = ((run.start as f64).max(r.x0), (run.end as f64).min(r.x1));
+                    (b - a).max(0.0)
+                };
+                c.runs.iter().filter(|r| middle(r)).map(across).sum::<f64>()
+            }
+            Self::Polygon(points) => {
+                let path = path(points);
+                let pixels = c
+                    .runs
+                    .iter()
+                    .flat_map(|r| (r.start..r.end).map(|x| (x, r.y)));
+                pixels.filter(|&(x, y)| holds(&path, x, y)).count() as f64
+            }
+        };
+        inside / c.area.max(1) as f64
+    }
+}
+
+/// Cuts the pieces of ink that lie across the edge of a polygon.
+fn split(all: &mut Vec<Component>, points: &[Point]) {
+    let path = path(points);
+    let around = path.bounding_box();
+    let mut out = Vec::with_capacity(all.len());
+    for c in all.drain(..) {
+        if c.bounds.overlaps(around) {
+            out.extend(c.parted(|x, y| holds(&path, x, y)));
+        } else {
+            out.push(c);
+        }
+    }
+    *all = out;
+}
+
+fn path(points: &[Point]) -> BezPath {
+    let mut path = BezPath::new();
+    for (i, &p) in points.iter().enumerate() {
+        if i == 0 {
+            path.move_to(p);
+        } else {
+            path.line_to(p);
+        }
+    }
+    if !points.is_empty() {
+        path.close_path();
+    }
+    path
+}
+
+fn holds(path: &BezPath, x: usize, y: usize) -> bool {
+    path.contains(Point::new(x as f64 + 0.5, y as f64 + 0.5))
+}
+
+/// Gives claimed ink to its cells, whatever the layout thought of it.
+pub(super) fn settle(layer: &mut Layer, claims: &[(usize, Vec<usize>)]) {
+    let claimed = |i: &usize| claims.iter().any(|(_, parts)| parts.contains(i));
+    for slot in &mut layer.slots {
+        let own = claims.iter().find(|(index, _)| *index == slot.index);
+        let (taken, left): (Vec<usize>, Vec<usize>) = slot.parts.drain(..).partition(claimed);
+        drop(taken);
+        match own {
+            Some((_, parts)) => {
+                slot.parts = parts.clone();
+                layer
+                    .rejected
+                    .extend(left.into_iter().map(|i| (i, Reason::Overridden)));
+            }
+            None => slot.parts = left,
+        }
+    }
+    layer.rejected.retain(|(i, _)| !claimed(i));
+}
+
+/// How far a slot's letter is turned, degrees clockwise.
+pub(super) fn rotation(slot: &Slot, pins: &[Pin]) -> f64 {
+    let pin = pins.iter().find(|p| p.index == slot.index);
+    pin.map_or(0.0, |p| p.rotation_deg)
+}
