@@ -1,5 +1,6 @@
 //! All integration tests, linked once.
 
+mod cells;
 mod cli;
 mod common;
 mod convert;

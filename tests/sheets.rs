@@ -17,7 +17,7 @@ use std::thread::sleep;
 use std::time::Duration;
 
 /// Where the grey of a drawn edge begins and ends, px.
-fn edge(distance: f64) -> u8 {
+pub(crate) fn edge(distance: f64) -> u8 {
     let ink = (0.5 - distance).clamp(0.0, 1.0) * 255.0;
     #[expect(
         clippy::cast_possible_truncation,
@@ -29,7 +29,7 @@ fn edge(distance: f64) -> u8 {
 }
 
 /// Nine cells of 200 × 200 px, three a row, all but those of `empty` with a letter: H, o and l by turns.
-fn page(empty: &[usize]) -> Vec<u8> {
+pub(crate) fn page(empty: &[usize]) -> Vec<u8> {
     png(600, 600, |x, y| {
         let cell = (y / 200 * 3 + x / 200) as usize;
         let (x, y) = (f64::from(x % 200) + 0.5, f64::from(y % 200) + 0.5);
@@ -50,10 +50,10 @@ fn page(empty: &[usize]) -> Vec<u8> {
 }
 
 /// Names for them.
-const LETTERS: &str = "H o l E e I N c L";
+pub(crate) const LETTERS: &str = "H o l E e I N c L";
 
 /// A folder with a project of these glyphs on `page.png`.
-fn project(glyphs: &str, picture: &[u8]) -> tempfile::TempDir {
+pub(crate) fn project(glyphs: &str, picture: &[u8]) -> tempfile::TempDir {
     let dir = tempfile::tempdir().expect("a folder");
     let text = format!(
         "[font]\nfamily = \"Test\"\n[[sheet]]\nimage = \"page.png\"\nlayout = {{ grid = [3, 3] }}\n\
@@ -66,7 +66,7 @@ fn project(glyphs: &str, picture: &[u8]) -> tempfile::TempDir {
 }
 
 /// Every file below a folder, by its path.
-fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+pub(crate) fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     let mut out = BTreeMap::new();
     let mut folders = vec![folder.to_owned()];
     while let Some(at) = folders.pop() {

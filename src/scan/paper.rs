@@ -97,14 +97,16 @@ fn regions(count: usize, columns: usize, alike: impl Fn(usize, usize) -> bool) -
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::ops::Range;
 
-    /// Levels of 30 × 20 blocks: a page shaded from left to right on a dark table, with a blot in it.
-    fn table(dark: bool) -> Vec<f32> {
+    /// Levels of 30 × 20 blocks: a page in these columns and rows, shaded from left to right, on a dark table, and a
+    /// blot on the page.
+    fn table(across: Range<usize>, down: Range<usize>) -> Vec<f32> {
         let level = |i: usize| {
             let (x, y) = (i % 30, i / 30);
-            let page = (3..22).contains(&x) && (2..19).contains(&y);
+            let page = across.contains(&x) && down.contains(&y);
             let blot = (8..11).contains(&x) && (5..8).contains(&y);
-            match (page || !dark, blot) {
+            match (page, blot) {
                 (true, false) => 0.05 + 0.01 * x as f32,
                 (true, true) => 0.9,
                 (false, _) => 0.6 + 0.1 * ((7 * x + 5 * y) % 3) as f32,
@@ -115,7 +117,7 @@ mod tests {
 
     #[test]
     fn a_page_on_a_table_is_told_from_it() {
-        let paper = Paper::find(&table(true), 30, 10).unwrap();
+        let paper = Paper::find(&table(3..22, 2..19), 30, 10).unwrap();
         assert!(paper.holds(35, 25) && paper.holds(215, 185) && paper.holds(95, 65));
         assert!(!paper.holds(25, 25) && !paper.holds(225, 100) && !paper.holds(299, 199));
         assert!(!paper.holds(5000, 5000));
@@ -123,7 +125,7 @@ mod tests {
 
     #[test]
     fn a_page_that_fills_its_picture_needs_no_telling() {
-        assert!(Paper::find(&table(false), 30, 10).is_none());
+        assert!(Paper::find(&table(0..30, 0..20), 30, 10).is_none());
         assert!(Paper::find(&[], 0, 10).is_none());
     }
 }

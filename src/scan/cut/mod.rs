@@ -183,15 +183,11 @@ pub fn cut_with(
 ) -> Result<Cut, ScanError> {
     let gray = &page.sheet.gray;
     let low = LOW.max(NOISE * page.noise);
-    let found = components(gray, low, SEED.max(low));
-    let (found, beyond) = found.into_iter().partition(|c| on_paper(c, page));
-    let (mut all, mut other) = options.ink.part(found, page.sheet.colours.as_ref());
-    let least = speck_limit(&all);
-    let before = all.len() + other.len();
-    all.retain(|c| c.area as f64 >= least);
-    other.retain(|c| c.area as f64 >= least);
-    let specks = before - all.len() - other.len();
-    let borders = take_borders(&mut all, gray.width(), gray.height());
+    let Inks {
+        letters: mut all,
+        rejected: beside,
+        specks,
+    } = sort(components(gray, low, SEED.max(low)), page, options);
     let skew_deg = skew_deg(&all.iter().collect::<Vec<_>>());
     let skew_deg = if skew_deg.abs() < LEAST_SKEW_DEG {
         0.0
@@ -246,14 +242,7 @@ pub fn cut_with(
         .rejected
         .iter()
         .map(|&(i, reason)| rejected(&all[i], reason));
-    let large = beyond
-        .iter()
-        .filter(|c: &&Component| c.area as f64 >= least);
-    let rejected = rest
-        .chain(borders.iter().map(|c| rejected(c, Reason::Border)))
-        .chain(other.iter().map(|c| rejected(c, Reason::OtherInk)))
-        .chain(large.map(|c| rejected(c, Reason::OffPage)))
-        .collect();
+    let rejected = rest.chain(beside).collect();
     warnings.sort_by_key(|w| w.index);
     Ok(Cut {
         cells,
@@ -270,6 +259,39 @@ fn rejected(c: &Component, reason: Reason) -> Rejected {
         in_sheet: c.bounds,
         area_px: c.area,
         reason,
+    }
+}
+
+/// A page's ink.
+struct Inks {
+    /// What may be letters.
+    letters: Vec<Component>,
+    /// What cannot.
+    rejected: Vec<Rejected>,
+    /// Pieces too small to be either.
+    specks: usize,
+}
+
+/// Parts the letters' ink from dust, from what lies beside the paper or runs along its edge, and from other inks.
+fn sort(all: Vec<Component>, page: &Page, options: &Options) -> Inks {
+    let gray = &page.sheet.gray;
+    let (found, mut beyond): (Vec<_>, Vec<_>) = all.into_iter().partition(|c| on_paper(c, page));
+    let (mut letters, mut other) = options.ink.part(found, page.sheet.colours.as_ref());
+    let least = speck_limit(&letters);
+    let mut specks = 0;
+    for pieces in [&mut letters, &mut other, &mut beyond] {
+        let before = pieces.len();
+        pieces.retain(|c| c.area as f64 >= least);
+        specks += before - pieces.len();
+    }
+    let borders = take_borders(&mut letters, gray.width(), gray.height());
+    let borders = borders.iter().map(|c| rejected(c, Reason::Border));
+    let other = other.iter().map(|c| rejected(c, Reason::OtherInk));
+    let beyond = beyond.iter().map(|c| rejected(c, Reason::OffPage));
+    Inks {
+        rejected: borders.chain(other).chain(beyond).collect(),
+        letters,
+        specks,
     }
 }
 

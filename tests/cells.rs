@@ -1,0 +1,325 @@
+//! Cells of pages as they come: corrections of single letters, other inks, what is left out and why.
+#![expect(
+    clippy::disallowed_methods,
+    reason = "the tests play the user, who writes files"
+)]
+
+use crate::cli::{khatt, png, transcript};
+use crate::common::approved;
+use crate::sheets::{LETTERS, edge, page, project};
+use khatt::scan::{self, Layout, Options, Polarity, Scale};
+use khatt::types::{Cell, Label};
+use kurbo::{Point, Rect};
+use proptest::collection::vec;
+use proptest::prelude::ProptestConfig;
+use proptest::{prop_assert, proptest};
+use std::fs;
+use std::path::Path;
+use std::process::Output;
+
+/// Builds the page of nine letters with a correction.
+fn corrected(picture: &[u8], correction: &str) -> (tempfile::TempDir, Output) {
+    let dir = project(LETTERS, picture);
+    let path = dir.path().join("font.toml");
+    let text = fs::read_to_string(&path).expect("the project");
+    fs::write(&path, format!("{text}\n{correction}\n")).expect("a project");
+    let out = khatt(dir.path(), &["build", "font.toml"]);
+    (dir, out)
+}
+
+fn font(dir: &Path) -> Vec<u8> {
+    fs::read(dir.join("out/test.ttf")).expect("the font")
+}
+
+/// A letter's box in the font, if it is there.
+fn bounds(correction: &str, picture: &[u8], letter: char) -> Option<ttf_parser::Rect> {
+    let (dir, out) = corrected(picture, correction);
+    let stderr = String::from_utf8_lossy(&out.stderr);
+    assert_eq!(out.status.code(), Some(0), "{correction}: {stderr}");
+    let bytes = font(dir.path());
+    let face = ttf_parser::Face::parse(&bytes, 0).expect("a font");
+    face.glyph_bounding_box(face.glyph_index(letter)?)
+}
+
+#[test]
+fn what_was_found_can_be_written_and_builds_the_same_font() {
+    let dir = project(LETTERS, &page(&[]));
+    let run = |args: &[&str]| {
+        let out = khatt(dir.path(), args);
+        assert_eq!(
+            out.status.code(),
+            Some(0),
+            "{}",
+            String::from_utf8_lossy(&out.stderr)
+        );
+    };
+    run(&["build", "font.toml"]);
+    let before = font(dir.path());
+    run(&["cut", "font.toml", "--write-overrides", "cells.toml"]);
+    let cells = fs::read_to_string(dir.path().join("cells.toml")).expect("the cells");
+    assert_eq!(cells.matches("box = ").count(), 9, "{cells}");
+    let path = dir.path().join("font.toml");
+    let text = fs::read_to_string(&path).expect("the project");
+    fs::write(&path, format!("cells_file = \"cells.toml\"\n{text}")).expect("a project");
+    run(&["build", "font.toml"]);
+    assert!(
+        font(dir.path()) == before,
+        "the cells as found make another font"
+    );
+}
+
+#[test]
+fn corrections_change_one_letter() {
+    let plain = page(&[]);
+    let h = bounds("", &plain, 'H').expect("a letter");
+    let (wide, high) = (h.width(), h.height());
+    assert!(bounds("[cells.H]\nignore = true", &plain, 'H').is_none());
+    let shifted = bounds("[cells.H]\nbaseline_shift = 50", &plain, 'H').expect("a letter");
+    assert!(
+        (shifted.y_min - h.y_min - 50).abs() <= 1,
+        "{h:?} {shifted:?}"
+    );
+    let turned = bounds("[cells.H]\nrotation = 90", &plain, 'H').expect("a letter");
+    let near = |a: i16, b: i16| (a - b).abs() <= 8;
+    assert!(
+        near(turned.width(), high) && near(turned.height(), wide),
+        "{h:?} {turned:?}"
+    );
+    let bold = bounds("[cells.H]\nthreshold = 0.2", &plain, 'H').expect("a letter");
+    let thin = bounds("[cells.H]\nthreshold = 0.8", &plain, 'H').expect("a letter");
+    assert!(
+        bold.width() > wide && thin.width() < wide,
+        "{thin:?} {h:?} {bold:?}"
+    );
+    // the left stem alone: H stands in the first cell, its stem from 60 to 76 px
+    let polygon = "[cells.H]\npolygon = [[50, 40], [80, 40], [80, 160], [50, 160]]";
+    let stem = bounds(polygon, &plain, 'H').expect("a letter");
+    assert!(
+        near(stem.height(), high) && near(stem.width(), 133),
+        "{stem:?}"
+    );
+    let traced = "[cells.H.trace]\ntolerance_px = 2.0";
+    assert!(bounds(traced, &plain, 'H').is_some());
+}
+
+#[test]
+fn a_box_leaves_a_blot_out() {
+    let clean = image::load_from_memory(&page(&[]))
+        .expect("a picture")
+        .to_luma8();
+    let picture = png(600, 600, |x, y| {
+        let disc = edge((f64::from(x) - 172.0).hypot(f64::from(y) - 170.0) - 9.0);
+        disc.max(255 - clean.get_pixel(x, y).0[0])
+    });
+    let with = bounds("", &picture, 'H').expect("a letter");
+    let without = bounds("[cells.H]\nbox = [55, 45, 145, 155]", &picture, 'H').expect("a letter");
+    assert!(with.width() > without.width() + 100, "{with:?} {without:?}");
+    assert_eq!(Some(without), bounds("", &page(&[]), 'H'));
+}
+
+#[test]
+fn corrections_that_mean_nothing_are_told() {
+    for (name, text) in [
+        ("unknown-glyph", "[cells.Q]\nignore = true"),
+        ("no-name", "[cells.qqqq]\nignore = true"),
+        (
+            "two-places",
+            "[cells.H]\nbox = [1, 1, 2, 2]\npolygon = [[0, 0], [1, 0], [1, 1]]",
+        ),
+        ("turned-box", "[cells.H]\nbox = [9, 1, 2, 2]"),
+        ("no-level", "[cells.H]\nthreshold = 1.5"),
+        ("no-ink", "[cells.H]\nbox = [0, 0, 5, 5]"),
+    ] {
+        let (dir, out) = corrected(&page(&[]), text);
+        assert_eq!(out.status.code(), Some(1), "{name}");
+        assert!(
+            !dir.path().join("out").exists(),
+            "{name}: nothing may be written"
+        );
+        approved::check(
+            "cli",
+            &format!("cells-{name}"),
+            &transcript(&["build", "font.toml"], &out),
+        );
+    }
+}
+
+/// A page drawn in rectangles of coverage and colour.
+struct Drawing {
+    width: u32,
+    height: u32,
+    /// Places and the light they swallow.
+    bars: Vec<(Rect, [u8; 3])>,
+}
+
+const BLACK: [u8; 3] = [230, 228, 225];
+const BLUE: [u8; 3] = [220, 190, 90];
+
+impl Drawing {
+    fn bar(&mut self, x: f64, y: f64, (w, h): (f64, f64), ink: [u8; 3]) {
+        self.bars.push((Rect::new(x, y, x + w, y + h), ink));
+    }
+
+    fn png(&self) -> Vec<u8> {
+        let picture = image::RgbImage::from_fn(self.width, self.height, |x, y| {
+            let p = Point::new(f64::from(x) + 0.5, f64::from(y) + 0.5);
+            let hit = self.bars.iter().rev().find(|(r, _)| r.contains(p));
+            image::Rgb(hit.map_or([250, 250, 248], |(_, ink)| ink.map(|v| 255 - v)))
+        });
+        let mut bytes = std::io::Cursor::new(Vec::new());
+        let written = picture.write_to(&mut bytes, image::ImageFormat::Png);
+        written.expect("a picture in memory");
+        bytes.into_inner()
+    }
+
+    fn cut(&self, names: &[&str], options: &Options) -> scan::Cut {
+        let sheets = scan::load(&self.png(), "page", Polarity::DarkInk).expect("a picture");
+        let page = scan::clean(sheets.into_iter().next().expect("one page")).expect("ink");
+        let labels: Vec<Label> = names.iter().map(|n| Label((*n).to_owned())).collect();
+        scan::cut(&page, &labels, options).expect("cells")
+    }
+}
+
+fn options(layout: Layout) -> Options {
+    Options {
+        layout,
+        scale: Some(Scale::PixelsPerEm(100.0)),
+        ..Options::default()
+    }
+}
+
+/// Twelve names.
+const TWELVE: [&str; 12] = ["A", "B", "C", "D", "E", "F", "G", "H", "I", "J", "K", "L"];
+
+/// Twelve letters in three rows of blue ink, each with a black square, a corner mark and a label beside it.
+fn marked() -> Drawing {
+    let mut page = Drawing {
+        width: 800,
+        height: 600,
+        bars: Vec::new(),
+    };
+    for i in 0..12 {
+        let (x, y) = (
+            60.0 + 190.0 * f64::from(i % 4),
+            40.0 + 190.0 * f64::from(i / 4),
+        );
+        page.bar(x, y, (12.0, 60.0 + f64::from(i)), BLUE);
+        page.bar(x, y, (40.0, 12.0), BLUE);
+        page.bar(x - 40.0, y + 90.0, (30.0, 30.0), BLACK);
+        page.bar(x + 20.0, y + 100.0, (6.0, 18.0), BLACK);
+        page.bar(x + 110.0, y + 100.0, (24.0, 3.0), BLACK);
+        page.bar(x + 110.0, y + 100.0, (3.0, 24.0), BLACK);
+    }
+    page
+}
+
+#[test]
+fn marks_in_another_ink_are_no_letters() {
+    let page = marked();
+    for layout in [Layout::Grid(3, 4), Layout::Free] {
+        let options = Options {
+            ink: "blue".to_owned().try_into().expect("an ink"),
+            ..options(layout)
+        };
+        let cut = page.cut(&TWELVE, &options);
+        assert_eq!(cut.cells.len(), 12, "{layout:?}");
+        for (i, cell) in cut.cells.iter().enumerate() {
+            let size = (cell.in_sheet.width(), cell.in_sheet.height());
+            assert_eq!(
+                (cell.label.0.as_str(), size),
+                (TWELVE[i], (40.0, 60.0 + i as f64))
+            );
+        }
+        let other = cut
+            .rejected
+            .iter()
+            .filter(|r| r.reason == scan::Reason::OtherInk);
+        assert_eq!(other.count(), 36, "three marks a letter");
+    }
+}
+
+#[test]
+fn labels_and_guides_of_a_thin_pen_are_no_letters() {
+    let mut page = Drawing {
+        width: 900,
+        height: 700,
+        bars: Vec::new(),
+    };
+    for row in 0..3 {
+        let y = 60.0 + 210.0 * f64::from(row);
+        page.bar(20.0, y - 20.0, (860.0, 4.0), BLACK);
+        for column in 0..4 {
+            let x = 60.0 + 210.0 * f64::from(column);
+            page.bar(x, y + 30.0, (90.0, 26.0), BLACK);
+            page.bar(x + 60.0, y + 30.0, (26.0, 90.0), BLACK);
+            page.bar(x + 20.0, y + 90.0, (26.0, 26.0), BLACK); // its dot
+            page.bar(x + 130.0, y, (18.0, 4.0), BLACK);
+            page.bar(x + 130.0, y + 12.0, (4.0, 18.0), BLACK);
+            page.bar(x + 146.0, y + 12.0, (4.0, 14.0), BLACK);
+        }
+    }
+    let cut = page.cut(&TWELVE, &options(Layout::Free));
+    assert_eq!(cut.cells.len(), 12);
+    for cell in &cut.cells {
+        assert_eq!(
+            cell.in_sheet.size(),
+            (90.0, 90.0).into(),
+            "{}",
+            cell.label.0
+        );
+    }
+    let reasons = |reason| cut.rejected.iter().filter(|r| r.reason == reason).count();
+    assert_eq!(
+        (reasons(scan::Reason::Thin), reasons(scan::Reason::Line)),
+        (36, 3)
+    );
+}
+
+/// Ink of a cell's picture at a place of the sheet's.
+fn covers(cell: &Cell, p: Point) -> bool {
+    let q = cell.to_sheet.inverse() * p;
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a saturating cast of a place in a small picture"
+    )]
+    let at = cell
+        .gray
+        .at(q.x.floor().max(0.0) as usize, q.y.floor().max(0.0) as usize);
+    q.x >= 0.0 && q.y >= 0.0 && at > 0.5
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig {
+        cases: 12,
+        failure_persistence: None,
+        ..ProptestConfig::default()
+    })]
+
+    /// Every piece of ink that is no speck is in one cell, or in the list of what was left out.
+    #[test]
+    fn no_ink_is_lost(
+        blots in vec((0.0..740.0f64, 0.0..540.0f64, 8.0..50.0f64, 8.0..50.0f64), 0..14),
+        layout in 0..3usize,
+    ) {
+        let mut page = marked();
+        page.bars.iter_mut().for_each(|b| b.1 = BLACK);
+        for &(x, y, w, h) in &blots {
+            page.bar(x.floor(), y.floor(), (w.floor(), h.floor()), BLACK);
+        }
+        let layout = [Layout::Grid(3, 4), Layout::Grid(1, 1), Layout::Boxes][layout];
+        let names: Vec<&str> = match layout {
+            Layout::Grid(1, 1) => vec!["A"],
+            Layout::Boxes => vec![],
+            _ => TWELVE.to_vec(),
+        };
+        let cut = page.cut(&names, &options(layout));
+        for (bar, _) in &page.bars {
+            let p = bar.center();
+            let cells = cut.cells.iter().filter(|c| covers(c, p)).count();
+            let listed = cut.rejected.iter().any(|r| r.in_sheet.inflate(1.0, 1.0).contains(p));
+            prop_assert!(cells <= 1, "{p:?} is in {cells} cells");
+            prop_assert!(cells == 1 || listed, "{p:?} is lost: {layout:?} {:?}", cut.rejected);
+        }
+    }
+}
