@@ -24,7 +24,7 @@ pub enum Ink {
 }
 
 /// A dark piece belongs to a piece of coloured ink within so many widths of its stroke.
-const NEAR: f64 = 3.0;
+const NEAR: f64 = 1.5;
 
 /// Names of hues.
 const NAMED: [(&str, [u8; 3]); 6] = [
@@ -112,13 +112,13 @@ impl Ink {
     }
 }
 
-/// Whether a dark piece is a part of the letter that another piece begins: smaller, and hardly farther from it than
-/// its stroke is wide.
+/// Whether a dark piece is a part of the letter that another piece begins: far smaller, and hardly farther from it
+/// than its stroke is wide.
 fn lingers(dark: &Component, pen: &Component) -> bool {
     let (a, b) = (dark.bounds, pen.bounds);
     let dx = (a.x0 - b.x1).max(b.x0 - a.x1).max(0.0);
     let dy = (a.y0 - b.y1).max(b.y0 - a.y1).max(0.0);
-    dark.area < pen.area && dx.hypot(dy) < NEAR * pen.stroke()
+    2 * dark.area < pen.area && dx.hypot(dy) < NEAR * pen.stroke()
 }
 
 /// A place on the plane of hues.

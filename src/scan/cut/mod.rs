@@ -79,6 +79,8 @@ pub enum Reason {
     Outside,
     /// Its cell is marked to be skipped.
     Skipped,
+    /// The edge of the scan: it touches the picture's border and is far larger than a letter.
+    Border,
     /// It is of another colour than the letters' ink.
     OtherInk,
     /// It lies beside the paper in a picture that shows more than the page.
@@ -87,8 +89,6 @@ pub enum Reason {
     Overridden,
     /// A label or a guide: its strokes are far thinner than the letters'.
     Thin,
-    /// The edge of the scan: it touches the picture's border and is far larger than a letter.
-    Border,
 }
 
 /// Something a user should look at.
