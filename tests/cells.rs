@@ -118,6 +118,17 @@ fn a_box_leaves_a_blot_out() {
 }
 
 #[test]
+fn one_drawing_in_two_cells_is_noticed() {
+    // the page repeats its three shapes in every row
+    let (_dir, out) = corrected(&page(&[]), "");
+    let stderr = String::from_utf8_lossy(&out.stderr);
+    let notes = stderr
+        .matches("its outline is that of page.png, cell")
+        .count();
+    assert_eq!(notes, 6, "{stderr}");
+}
+
+#[test]
 fn corrections_that_mean_nothing_are_told() {
     for (name, text) in [
         ("unknown-glyph", "[cells.Q]\nignore = true"),

@@ -1,5 +1,6 @@
 //! A project → a font: the whole way.
 
+use super::alike;
 use super::by_hand;
 use super::cache::{self, Store};
 use super::corrections::Corrections;
@@ -78,13 +79,14 @@ pub fn build(project: &Project, world: World<'_>) -> Result<Built, Vec<Problem>>
         .map(|letter| letter.place(project.font.units_per_em))
         .collect();
     let drawn = all(drawn)?;
+    let twins = alike::notes(&letters, &drawn, project.font.units_per_em);
     let info = project.font.info(world.created);
     let assembled = assemble::font(drawn, info, &project.spacing).map_err(|e| vec![e.into()])?;
     Ok(Built {
         font: by_hand::set(assembled.font, project, world)?,
         letters,
         pages,
-        notes: assembled.notes,
+        notes: twins.into_iter().chain(assembled.notes).collect(),
         doubts,
     })
 }

@@ -1,5 +1,6 @@
 //! The order of the stages: a page to cells, cells to outlines, outlines to a font.
 
+mod alike;
 mod build;
 mod by_hand;
 mod cache;

@@ -112,21 +112,6 @@ pub(super) fn optional_level<'de, D: Deserializer<'de>>(from: D) -> Result<Optio
     }
 }
 
-/// A file, or a list of files.
-pub(super) fn one_or_several<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<PathBuf>, D::Error> {
-    #[derive(Deserialize)]
-    #[serde(untagged)]
-    enum Files {
-        One(PathBuf),
-        Several(Vec<PathBuf>),
-    }
-    match Files::deserialize(from) {
-        Ok(Files::One(file)) => Ok(vec![file]),
-        Ok(Files::Several(files)) => Ok(files),
-        Err(_) => Err(D::Error::custom("must be a file or a list of files")),
-    }
-}
-
 pub(super) fn some_sheets<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<SheetTable>, D::Error> {
     let sheets = Vec::deserialize(from)?;
     if sheets.is_empty() {

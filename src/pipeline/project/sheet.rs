@@ -11,7 +11,7 @@ use std::path::PathBuf;
 pub struct SheetTable {
     /// The picture, relative to the project file; for a template as many as there are, in any order, and none
     /// before it is scanned.
-    #[serde(default, deserialize_with = "check::one_or_several")]
+    #[serde(default, deserialize_with = "check::paths")]
     pub image: Vec<PathBuf>,
     /// Which page of a file that holds several, from 1; a template takes all.
     #[serde(default)]
