@@ -4,12 +4,12 @@ use super::build::{Built, World};
 use super::letter::Letter;
 use super::problem::Problem;
 use super::project::Project;
-use super::report::{Report, deviations};
+use super::report::{Report, corners, deviations};
 use super::watch::Stage;
 use crate::assemble::names;
 use crate::finish::round;
 use crate::types::{Files, Font};
-use crate::write::proof::{self as page, Entry, Proof};
+use crate::write::proof::{self as page, Entry, LeftOut, Proof};
 use crate::write::{self, Curves, WriteError};
 use std::path::PathBuf;
 
@@ -102,17 +102,28 @@ pub fn proof(project: &Project, built: &Built, world: World<'_>) -> Result<Strin
 /// The proof of a font whose text is set in `woff2`, with the deviations of the outlines that are compiled.
 fn proof_page(built: &Built, compiled: &Font, woff2: &Files) -> String {
     let entries: Vec<Entry> = (built.letters.iter())
-        .filter_map(|letter| entry(&built.font, compiled, letter))
+        .filter_map(|letter| entry(built, compiled, letter))
         .collect();
+    let pieces = built.pages.iter().flat_map(|page| {
+        page.cut.rejected.iter().map(|r| LeftOut {
+            sheet: page.name.clone(),
+            box_px: corners(r.in_sheet),
+            area_px: r.area_px,
+            reason: r.reason.to_string(),
+        })
+    });
+    let left_out: Vec<LeftOut> = pieces.collect();
     page::page(&Proof {
         info: &built.font.info,
         entries: &entries,
+        left_out: &left_out,
         woff2: woff2.0.values().next().map_or(&[][..], Vec::as_slice),
     })
 }
 
 /// A letter beside the glyph that became of it.
-fn entry(font: &Font, compiled: &Font, letter: &Letter) -> Option<Entry> {
+fn entry(built: &Built, compiled: &Font, letter: &Letter) -> Option<Entry> {
+    let font = &built.font;
     let identity = names::identify(&letter.cell.label).ok()?;
     let glyph = font.glyph(identity.name.as_str())?;
     Some(Entry {
@@ -127,5 +138,21 @@ fn entry(font: &Font, compiled: &Font, letter: &Letter) -> Option<Entry> {
         )?,
         glyph: glyph.clone(),
         text: identity.chars.iter().collect(),
+        remarks: remarks(built, letter, identity.name.as_str()),
     })
+}
+
+/// What was said of a letter's cell and of its glyph.
+fn remarks(built: &Built, letter: &Letter, name: &str) -> Vec<String> {
+    let pages = built.pages.iter().filter(|p| p.name == letter.sheet);
+    let warnings = pages.flat_map(|p| &p.cut.warnings);
+    let own = warnings.filter(|w| w.index == Some(letter.cell.index));
+    let label = letter.cell.label.0.as_str();
+    let notes = built
+        .notes
+        .iter()
+        .filter(|n| n.glyph == name || n.glyph == label);
+    own.map(|w| w.message.clone())
+        .chain(notes.map(|n| n.message.clone()))
+        .collect()
 }

@@ -181,7 +181,7 @@ fn page_row(page: &Page) -> PageRow {
 }
 
 /// Left, top, right and bottom.
-const fn corners(r: Rect) -> [f64; 4] {
+pub(super) const fn corners(r: Rect) -> [f64; 4] {
     [r.x0, r.y0, r.x1, r.y1]
 }
 

@@ -18,9 +18,10 @@ UPPER, LOWER, DIGITS = string.ascii_uppercase, string.ascii_lowercase, string.di
 BOXES = UPPER + LOWER + DIGITS + ".,;:!?\"'-+=/%&()[]"
 FREE = LOWER + UPPER + "1234567890"
 KUFI = [18, 9, 14, 16, 20]
-# a drop above the first row, three dots and a blot beside the second, a dab below the fourth are no letters
-NOTEBOOK = [1, 12, 17, 1, 9, 10, 8, 11, 11, 10, 11]
-NO_LETTERS = [0, 13, 14, 15, 30, 47]
+# a drop above the first row, three dots and a blot beside the second, a dab below the fourth are no letters; two
+# stems of the sixth row stand apart from theirs
+NOTEBOOK = [1, 12, 17, 1, 9, 10, 8, 13, 11, 10, 11]
+NO_LETTERS = [0, 13, 14, 15, 30, 47, 60, 63]
 
 
 def private(count):

@@ -31,6 +31,21 @@ pub struct Entry {
     pub glyph: Glyph,
     /// What text it stands for: one character, or the parts of a ligature.
     pub text: String,
+    /// What to look at in it.
+    pub remarks: Vec<String>,
+}
+
+/// Ink of a page that is in no glyph.
+#[derive(Debug, Clone)]
+pub struct LeftOut {
+    /// The page, as messages name it.
+    pub sheet: String,
+    /// Left, top, right and bottom in the page's picture, px.
+    pub box_px: [f64; 4],
+    /// px²
+    pub area_px: usize,
+    /// Why.
+    pub reason: String,
 }
 
 /// All that the page shows.
@@ -40,6 +55,8 @@ pub struct Proof<'a> {
     pub info: &'a Info,
     /// Its cells in reading order.
     pub entries: &'a [Entry],
+    /// The ink that is in none of them.
+    pub left_out: &'a [LeftOut],
     /// The font as WOFF2.
     pub woff2: &'a [u8],
 }
@@ -85,6 +102,7 @@ pub fn page(proof: &Proof<'_>) -> String {
                 (text::specimen(proof.entries))
                 (controls())
                 main { @for entry in proof.entries { (cell(entry, info)) } }
+                (left_out(proof.left_out))
                 script { (PreEscaped(include_str!("proof.js"))) }
             }
         }
@@ -122,6 +140,27 @@ fn controls() -> Markup {
     }
 }
 
+fn left_out(pieces: &[LeftOut]) -> Markup {
+    html! {
+        @if !pieces.is_empty() {
+            details {
+                summary { "Ink in no glyph: " (pieces.len()) }
+                table {
+                    tr { th { "page" } th { "left, top, right, bottom, px" } th { "px²" } th { "why" } }
+                    @for piece in pieces {
+                        tr {
+                            td { (piece.sheet) }
+                            td { (piece.box_px.map(|v| format!("{v:.0}")).join(", ")) }
+                            td { (piece.area_px) }
+                            td { (piece.reason) }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
 fn cell(entry: &Entry, info: &Info) -> Markup {
     let drawn = Drawn::new(entry, info);
     let worst = entry.edge.iter().flatten().map(|(_, d)| *d);
@@ -148,6 +187,7 @@ fn cell(entry: &Entry, info: &Info) -> Markup {
                 span.sample lang=(text::language(&entry.text)) { (entry.text) }
                 br;
                 small { (entry.sheet) ", cell " (entry.index + 1) " · " (drawn.count) " nodes · advance " (drawn.advance) " · worst " (worst) " units" }
+                @for remark in &entry.remarks { p.remark { (remark) } }
             }
         }
     }

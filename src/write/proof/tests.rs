@@ -22,6 +22,7 @@ fn entry(name: &str, text: &str) -> Entry {
         ]],
         glyph,
         text: text.to_owned(),
+        remarks: vec!["it looks <odd>".to_owned()],
     }
 }
 
@@ -30,9 +31,16 @@ fn proof(entries: &[Entry]) -> String {
         family: "A<script>alert(1)</script>".to_owned(),
         ..Info::default()
     };
+    let left_out = [LeftOut {
+        sheet: "page.png".to_owned(),
+        box_px: [1.0, 2.0, 30.0, 40.0],
+        area_px: 77,
+        reason: "dirt".to_owned(),
+    }];
     page(&Proof {
         info: &info,
         entries,
+        left_out: &left_out,
         woff2: b"wOF2",
     })
 }
@@ -43,6 +51,13 @@ fn what_a_user_wrote_is_escaped() {
     assert!(!page.contains("<script>alert"), "the family name is text");
     assert!(!page.contains("<b>page"), "the file name is text");
     assert!(page.contains("&lt;b&gt;page &amp; &quot;more&quot;.png"));
+}
+
+#[test]
+fn remarks_and_what_was_left_out_are_shown() {
+    let page = proof(&[entry("a", "a")]);
+    assert!(page.contains("it looks &lt;odd&gt;"));
+    assert!(page.contains("Ink in no glyph: 1") && page.contains("1, 2, 30, 40"));
 }
 
 #[test]
