@@ -15,6 +15,7 @@ mod nearest;
 mod profile;
 pub mod spacing;
 mod stroke;
+mod tails;
 
 pub use stroke::Side;
 

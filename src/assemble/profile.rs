@@ -71,6 +71,26 @@ impl Profile {
             .collect()
     }
 
+    /// The leftmost ink between two heights, x.
+    pub(super) fn leftmost(&self, zone: (f64, f64)) -> Option<f64> {
+        let firsts = self.zone(zone).filter_map(|(_, xs)| xs.first().copied());
+        firsts.reduce(f64::min)
+    }
+
+    /// The leftmost ink of every row, x.
+    pub(super) fn lefts(&self) -> Vec<Option<f64>> {
+        self.rows
+            .iter()
+            .map(|(_, xs)| xs.first().copied())
+            .collect()
+    }
+
+    /// Distance from the rightmost ink of every row to the right extreme.
+    pub(super) fn rights(&self) -> Vec<Option<f64>> {
+        let far = |xs: &Vec<f64>| Some(self.extremes.1 - xs.last()?);
+        self.rows.iter().map(|(_, xs)| far(xs)).collect()
+    }
+
     /// Median width of the first gap between two strokes in the zone, and of the stroke before it.
     pub(super) fn counter(&self, zone: (f64, f64)) -> Option<(f64, f64)> {
         let rows = || {
@@ -99,6 +119,16 @@ pub(super) fn white(distances: &[Option<f64>], depths: (f64, f64)) -> White {
         deep: mean(depths.1),
         least: least.unwrap_or(0.0),
     }
+}
+
+/// How many scan lines lie within a height, em.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a height of a part of the em, in rows"
+)]
+pub(super) fn rows(height: f64) -> usize {
+    (height / STEP).round() as usize
 }
 
 /// The middle value.

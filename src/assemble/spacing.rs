@@ -19,7 +19,7 @@
 
 use super::features::is_arabic;
 use super::profile::{Profile, median, white};
-use super::{Draft, Options};
+use super::{Draft, Options, tails};
 use crate::types::Info;
 use kurbo::Affine;
 use schemars::JsonSchema;
@@ -166,8 +166,12 @@ pub(super) fn set(drafts: &mut [Draft], info: &Info, stroke: Option<f64>, option
         stroke,
         room: &options.letters,
     };
-    for draft in drafts.iter_mut() {
-        let (left, right) = terms.ends(draft);
+    let tails = match (options.letters.sidebearing, stroke) {
+        (None, Some(stroke)) => tails::ends(drafts, OF_STROKE * stroke, em),
+        _ => drafts.iter().map(|_| None).collect(),
+    };
+    for (draft, tail) in drafts.iter_mut().zip(tails) {
+        let (left, right) = terms.ends(draft, tail);
         draft.outline = draft.outline.transformed(Affine::translate((-left, 0.0)));
         draft.advance = (right - left).max(0.0).round();
     }
@@ -185,8 +189,13 @@ struct Terms<'a> {
 
 impl Terms<'_> {
     /// Left and right end of the advance in the outline's own x.
-    fn ends(&self, draft: &Draft) -> (f64, f64) {
-        let (left, right) = draft.given.unwrap_or_else(|| self.free(draft));
+    fn ends(&self, draft: &Draft, tail: Option<f64>) -> (f64, f64) {
+        let free = || {
+            let (left, right) = self.free(draft);
+            let tail = tail.map(|t| t - self.room.tracking * self.em);
+            (tail.unwrap_or(left), right)
+        };
+        let (left, right) = draft.given.unwrap_or_else(free);
         (
             draft.joint.0.unwrap_or(left),
             draft.joint.1.unwrap_or(right),
