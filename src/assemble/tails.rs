@@ -95,16 +95,15 @@ mod tests {
         );
         let reh = draft("ر", &[head, tail]);
         let alef = draft("ا", &[Rect::new(0.0, 0.0, 80.0, 700.0)]);
-        let ends = |drafts: &[Draft]| super::ends(drafts, 50.0, 1000.0);
         // above the baseline nothing stands further left than 100: the tail takes no room
         assert_eq!(
-            ends(&[reh.clone(), alef.clone()]),
+            ends(&[reh.clone(), alef.clone()], 50.0, 1000.0),
             [Some(50.0), Some(-50.0)]
         );
 
         // a follower with ink as deep as the tail, at its right edge: the tail stays clear
         let deep = draft("و", &[Rect::new(0.0, -150.0, 80.0, 200.0)]);
-        let met = ends(&[reh, alef, deep]);
+        let met = ends(&[reh, alef, deep], 50.0, 1000.0);
         let gap = 50.0 - met[0].unwrap();
         assert!((2.0 * CLEAR * 50.0 - gap).abs() < 1e-9, "{met:?}");
     }
