@@ -76,6 +76,7 @@ fn help_is_approved() {
         "cut",
         "proof",
         "methods",
+        "features",
         "init",
         "completions",
         "man",
@@ -184,4 +185,33 @@ fn completions_manual_and_schema_come_from_the_same_sources() {
             "{args:?}"
         );
     }
+}
+
+#[test]
+fn features_are_plotted() {
+    let dir = tempfile::tempdir().expect("a folder");
+    let bar = |x: u32, y: u32| {
+        if (20..60).contains(&x) && (20..120).contains(&y) {
+            255
+        } else {
+            0
+        }
+    };
+    fs::write(dir.path().join("bar.png"), png(80, 140, bar)).expect("a picture");
+    let out = khatt(dir.path(), &["features", "bar.png", "-o", "bar.svg"]);
+    assert_eq!(out.status.code(), Some(0), "{out:?}");
+    let svg = fs::read_to_string(dir.path().join("bar.svg")).expect("a diagram");
+    assert!(svg.contains("4 corners (SC), 4 straight runs"), "{svg}");
+    assert_eq!(
+        svg.matches("class=\"sc\"").count(),
+        8,
+        "each corner in both drawings"
+    );
+    fs::write(dir.path().join("blank.png"), png(20, 20, |_, _| 0)).expect("a picture");
+    let blank = khatt(dir.path(), &["features", "blank.png", "-o", "blank.svg"]);
+    assert_eq!(blank.status.code(), Some(1));
+    assert!(
+        String::from_utf8_lossy(&blank.stderr).contains("no ink"),
+        "{blank:?}"
+    );
 }

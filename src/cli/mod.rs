@@ -14,6 +14,7 @@ mod convert;
 mod cut;
 mod done;
 mod failure;
+mod features;
 mod files;
 mod init;
 mod keep;
@@ -70,6 +71,7 @@ enum Command {
     Cut(cut::Cut),
     Proof(proof::Proof),
     Trace(trace::Trace),
+    Features(features::Features),
     Convert(convert::Convert),
     Match(match_letters::Match),
     Methods(methods::Methods),
@@ -109,6 +111,7 @@ fn run(args: &Khatt) -> Outcome {
         Command::Cut(cut) => cut.run(&args.common),
         Command::Proof(proof) => proof.run(&args.common),
         Command::Trace(trace) => trace.run(),
+        Command::Features(features) => features.run(),
         Command::Convert(convert) => convert.run(&args.common),
         Command::Match(letters) => letters.run(&args.common),
         Command::Methods(methods) => methods.run(),

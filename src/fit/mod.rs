@@ -12,6 +12,7 @@ pub mod joint;
 pub mod judge;
 mod path;
 pub mod periodic;
+pub mod qbc;
 pub mod timmer;
 pub mod wls;
 
@@ -71,6 +72,10 @@ pub enum Method {
     Gc2(gc2::Gc2),
     /// Timmer's cubics through knots inserted by chance.
     Timmer(timmer::Timmer),
+    /// Quasi-Bézier curves.
+    Qbc(qbc::Qbc),
+    /// Quasi-Bézier curves with the stronger pull.
+    QbcN(qbc::QbcN),
 }
 
 impl Default for Method {
@@ -89,6 +94,8 @@ impl Method {
             Self::Periodic(periodic::Periodic::default()),
             Self::Gc2(gc2::Gc2::default()),
             Self::Timmer(timmer::Timmer::default()),
+            Self::Qbc(qbc::Qbc::default()),
+            Self::QbcN(qbc::QbcN::default()),
         ]
     }
 
@@ -101,6 +108,8 @@ impl Method {
             Self::Periodic(_) => "periodic",
             Self::Gc2(_) => "gc2",
             Self::Timmer(_) => "timmer",
+            Self::Qbc(_) => "qbc",
+            Self::QbcN(_) => "qbc-n",
         }
     }
 
@@ -117,6 +126,8 @@ impl Method {
             }
             Self::Gc2(_) => "tension spline through knots by chance [rasheed05 sec. 3.1, 4.3]",
             Self::Timmer(_) => "Timmer cubic through knots by chance [rasheed05 sec. 3.3]",
+            Self::Qbc(_) => "quasi-Bézier curves along tangents [sohel sec. III.A, eq. 5]",
+            Self::QbcN(_) => "quasi-Bézier curves, stronger pull [sohel sec. III.A, eq. 9]",
         }
     }
 
@@ -129,6 +140,8 @@ impl Method {
             Self::Periodic(f) => f,
             Self::Gc2(f) => f,
             Self::Timmer(f) => f,
+            Self::Qbc(f) => f,
+            Self::QbcN(f) => f,
         }
     }
 }

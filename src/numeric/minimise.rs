@@ -1,8 +1,10 @@
-//! Minimisation by the secant method: BFGS with a line search.
+//! Minimisation by the secant method: BFGS of limited memory with a line search.
 //!
 //! Own code, 100 lines, and no library: the objective carries a state (the foot points of a curve) that
 //! must start every trial step from the last accepted one, and value and gradient come from one pass
 //! over the data; the libraries looked at ask for the two apart, through a shared reference.
+
+use std::collections::VecDeque;
 
 /// What is minimised.
 pub trait Objective {
@@ -34,6 +36,8 @@ pub struct Descent {
 const TRIALS: usize = 20;
 /// Part of the slope's promise that a step must keep (Armijo).
 const KEPT: f64 = 1e-4;
+/// Steps that are remembered: as good as all of them up to some hundred variables, linear beyond.
+const MEMORY: usize = 60;
 /// Part of the slope that may be left after a step (Wolfe).
 const LEFT: f64 = 0.9;
 
@@ -44,7 +48,7 @@ pub fn bfgs(f: &mut impl Objective, x: &mut Vec<f64>, width: f64, limits: Limits
     let mut gradient = vec![0.0; n];
     let mut value = f.value(x, &mut gradient);
     f.accept();
-    let mut inverse = Inverse::new(n, width);
+    let mut inverse = Inverse::new(width);
     let mut values = vec![value];
     let mut slow = 0;
     for _ in 0..limits.steps {
@@ -141,31 +145,44 @@ fn at(f: &mut impl Objective, x: &[f64], direction: &[f64], length: f64) -> Step
     }
 }
 
-/// The inverse of the second derivative as far as it is known, n × n, symmetric, positive definite.
+/// The inverse of the second derivative as far as the last steps tell: their changes of x and of the
+/// gradient, newest last, over a multiple of the identity (limited memory, two-loop recursion).
 struct Inverse {
-    n: usize,
-    h: Vec<f64>,
+    width: f64,
+    pairs: VecDeque<Pair>,
+}
+
+struct Pair {
+    s: Vec<f64>,
+    y: Vec<f64>,
+    sy: f64,
 }
 
 impl Inverse {
-    fn new(n: usize, width: f64) -> Self {
-        let mut h = vec![0.0; n * n];
-        h.iter_mut().step_by(n + 1).for_each(|d| *d = width);
-        Self { n, h }
-    }
-
-    fn times(&self, v: &[f64]) -> Vec<f64> {
-        self.h
-            .chunks(self.n.max(1))
-            .map(|row| dot(row, v))
-            .collect()
+    const fn new(width: f64) -> Self {
+        Self {
+            width,
+            pairs: VecDeque::new(),
+        }
     }
 
     fn direction(&self, gradient: &[f64]) -> Vec<f64> {
-        self.times(gradient).into_iter().map(|d| -d).collect()
+        let mut d: Vec<f64> = gradient.iter().map(|g| -g).collect();
+        let mut parts = Vec::with_capacity(self.pairs.len());
+        for pair in self.pairs.iter().rev() {
+            let part = dot(&pair.s, &d) / pair.sy;
+            add(&mut d, -part, &pair.y);
+            parts.push(part);
+        }
+        d.iter_mut().for_each(|v| *v *= self.width);
+        for (pair, part) in self.pairs.iter().zip(parts.iter().rev()) {
+            let rest = part - dot(&pair.y, &d) / pair.sy;
+            add(&mut d, rest, &pair.s);
+        }
+        d
     }
 
-    /// The BFGS update from a step of x and of the gradient; left out where the curvature is not positive.
+    /// A step of x and of the gradient; left out where the curvature is not positive.
     fn learn(&mut self, x0: &[f64], x1: &[f64], g0: &[f64], g1: &[f64]) {
         let s: Vec<f64> = x1.iter().zip(x0).map(|(a, b)| a - b).collect();
         let y: Vec<f64> = g1.iter().zip(g0).map(|(a, b)| a - b).collect();
@@ -173,15 +190,16 @@ impl Inverse {
         if sy <= 1e-14 * (dot(&s, &s) * dot(&y, &y)).sqrt() {
             return;
         }
-        let hy = self.times(&y);
-        let scale = (1.0 + dot(&y, &hy) / sy) / sy;
-        for (i, row) in self.h.chunks_mut(self.n).enumerate() {
-            let (si, hi) = (s[i], hy[i] / sy);
-            for (h, (sj, hj)) in row.iter_mut().zip(s.iter().zip(&hy)) {
-                *h += scale * si * sj - hi * sj - si * hj / sy;
-            }
+        if self.pairs.len() == MEMORY {
+            self.pairs.pop_front();
         }
+        self.pairs.push_back(Pair { s, y, sy });
     }
+}
+
+/// Adds `factor` times `b` to `a`.
+fn add(a: &mut [f64], factor: f64, b: &[f64]) {
+    a.iter_mut().zip(b).for_each(|(a, b)| *a += factor * b);
 }
 
 fn dot(a: &[f64], b: &[f64]) -> f64 {

@@ -28,8 +28,10 @@ fn main() {
     optimal(folder);
     knots(folder);
     rotation(folder);
+    truth();
     smoothing();
     speed();
+    million();
 }
 
 /// The boundary pixels' chains of a picture, the longest first.
@@ -266,6 +268,85 @@ fn rotation(folder: &Path) {
     println!();
 }
 
+/// Six shapes and the corners that they have by construction: the ends of their pieces.
+const DRAWN: [(&str, &str, &[usize]); 6] = [
+    ("square", "M20 20L140 20L140 140L20 140Z", &[0, 1, 2, 3]),
+    ("triangle", "M20 20L150 50L60 160Z", &[0, 1, 2]),
+    (
+        "L",
+        "M20 20L140 20L140 50L60 50L60 170L20 170Z",
+        &[0, 1, 2, 3, 4, 5],
+    ),
+    ("D", "M20 20L80 20C160 20 160 150 80 150L20 150Z", &[0, 3]),
+    (
+        "drop",
+        "M90 10C110 60 150 80 150 120C150 190 30 190 30 120C30 80 70 60 90 10Z",
+        &[0],
+    ),
+    (
+        "star",
+        "M90 170L71 108L7 109L59 71L38 10L90 48L142 10L121 71L173 109L109 108Z",
+        &[0, 1, 2, 3, 4, 5, 6, 7, 8, 9],
+    ),
+];
+
+/// [rasheed05 sec. 2.3]: corners found, missed and false on drawn shapes, straight and turned by 30°.
+fn truth() {
+    /// How far a corner found may lie from the true one, px.
+    const NEAR: f64 = 5.0;
+    println!("### Corners against the truth: found / missed / false\n");
+    println!("| shape, corners | sides | angle | srm05 |\n|---|---|---|---|");
+    let mut sums = [[0_usize; 3]; 3];
+    for (name, svg, corners) in DRAWN {
+        for turn in [0_i32, 30] {
+            let map = Affine::rotate_about(f64::from(turn).to_radians(), (90.0, 90.0));
+            let path = map * kurbo::BezPath::from_svg(svg).expect("a path");
+            let ends: Vec<Point> = path
+                .segments()
+                .map(|s| kurbo::ParamCurve::start(&s))
+                .collect();
+            let ink = |x: usize, y: usize| {
+                let centre = Point::new(x as f64 - 39.5, 219.5 - y as f64);
+                f32::from(u8::from(kurbo::Shape::winding(&path, centre) != 0))
+            };
+            let options = Options {
+                boundary: Boundary::Chain,
+                ..Options::default()
+            };
+            let traced = trace(&Gray::from_fn(260, 260, ink), &options);
+            let Some(contour) = traced.first() else {
+                continue;
+            };
+            // the picture's own origin: its bottom left corner
+            let truth: Vec<Point> = corners
+                .iter()
+                .map(|&i| ends[i] + kurbo::Vec2::new(40.0, 40.0))
+                .collect();
+            let mut line = format!("| {name}, {}, {turn}° |", truth.len());
+            for (m, method) in corner::Method::all().iter().enumerate() {
+                let at: Vec<Point> = method
+                    .detector()
+                    .corners(contour)
+                    .iter()
+                    .map(|&i| contour.points()[i])
+                    .collect();
+                let hit = |p: &Point| at.iter().any(|q| q.distance(*p) <= NEAR);
+                let found = truth.iter().filter(|p| hit(p)).count();
+                let stray = at
+                    .iter()
+                    .filter(|q| truth.iter().all(|p| q.distance(*p) > NEAR))
+                    .count();
+                let row = [found, truth.len() - found, stray];
+                (0..3).for_each(|k| sums[m][k] += row[k]);
+                line += &format!(" {} / {} / {} |", row[0], row[1], row[2]);
+            }
+            println!("{line}");
+        }
+    }
+    let all = sums.map(|s| format!("{} / {} / {}", s[0], s[1], s[2]));
+    println!("| all | {} |\n", all.join(" | "));
+}
+
 /// A bean of `n` points, 100 px across times `size`, with noise of `sigma` px across its outline.
 fn bean(n: u32, size: f64, sigma: f64) -> (Vec<Point>, Vec<Point>) {
     let mut state = 5_u64;
@@ -324,11 +405,6 @@ fn speed() {
         let mut times = Vec::new();
         let mut worst = 0.0_f64;
         for n in [200_u32, 2_000, 20_000] {
-            // a dense matrix of all control points: minutes at 20,000
-            if n > 2_000 && matches!(method, fit::Method::Periodic(_)) {
-                line += " – |";
-                continue;
-            }
             let (_, points) = bean(n, f64::from(n) / 400.0, 0.2);
             let mut best = f64::INFINITY;
             for _ in 0..if n > 2_000 { 1 } else { 3 } {
@@ -345,5 +421,31 @@ fn speed() {
             let exponent = (b.1 / a.1).ln() / (b.0 / a.0).ln();
             println!("{line} {exponent:.2} | {worst:.2} |");
         }
+    }
+}
+
+/// A million points: on a line, all at one place, and around a bean.
+fn million() {
+    const MANY: u32 = 1_000_000;
+    println!("\n### A million points at 1 px: seconds, verdict\n");
+    println!("| method | on a line | at one place | a circle |\n|---|---|---|---|");
+    let line: Vec<Point> = (0..MANY)
+        .map(|i| Point::new(0.01 * f64::from(i), 5.0))
+        .collect();
+    let dot = vec![Point::new(3.0, 4.0); MANY as usize];
+    let circle: Vec<Point> = (0..MANY)
+        .map(|i| {
+            let (y, x) = (std::f64::consts::TAU * f64::from(i) / f64::from(MANY)).sin_cos();
+            Point::new(500.0 * x, 500.0 * y)
+        })
+        .collect();
+    for method in fit::Method::all() {
+        let mut row = format!("| {} |", method.key());
+        for span in [Span::Open(&line), Span::Open(&dot), Span::Ring(&circle)] {
+            let start = Instant::now();
+            let verdict = method.fitter().fit(span, 1.0).map(|f| f.verdict);
+            row += &format!(" {:.1} s, {verdict:?} |", start.elapsed().as_secs_f64());
+        }
+        println!("{row}");
     }
 }

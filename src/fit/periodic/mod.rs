@@ -10,13 +10,15 @@
 //! Departs  alpha counts squares of the tolerance, so that the scale does not matter, and is 1/1000: at the
 //!          paper's 1 the feet around sharp corners held the curve back (measured: Africa, rms 3.8 for 0.9 px);
 //!          the quintics of five pieces around are solved, not of all: a foot on the far side of a stroke is
-//!          wrong even when nearer; control points are added in several places at once (step 0: in one);
+//!          wrong even when nearer; control points are added in several places at once (step 0: in one), and
+//!          taken out, or moved where their number is given, as long as that helps;
 //!          a ring is settled by linear least squares before BFGS;
 //!          open spans, which the paper leaves out, pass through their ends
 //! Cost     O(n + m^2) a BFGS step for n points, m control points      Fails  never; Verdict::Exhausted when
 //!          m reaches n beta / 2
 //! ```
 
+mod knots;
 mod objective;
 mod spline;
 mod start;
@@ -46,8 +48,6 @@ const FINE: f64 = 1e-7;
 const ROUNDS: usize = 4;
 /// Weight of the second derivative in them: just enough where a piece has few points.
 const STIFF: f64 = 1e-3;
-/// A new end point keeps this part of its piece free on either side.
-const MARGIN: f64 = 0.25;
 
 /// Options of the optimal spline fitter.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -204,25 +204,67 @@ impl<'a> Task<'a> {
             .options
             .control
             .map(|c| if self.closed() { c } else { c - 1 });
-        let ends = end_points(&self.walk, self.ends, REACH * self.tolerance, count);
-        let mut state = self.start(&ends)?;
-        if self.closed() && self.options.iterations > 0 {
-            state = self.settle(state, &ends);
+        let state = self.begin(count)?;
+        if self.options.iterations == 0 {
+            return Some(state);
         }
-        if count.is_none() && self.options.iterations > 0 {
-            loop {
-                state = self.descend(state, STEPS_EACH, ROUGH).0;
-                let pieces = state.spline.pieces();
-                if self.error(&state) <= self.tolerance || pieces >= most {
-                    break;
+        let state = match count {
+            Some(count) => self.exactly(state, count),
+            None => {
+                let grown = self.grow(state, most);
+                if self.meets(&grown) {
+                    self.thin(grown)
+                } else {
+                    grown
                 }
-                state = self.refine(&state, most - pieces)?;
+            }
+        };
+        let within = self.meets(&state);
+        let (last, _) = self.descend(state.clone(), self.options.iterations, FINE);
+        let spoilt = within && !self.meets(&last);
+        Some(if spoilt { state } else { last })
+    }
+
+    /// So many pieces: of those by curvature, and those left of more, the ones that come closer.
+    fn exactly(&self, state: State, count: usize) -> State {
+        /// So many times the pieces asked for are begun with.
+        const MORE: usize = 2;
+        let more = self.begin(None).filter(|_| self.trials() > 0);
+        let left = more
+            .and_then(|s| self.reduce(self.grow(s, MORE * count), count))
+            .filter(|s| s.spline.pieces() == count);
+        let moved = |s: State| self.relocate(self.descend(s, STEPS_EACH, ROUGH).0);
+        let by_curvature = moved(state);
+        match left.map(moved) {
+            Some(left) if self.squares(&left) < self.squares(&by_curvature) => left,
+            _ => by_curvature,
+        }
+    }
+
+    fn begin(&self, count: Option<usize>) -> Option<State> {
+        let ends = end_points(&self.walk, self.ends, REACH * self.tolerance, count);
+        let state = self.start(&ends)?;
+        let settles = self.closed() && self.options.iterations > 0;
+        Some(if settles {
+            self.settle(state, self.guesses(&ends))
+        } else {
+            state
+        })
+    }
+
+    /// Control points added until the tolerance is met or there are `most` pieces.
+    fn grow(&self, mut state: State, most: usize) -> State {
+        loop {
+            state = self.descend(state, STEPS_EACH, ROUGH).0;
+            let pieces = state.spline.pieces();
+            if self.meets(&state) || pieces >= most {
+                return state;
+            }
+            match self.refine(&state, most - pieces) {
+                Some(finer) => state = finer,
+                None => return state,
             }
         }
-        let within = self.error(&state) <= self.tolerance;
-        let (last, _) = self.descend(state.clone(), self.options.iterations, FINE);
-        let spoilt = within && self.error(&last) > self.tolerance;
-        Some(if spoilt { state } else { last })
     }
 
     /// The spline through the end points, and where each point's foot is on it.
@@ -250,12 +292,11 @@ impl<'a> Task<'a> {
 
     /// The spline of a ring drawn to the points by linear least squares before its feet may move: the one
     /// through the end points has loops whose feet are out of order, and the penalty would keep them.
-    fn settle(&self, start: State, ends: &[usize]) -> State {
+    fn settle(&self, start: State, mut feet: Vec<f64>) -> State {
         let pieces = start.spline.pieces();
         let Some(basis) = Basis::uniform(4, pieces + 3) else {
             return start;
         };
-        let mut feet = self.guesses(ends);
         let mut state = start;
         for _ in 0..ROUNDS {
             let at: Vec<f64> = feet
@@ -311,45 +352,14 @@ impl<'a> Task<'a> {
         pairs.map(|(&u, p)| state.spline.place(u).p.distance(*p))
     }
 
-    fn error(&self, state: &State) -> f64 {
-        self.distances(state).fold(0.0, f64::max)
+    fn meets(&self, state: &State) -> bool {
+        /// The judge looks at the curve in short chords, which lie a little beside it.
+        const SURE: f64 = 0.999;
+        self.error(state) <= SURE * self.tolerance
     }
 
-    /// One end point more in each of the pieces with the largest errors, `room` of them at most.
-    fn refine(&self, state: &State, room: usize) -> Option<State> {
-        let pieces = state.spline.pieces();
-        let mut worst: Vec<(f64, f64)> = vec![(0.0, 0.0); pieces];
-        for (d, &u) in self.distances(state).zip(&state.feet) {
-            let (i, t) = state.spline.split(u);
-            if d > worst[i].0 {
-                worst[i] = (d, t);
-            }
-        }
-        let mut order: Vec<usize> = (0..pieces).collect();
-        order.sort_by(|&a, &b| worst[b].0.total_cmp(&worst[a].0).then(a.cmp(&b)));
-        order.truncate(part(pieces, self.options.step).clamp(1, room.max(1)));
-        order.retain(|&i| worst[i].0 > self.tolerance);
-        if order.is_empty() {
-            return None; // a spline that is not finite
-        }
-        // the pieces of the finer spline begin at these parameters of the old one
-        let mut knots: Vec<f64> = (0..=pieces).map(|i| i as f64).collect();
-        knots.extend(
-            order
-                .iter()
-                .map(|&i| i as f64 + worst[i].1.clamp(MARGIN, 1.0 - MARGIN)),
-        );
-        knots.sort_by(f64::total_cmp);
-        let ends = &knots[..knots.len() - usize::from(self.closed())];
-        let q: Vec<Point> = ends.iter().map(|&u| state.spline.place(u).p).collect();
-        let spline = through(&q, self.ends)?;
-        let finer = |i: usize| {
-            let (piece, t) = state.spline.split(state.feet[i]);
-            let u = piece as f64 + t;
-            let j = knots.partition_point(|&k| k <= u).clamp(1, knots.len() - 1);
-            (j - 1) as f64 + (u - knots[j - 1]) / (knots[j] - knots[j - 1])
-        };
-        Some(self.state(spline, finer))
+    fn error(&self, state: &State) -> f64 {
+        self.distances(state).fold(0.0, f64::max)
     }
 
     fn fitted(&self, state: &State, span: Span<'_>) -> Option<Fitted> {

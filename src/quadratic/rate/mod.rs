@@ -111,4 +111,6 @@ impl Rate {
 }
 
 #[cfg(test)]
+mod exact;
+#[cfg(test)]
 mod tests;

@@ -41,6 +41,12 @@ fn along(spans: &[(Node, Span, Node)], effort: Effort) -> Option<Vec<Stored>> {
     Some(out)
 }
 
+/// The points after the start of the cheapest path between two nodes.
+#[cfg(test)]
+pub(super) fn between(curve: &Curve, effort: Effort, from: Node, to: Node) -> Option<Vec<Stored>> {
+    open(curve, effort, from, to).map(|joins| stored(&joins))
+}
+
 /// The cheapest path between two nodes that stays within the tolerance when it is measured densely.
 fn open(curve: &Curve, effort: Effort, from: Node, to: Node) -> Option<Vec<Join>> {
     /// Slack and grain of each attempt, as factors: a search that pruned its only way looks wider.

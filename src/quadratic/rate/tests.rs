@@ -135,6 +135,22 @@ fn a_grid_too_coarse_is_named() {
 }
 
 #[test]
+fn more_points_than_a_glyph_counts_are_refused() {
+    // a comb of 33,000 teeth, each a corner that stays
+    let mut comb = BezPath::new();
+    comb.move_to((0.0, 0.0));
+    for i in 0..33_000 {
+        comb.line_to((40.0 * f64::from(i), 40.0));
+        comb.line_to((40.0 * f64::from(i) + 20.0, 400.0));
+    }
+    comb.close_path();
+    let err = Rate::default()
+        .convert(&Outline::new(vec![comb]).unwrap(), 1.0)
+        .unwrap_err();
+    assert!(err.to_string().contains("65535"), "{err}");
+}
+
+#[test]
 fn nothing_degenerate_panics() {
     for svg in [
         "M0 0Z",

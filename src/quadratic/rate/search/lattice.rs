@@ -27,7 +27,7 @@ pub(super) fn floor(p: Point) -> Point {
 }
 
 /// A direction may leave the wanted one by 2 degrees, or by what the lattice makes of it.
-pub(super) fn smooth(u: Vec2, v: Vec2) -> bool {
+pub(in super::super) fn smooth(u: Vec2, v: Vec2) -> bool {
     /// Sine of the turn that no eye sees at a join.
     const TURN: f64 = 0.035;
     /// Half a unit beside the tangent is the lattice's, not the curve's.

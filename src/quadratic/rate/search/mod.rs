@@ -10,7 +10,8 @@ use super::curve::{Curve, Gate, Node, count};
 use super::glyf::{Pen, Stored};
 use crate::numeric::shortest::{Id, Labels};
 use kurbo::{Point, Vec2};
-use lattice::{floor, normal, smooth};
+pub(super) use lattice::smooth;
+use lattice::{floor, normal};
 use stage::{Kind, Stage, gate_direction, on_gate, stages};
 
 /// Cost of one byte; what is below it breaks ties by error.
@@ -235,16 +236,18 @@ impl<'a> Search<'a> {
                 } else {
                     join.m + own * ((target - join.m).cross(dir) / turn)
                 };
-                for c in self.around(join, c, s) {
+                let through = self.through(join, here, s);
+                for c in through
+                    .into_iter()
+                    .chain([c])
+                    .flat_map(|c| self.around(join, c, s))
+                    .collect::<Vec<_>>()
+                {
                     hit |= if is_gate {
                         self.reach_gate(Way { gate: s, ..way }, c)
                     } else {
-                        self.join(
-                            s,
-                            way,
-                            c,
-                            self.curve.p[i] + normal(self.curve.t[i]) * (level * limit),
-                        )
+                        let aside = normal(self.curve.t[i]) * (level * limit);
+                        self.join(s, way, c, self.curve.p[i] + aside)
                     };
                 }
             }
@@ -253,6 +256,19 @@ impl<'a> Search<'a> {
                 break;
             }
         }
+    }
+
+    /// From a corner, or to one, no tangent binds: the control point by which one quadratic passes
+    /// the middle of the curve.
+    fn through(&self, join: Join, here: usize, s: usize) -> Option<Point> {
+        let to_corner = matches!(self.stages[s].kind, Kind::End) && self.end.along.is_none();
+        let from_corner = join.c.is_none() && join.along.is_none();
+        (to_corner || from_corner).then(|| {
+            let i = self.stages[s].at;
+            let middle = self.curve.p[here.midpoint(i)];
+            let ends = join.m.midpoint(self.target(s, 0.0).0);
+            middle + (middle - ends)
+        })
     }
 
     /// A point and direction that the curve should have at a stage, `aside` units to its left.
