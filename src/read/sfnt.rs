@@ -133,6 +133,7 @@ fn glyphs(font: &FontRef<'_>, at: &Location, names: &mut Names) -> Result<Vec<Gl
         font.glyph_metrics(Size::unscaled(), at),
     );
     let given = font.glyph_names();
+    let upem = font.head().map_or(0, |h| h.units_per_em());
     let glyph = |n: u16| {
         let id = GlyphId::from(n);
         let wanted = given
@@ -152,7 +153,7 @@ fn glyphs(font: &FontRef<'_>, at: &Location, names: &mut Names) -> Result<Vec<Gl
             chars.remove(&id).unwrap_or_default(),
             advance(&metrics, id),
         );
-        glyph.outline = outline(&outlines, id, at)?;
+        glyph.outline = outline((&outlines, upem), id, at)?;
         Ok(glyph)
     };
     let mut glyphs = (0..count)
@@ -217,22 +218,37 @@ fn advance(metrics: &GlyphMetrics<'_>, id: GlyphId) -> f64 {
     metrics.advance_width(id).map_or(0.0, f64::from).max(0.0)
 }
 
-/// A glyph's outline, outer contours counter-clockwise; nothing where the file has none. Of
-/// fractions in CFF the reader keeps the whole units only.
+/// A glyph's outline, outer contours counter-clockwise; nothing where the file has none. Unscaled, the
+/// library cuts the fractions of CFF off, so those are drawn larger and made small again.
 fn outline(
-    all: &OutlineGlyphCollection<'_>,
+    (all, upem): (&OutlineGlyphCollection<'_>, u16),
     id: GlyphId,
     at: &Location,
 ) -> Result<Outline, ReadError> {
+    /// Times that CFF is drawn larger: coordinates come in sixty-fourths of that.
+    const LARGER: f32 = 4.0;
+    /// Units an em beyond which a glyph drawn so large could leave the library's numbers.
+    const EM: u16 = 2048;
     let Some(glyph) = all.get(id) else {
         return Ok(Outline::EMPTY);
     };
     let clockwise = all.format() == Some(OutlineGlyphFormat::Glyf);
+    let (size, scale) = if clockwise || !(16..=EM).contains(&upem) {
+        (Size::unscaled(), 1.0)
+    } else {
+        (
+            Size::new(LARGER * f32::from(upem)),
+            f64::from(LARGER).recip(),
+        )
+    };
     let mut pen = Pen::default();
-    let drawn = glyph.draw(DrawSettings::unhinted(Size::unscaled(), at), &mut pen);
+    let drawn = glyph.draw(DrawSettings::unhinted(size, at), &mut pen);
     drawn.map_err(|e| ReadError::damaged("a font", format!("glyph {id}: {e}")))?;
     let contours = pen.0.into_iter().filter(|p| p.segments().next().is_some());
-    let contours = contours.map(|p| if clockwise { p.reverse_subpaths() } else { p });
+    let contours = contours.map(|p| {
+        let p = if clockwise { p.reverse_subpaths() } else { p };
+        Affine::scale(scale) * p
+    });
     Outline::new(contours.collect())
         .map_err(|e| ReadError::damaged("a font", format!("glyph {id}: {e}")))
 }
@@ -300,8 +316,14 @@ fn carried(font: &FontRef<'_>) -> BTreeMap<[u8; 4], Vec<u8>> {
         |tag: &[u8; 4]| REBUILT.contains(&tag) || LOST.iter().any(|(_, tags)| tags.contains(&tag));
     let records = font.table_directory().table_records().iter();
     let tags = records.map(|r| r.tag()).filter(|t| !gone(&t.to_be_bytes()));
-    tags.filter_map(|t| Some((t.to_be_bytes(), font.table_data(t)?.as_bytes().to_vec())))
-        .collect()
+    let mut all: BTreeMap<[u8; 4], Vec<u8>> = tags
+        .filter_map(|t| Some((t.to_be_bytes(), font.table_data(t)?.as_bytes().to_vec())))
+        .collect();
+    if let Some([0, 1, 0, minor @ 3, ..]) = all.get_mut(b"GDEF").map(Vec::as_mut_slice) {
+        // 1.2 has no offset of a variation store, which means nothing without axes.
+        *minor = 2;
+    }
+    all
 }
 
 fn lost(font: &FontRef<'_>) -> Vec<String> {
