@@ -1,5 +1,6 @@
 //! Contour → the smooth path through its points, which the search takes without a fit between.
 
+use crate::numeric::turns::Ends;
 use crate::types::Contour;
 use kurbo::{BezPath, Point, Vec2};
 
@@ -12,10 +13,12 @@ pub fn through(contour: &Contour, corners: &[usize]) -> BezPath {
     let mut path = BezPath::new();
     for span in spans.iter() {
         let mut points = span.points().to_vec();
+        let mut ends = Ends::Open;
         if span.is_ring() {
             points.extend(points.first().copied());
+            ends = Ends::Closed;
         }
-        let tangents = tangents(&points, span.is_ring());
+        let tangents = tangents(&points, ends);
         for (i, pair) in points.windows(2).enumerate() {
             let [a, b] = [pair[0], pair[1]];
             if path.elements().is_empty() {
@@ -31,9 +34,10 @@ pub fn through(contour: &Contour, corners: &[usize]) -> BezPath {
 
 /// Unit directions at the points of a span, over a few neighbours on both sides so that a contour's
 /// grain does not bend them. A ring's first point is its last, too.
-fn tangents(points: &[Point], is_ring: bool) -> Vec<Vec2> {
+fn tangents(points: &[Point], ends: Ends) -> Vec<Vec2> {
     /// Neighbours on each side.
     const REACH: usize = 3;
+    let is_ring = ends == Ends::Closed;
     let last = points.len().saturating_sub(1);
     let direction = |i: usize| {
         let room = if is_ring { last / 4 } else { i.min(last - i) };
