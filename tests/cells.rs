@@ -116,6 +116,83 @@ fn a_box_leaves_a_blot_out() {
 }
 
 #[test]
+fn a_page_that_lies_on_its_side_is_turned() {
+    let upright = bounds("", &page(&[]), 'H').expect("a letter");
+    let clean = image::load_from_memory(&page(&[]))
+        .expect("a picture")
+        .to_luma8();
+    for degrees in [90, 180, 270] {
+        // turned back by as much as the project says it must be turned
+        let picture = png(600, 600, |x, y| {
+            let (u, v) = match degrees {
+                90 => (599 - y, x),
+                180 => (599 - x, 599 - y),
+                _ => (y, 599 - x),
+            };
+            255 - clean.get_pixel(u, v).0[0]
+        });
+        let dir = project(LETTERS, &picture);
+        let path = dir.path().join("font.toml");
+        let text = fs::read_to_string(&path).expect("the project");
+        let turned = text.replace("[[sheet]]", &format!("[[sheet]]\nturn = {degrees}"));
+        fs::write(&path, turned).expect("a project");
+        let out = khatt(dir.path(), &["build", "font.toml"]);
+        let stderr = String::from_utf8_lossy(&out.stderr);
+        assert_eq!(out.status.code(), Some(0), "{degrees}: {stderr}");
+        let bytes = font(dir.path());
+        let face = ttf_parser::Face::parse(&bytes, 0).expect("a font");
+        let h = face
+            .glyph_index('H')
+            .and_then(|h| face.glyph_bounding_box(h));
+        assert_eq!(h, Some(upright), "{degrees}");
+    }
+}
+
+#[test]
+fn several_drawings_of_a_glyph_are_settled() {
+    let built = |repeated: &str| {
+        let dir = project("H o l H e I N c L", &page(&[]));
+        let path = dir.path().join("font.toml");
+        let text = fs::read_to_string(&path).expect("the project");
+        fs::write(&path, format!("{repeated}\n{text}")).expect("a project");
+        let out = khatt(dir.path(), &["build", "font.toml"]);
+        (dir, out)
+    };
+    let (dir, out) = built("");
+    let stderr = String::from_utf8_lossy(&out.stderr);
+    assert!(
+        stderr.contains("H: drawn 2 times; the drawing with the calmest edge"),
+        "{stderr}"
+    );
+    let best = font(dir.path());
+    let best = ttf_parser::Face::parse(&best, 0).expect("a font");
+    let (dir, out) = built("repeated = \"alternates\"");
+    assert_eq!(
+        out.status.code(),
+        Some(0),
+        "{}",
+        String::from_utf8_lossy(&out.stderr)
+    );
+    let both = font(dir.path());
+    let both = ttf_parser::Face::parse(&both, 0).expect("a font");
+    assert_eq!(both.number_of_glyphs(), best.number_of_glyphs() + 1);
+    assert!(both.glyph_index_by_name("H.ss01").is_some());
+    let (_dir, out) = built("repeated = \"error\"");
+    assert_eq!(out.status.code(), Some(1));
+    approved::check(
+        "cli",
+        "build-twice",
+        &transcript(&["build", "font.toml"], &out),
+    );
+    let sets = both.tables().gsub.map(|g| {
+        g.features
+            .into_iter()
+            .any(|f| f.tag == ttf_parser::Tag::from_bytes(b"ss01"))
+    });
+    assert_eq!(sets, Some(true));
+}
+
+#[test]
 fn one_drawing_in_two_cells_is_noticed() {
     // the page repeats its three shapes in every row
     let (_dir, out) = corrected(&page(&[]), "");

@@ -11,6 +11,7 @@ use super::letters;
 use super::page::{self, Page};
 use super::problem::Problem;
 use super::project::{Project, SheetTable};
+use super::repeats;
 use super::watch::{Stage, Watch};
 use crate::assemble::{self, Drawn, Note};
 use crate::types::{Cell, Font, Label};
@@ -73,6 +74,7 @@ pub fn build(project: &Project, world: World<'_>) -> Result<Built, Vec<Problem>>
     let project = &project;
     let (letters, pages) = letters(project, world)?;
     doubts.extend(letters::doubts(project, &letters, world).map_err(|p| vec![p])?);
+    let (letters, repeats) = repeats::settle(letters, project.repeated);
     let _time = world.watch.enter(Stage::Assemble);
     let drawn: Vec<Result<Drawn, Problem>> = letters
         .iter()
@@ -86,7 +88,7 @@ pub fn build(project: &Project, world: World<'_>) -> Result<Built, Vec<Problem>>
         font: by_hand::set(assembled.font, project, world)?,
         letters,
         pages,
-        notes: twins.into_iter().chain(assembled.notes).collect(),
+        notes: [repeats, twins, assembled.notes].concat(),
         doubts,
     })
 }

@@ -3,6 +3,7 @@
 use super::build::{World, all};
 use super::problem::{Place, Problem};
 use super::project::{Labels, Project, SheetTable};
+use super::repeats::Repeated;
 use crate::assemble::names;
 use crate::types::{Label, Name};
 use std::collections::BTreeMap;
@@ -27,7 +28,11 @@ pub(super) fn of(project: &Project, world: World<'_>) -> Result<Vec<Vec<Label>>,
     let pages = all(sheets.iter().map(|s| of_sheet(s, world)).collect())?;
     let names: Vec<String> = sheets.iter().map(SheetTable::name).collect();
     let named = names.iter().map(String::as_str);
-    let problems = check(named.zip(pages.iter().map(Vec::as_slice)));
+    let labels = named.zip(pages.iter().map(Vec::as_slice));
+    let mut problems = check(labels);
+    if project.repeated != Repeated::Error {
+        problems.retain(|p| !matches!(p, Problem::Twice { .. }));
+    }
     if problems.is_empty() {
         Ok(pages)
     } else {

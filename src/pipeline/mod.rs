@@ -18,6 +18,7 @@ mod problem;
 pub mod project;
 mod record;
 pub mod reference;
+mod repeats;
 mod report;
 mod watch;
 
@@ -31,5 +32,6 @@ pub use page::Page;
 pub use printing::sheets;
 pub use problem::{Place, Problem};
 pub use project::{Project, ProjectError};
+pub use repeats::Repeated;
 pub use report::{CellRemark, PageRow, Remark, Removed, Report, Row};
 pub use watch::{Stage, Unwatched, Watch};

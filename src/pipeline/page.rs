@@ -99,13 +99,23 @@ fn read(
         vec![Problem::Sheet { sheet, why }]
     };
     let options = table.cut_options(units_per_em).map_err(wrong)?;
-    let sheet = load(table, world).map_err(|p| vec![p])?;
-    let page = {
-        let _time = world.watch.enter(Stage::Clean);
-        scan::clean(sheet).map_err(|e| vec![e.into()])?
+    let cut = |page: scan::Page| {
+        let _time = world.watch.enter(Stage::Cut);
+        scan::cut_with(&page, labels, &options, pins).map_err(Problem::from)
     };
-    let _time = world.watch.enter(Stage::Cut);
-    let cut = scan::cut_with(&page, labels, &options, pins).map_err(|e| vec![Problem::from(e)])?;
+    let sheet = || load(table, world);
+    let clean = |sheet: Sheet| {
+        let _time = world.watch.enter(Stage::Clean);
+        scan::clean(sheet).map_err(Problem::from)
+    };
+    let cut = sheet().and_then(clean).and_then(cut).or_else(|problem| {
+        // perhaps there is a table around the page
+        let page = sheet()
+            .ok()
+            .and_then(|s| scan::clean_paper(s).ok().flatten());
+        page.and_then(|p| cut(p).ok()).ok_or(problem)
+    });
+    let cut = cut.map_err(|p| vec![p])?;
     Ok(Page {
         name: table.name(),
         table: 0,
@@ -141,7 +151,8 @@ fn load(table: &SheetTable, world: World<'_>) -> Result<Sheet, Problem> {
     };
     let _time = world.watch.enter(Stage::Load);
     let bytes = world.file(image)?;
-    let mut pages = scan::load(&bytes, &image.display().to_string(), table.polarity)?;
+    let name = image.display().to_string();
+    let mut pages = scan::load_turned(&bytes, &name, table.polarity, table.turn)?;
     let count = pages.len();
     match table.page {
         None if count == 1 => Ok(pages.swap_remove(0)),

@@ -177,7 +177,7 @@ impl Problem {
                 "give a character, an AGL name, uniXXXX, or a name such as beh-ar.init"
             }
             Self::Twice { .. } => {
-                "rename one, give it a suffix such as .alt, or skip its cell with _"
+                "rename one, skip its cell with _, or take repeated = \"best\" or \"alternates\""
             }
             Self::ByHand { .. } => {
                 "glyph names are those of the font; `khatt build` with report lists them"

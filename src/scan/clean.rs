@@ -47,6 +47,23 @@ pub struct Page {
 /// # Errors
 /// Nothing on the page is darker than its paper.
 pub fn clean(sheet: Sheet) -> Result<Page, ScanError> {
+    let field = Field::measure(&sheet.gray);
+    even(sheet, &field, None)
+}
+
+/// The same where a picture shows more than the page: what lies beside the paper counts for nothing. `None` where
+/// the picture shows one sheet of paper alone. A shadow with a sharp edge looks like the paper's end, so this is
+/// for pictures that cannot be cut otherwise.
+///
+/// # Errors
+/// Nothing on the page is darker than its paper.
+pub fn clean_paper(sheet: Sheet) -> Result<Option<Page>, ScanError> {
+    let field = Field::measure(&sheet.gray);
+    let paper = Paper::find(&field.values, field.columns, field.block);
+    paper.map(|p| even(sheet, &field, Some(p))).transpose()
+}
+
+fn even(sheet: Sheet, field: &Field, paper: Option<Paper>) -> Result<Page, ScanError> {
     let Sheet {
         gray,
         colours,
@@ -54,9 +71,7 @@ pub fn clean(sheet: Sheet) -> Result<Page, ScanError> {
         source,
     } = sheet;
     let (width, height) = (gray.width(), gray.height());
-    let field = Field::measure(&gray);
-    let paper = Paper::find(&field.values, field.columns, field.block);
-    let levels = Levels::measure(&gray, &field, paper.as_ref());
+    let levels = Levels::measure(&gray, field, paper.as_ref());
     let levels = levels.ok_or_else(|| ScanError::Blank {
         source_name: source.clone(),
     })?;

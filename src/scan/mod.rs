@@ -23,9 +23,9 @@ mod options;
 mod paper;
 mod whole;
 
-pub use clean::{Page, clean};
+pub use clean::{Page, clean, clean_paper};
 pub use cut::{Cut, Pin, Reason, Region, Rejected, Warning, cut, cut_with};
 pub use error::ScanError;
 pub use ink::Ink;
-pub use load::{Polarity, load};
+pub use load::{Polarity, Turn, load, load_turned};
 pub use options::{Direction, Layout, Options, Order, Scale};

@@ -11,7 +11,7 @@ pub use font::FontTable;
 pub use parse::ProjectError;
 pub use sheet::{Labels, Layout, SheetTable};
 
-use super::picture;
+use super::{Repeated, picture};
 use crate::write::{FORMATS, Format};
 use crate::{assemble, quadratic, recognise, template};
 use serde::{Deserialize, Serialize};
@@ -33,6 +33,9 @@ pub struct Project {
     /// A file of such tables, relative to the project file; what stands here goes before.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub cells_file: Option<PathBuf>,
+    /// What becomes of glyphs that are drawn more than once.
+    #[serde(default)]
+    pub repeated: Repeated,
     /// How pages to draw on are laid out.
     #[serde(default)]
     pub template: template::Layout,

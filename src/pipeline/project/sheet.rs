@@ -1,7 +1,7 @@
 //! `[[sheet]]`: a page and what is drawn on it.
 
 use super::check;
-use crate::scan::{self, Direction, Ink, Options, Order, Polarity, Scale};
+use crate::scan::{self, Direction, Ink, Options, Order, Polarity, Scale, Turn};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
@@ -24,6 +24,9 @@ pub struct SheetTable {
     /// Whether rows or columns come first.
     #[serde(default)]
     pub order: Order,
+    /// Degrees by which the picture must be turned clockwise to stand upright: 0, 90, 180 or 270.
+    #[serde(default)]
+    pub turn: Turn,
     /// Which of dark and light is the ink.
     #[serde(default)]
     pub polarity: Polarity,

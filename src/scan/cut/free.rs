@@ -240,7 +240,7 @@ fn cost(one: &Component, other: &Component, (height, stroke): (f64, f64)) -> f64
         }
         (true, false) if small => dy / height + 0.5 * (1.0 + dx / narrow).max(0.0),
         (false, true) if a.height().max(b.height()) < SMALL * height => 0.45 + dx / height,
-        (false, _) if small && dx < 0.2 * height => 0.35 + dx.hypot(dy.max(0.0)) / height,
+        (false, _) if small && dx < 0.2 * height => 0.55 + dx.hypot(dy.max(0.0)) / height,
         _ => f64::INFINITY,
     }
 }

@@ -45,6 +45,70 @@ pub enum Polarity {
 /// # Errors
 /// The content is no picture of these kinds, ends too early, is damaged, or is larger than a page can be.
 pub fn load(bytes: &[u8], source: &str, polarity: Polarity) -> Result<Vec<Sheet>, ScanError> {
+    load_turned(bytes, source, polarity, Turn::None)
+}
+
+/// How a picture must be turned to stand upright, beyond what its file says: clockwise.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(try_from = "u16", into = "u16")]
+pub enum Turn {
+    /// It stands upright.
+    #[default]
+    None,
+    /// 90°.
+    Quarter,
+    /// 180°.
+    Half,
+    /// 270°.
+    ThreeQuarters,
+}
+
+impl TryFrom<u16> for Turn {
+    type Error = &'static str;
+
+    fn try_from(degrees: u16) -> Result<Self, Self::Error> {
+        Ok(match degrees {
+            0 => Self::None,
+            90 => Self::Quarter,
+            180 => Self::Half,
+            270 => Self::ThreeQuarters,
+            _ => return Err("turn must be 0, 90, 180 or 270 degrees clockwise"),
+        })
+    }
+}
+
+impl From<Turn> for u16 {
+    fn from(turn: Turn) -> Self {
+        match turn {
+            Turn::None => 0,
+            Turn::Quarter => 90,
+            Turn::Half => 180,
+            Turn::ThreeQuarters => 270,
+        }
+    }
+}
+
+impl Turn {
+    fn apply(self, image: DynamicImage) -> DynamicImage {
+        match self {
+            Self::None => image,
+            Self::Quarter => image.rotate90(),
+            Self::Half => image.rotate180(),
+            Self::ThreeQuarters => image.rotate270(),
+        }
+    }
+}
+
+/// The same with every page turned.
+///
+/// # Errors
+/// As of [`load`].
+pub fn load_turned(
+    bytes: &[u8],
+    source: &str,
+    polarity: Polarity,
+    turn: Turn,
+) -> Result<Vec<Sheet>, ScanError> {
     let pictures = if pdf::is_pdf(bytes) {
         pdf::pages(bytes, source)?
     } else {
@@ -69,7 +133,7 @@ pub fn load(bytes: &[u8], source: &str, polarity: Polarity) -> Result<Vec<Sheet>
     };
     let sheets = pictures.into_iter().zip(1..);
     sheets
-        .map(|((image, dpi), n)| sheet(image, dpi, &name(n), polarity))
+        .map(|((image, dpi), n)| sheet(turn.apply(image), dpi, &name(n), polarity))
         .collect()
 }
 
