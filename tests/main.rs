@@ -9,6 +9,7 @@ mod detectors;
 mod fitters;
 mod fonts;
 mod layers;
+mod outlines;
 mod papers;
 mod published;
 mod recognise;

@@ -57,16 +57,7 @@ pub fn normalised(values: &[f32], width: usize, votes: impl Fn(usize) -> Votes) 
             }
         })
         .collect();
-    let field = Coarse {
-        levels: &levels,
-        columns,
-        rows,
-    };
-    let level = |(k, v): (usize, &f32)| {
-        let (i, p) = field.at(k % w, k / w);
-        (v - p) / (i - p)
-    };
-    values.iter().enumerate().map(level).collect()
+    between(values, w, &levels)
 }
 
 /// Gaussian sums over the blocks of a picture.
@@ -103,29 +94,28 @@ fn blurred(sums: &[Votes], columns: usize, rows: usize) -> Vec<Votes> {
     pass(&across, columns * rows, columns)
 }
 
-/// Levels a block, read between the blocks' centres.
-struct Coarse<'a> {
-    levels: &'a [(f32, f32)],
-    columns: usize,
-    rows: usize,
-}
-
-impl Coarse<'_> {
-    fn at(&self, x: usize, y: usize) -> (f32, f32) {
-        let place = |i: usize, n: usize| {
-            let f = (i as f32 + 0.5) / BLOCK as f32 - 0.5;
-            let low = index(f64::from(f)).min(n - 1);
-            (low, (low + 1).min(n - 1), (f - low as f32).clamp(0.0, 1.0))
-        };
-        let (x0, x1, tx) = place(x, self.columns);
-        let (y0, y1, ty) = place(y, self.rows);
-        let at = |x: usize, y: usize| self.levels[y * self.columns + x];
-        let mix =
-            |a: (f32, f32), b: (f32, f32), t: f32| (a.0 + t * (b.0 - a.0), a.1 + t * (b.1 - a.1));
-        mix(
-            mix(at(x0, y0), at(x1, y0), tx),
-            mix(at(x0, y1), at(x1, y1), tx),
-            ty,
-        )
+/// Where each value lies between the levels around it, which are read between the blocks' centres.
+fn between(values: &[f32], w: usize, levels: &[(f32, f32)]) -> Vec<f32> {
+    let columns = w.div_ceil(BLOCK);
+    let place = |i: usize, n: usize| {
+        let f = (i as f32 + 0.5) / BLOCK as f32 - 0.5;
+        let low = index(f64::from(f)).min(n - 1);
+        (low, (low + 1).min(n - 1), (f - low as f32).clamp(0.0, 1.0))
+    };
+    let mix = |a: (f32, f32), b: (f32, f32), t: f32| (a.0 + t * (b.0 - a.0), a.1 + t * (b.1 - a.1));
+    let across: Vec<_> = (0..w).map(|x| place(x, columns)).collect();
+    let mut out = Vec::with_capacity(values.len());
+    let mut row = vec![(0.0, 0.0); columns];
+    for (y, line) in values.chunks_exact(w).enumerate() {
+        let (y0, y1, ty) = place(y, levels.len() / columns);
+        let [above, below] = [y0, y1].map(|y| &levels[y * columns..(y + 1) * columns]);
+        for ((to, a), b) in row.iter_mut().zip(above).zip(below) {
+            *to = mix(*a, *b, ty);
+        }
+        out.extend(line.iter().zip(&across).map(|(v, &(x0, x1, tx))| {
+            let (ink, paper) = mix(row[x0], row[x1], tx);
+            (v - paper) / (ink - paper)
+        }));
     }
+    out
 }

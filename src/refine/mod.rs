@@ -40,15 +40,18 @@ pub fn contours(gray: &Gray, traced: &[Cornered]) -> Vec<Cornered> {
     let Some((first, _)) = traced.first() else {
         return Vec::new();
     };
-    for _ in 0..ROUNDS {
-        let residual = Residual::new(
-            gray,
-            rings.iter().map(|r| r.points.as_slice()),
-            first.blur_px(),
-        );
+    let mut residual = Residual::new(gray, points(&rings), first.blur_px());
+    for round in 0..ROUNDS {
+        if round > 0 {
+            residual.update(points(&rings));
+        }
         rings.iter_mut().for_each(|r| r.step(&residual));
     }
     rings.into_iter().map(Ring::finish).collect()
+}
+
+fn points<'r>(rings: &'r [Ring<'_>]) -> impl Iterator<Item = &'r [Point]> {
+    rings.iter().map(|r| r.points.as_slice())
 }
 
 /// A contour on its way.

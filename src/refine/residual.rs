@@ -24,6 +24,8 @@ const SURE: f32 = 0.1;
 pub(super) struct Residual {
     /// picture minus model, row by row from the top
     off: Vec<f32>,
+    /// the picture's coverage
+    seen: Vec<f32>,
     width: usize,
     height: usize,
     /// deviation of the lens' blur alone, px
@@ -41,28 +43,44 @@ impl Residual {
         rings: impl Iterator<Item = &'r [Point]>,
         blur_px: f64,
     ) -> Self {
-        let mut coverage = Coverage::new(gray.width(), gray.height());
-        rings.for_each(|r| coverage.add(r));
         let pixel = Contour::PIXEL_BLUR_PX;
-        let lens = (blur_px * blur_px - pixel * pixel).max(0.0).sqrt();
-        let model = blurred(&coverage.samples(), gray.width(), lens);
         let spread = blur_px.max(MIN_SPREAD_PX);
-        // a straight edge moved by 1 px changes the pixels by its own profile's slope, a Gaussian of
-        // `blur_px`, of which the weights see one of both deviations together
-        let gain = TAU.sqrt() * blur_px.hypot(spread);
-        // with the edges known, pixels up to them say what ink and paper are
-        let seen = normalised(gray.samples(), gray.width(), |i| {
-            votes(gray.samples()[i], model[i])
-        });
-        let off = seen.iter().zip(&model).map(|(s, m)| s - m).collect();
-        Self {
-            off,
+        let mut residual = Self {
+            off: Vec::new(),
+            seen: Vec::new(),
             width: gray.width(),
             height: gray.height(),
-            lens,
+            lens: (blur_px * blur_px - pixel * pixel).max(0.0).sqrt(),
             spread,
-            gain,
-        }
+            // a straight edge moved by 1 px changes the pixels by its own profile's slope, a Gaussian of
+            // `blur_px`, of which the weights see one of both deviations together
+            gain: TAU.sqrt() * blur_px.hypot(spread),
+        };
+        let model = residual.model(rings);
+        // with the edges known, pixels up to them say what ink and paper are
+        residual.seen = normalised(gray.samples(), gray.width(), |i| {
+            votes(gray.samples()[i], model[i])
+        });
+        residual.compare(&model);
+        residual
+    }
+
+    /// The same picture against other rings that hardly differ: levels of ink and paper stay.
+    pub(super) fn update<'r>(&mut self, rings: impl Iterator<Item = &'r [Point]>) {
+        let model = self.model(rings);
+        self.compare(&model);
+    }
+
+    fn model<'r>(&self, rings: impl Iterator<Item = &'r [Point]>) -> Vec<f32> {
+        let mut coverage = Coverage::new(self.width, self.height);
+        rings.for_each(|r| coverage.add(r));
+        blurred(&coverage.samples(), self.width, self.lens)
+    }
+
+    fn compare(&mut self, model: &[f32]) {
+        self.off.clear();
+        let pairs = self.seen.iter().zip(model);
+        self.off.extend(pairs.map(|(s, m)| s - m));
     }
 
     /// Weights by which shifts of neighbouring points are averaged, from the point itself outwards.

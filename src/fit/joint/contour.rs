@@ -2,7 +2,7 @@
 
 use super::found::Draft;
 use super::samples::Samples;
-use super::{Joint, STRAY, judge};
+use super::{Joint, STRAY, judge, tidy};
 use crate::numeric::chain::{Chain, Join, Node};
 use crate::numeric::refit::Foot;
 use crate::types::{Span, Spans};
@@ -19,16 +19,21 @@ pub(super) fn welded(joint: &Joint, spans: &Spans, tolerance_px: f64) -> Option<
         .map(|s| (!s.is_ring()).then_some(s.points()))
         .collect::<Option<_>>()?;
     let samples: Vec<Samples> = spans.iter().map(|p| Samples::new(Span::Open(p))).collect();
-    let found = joint.search(&samples, tolerance_px, weld)?;
+    let mut found = joint.search(&samples, tolerance_px, weld)?;
     let corners = corners(&found.chain, *spans.first()?.first()?);
+    let chain = &found.chain;
     let near = |(&i, span): (&usize, &&[Point])| {
-        let at = found.chain.nodes[i].point;
+        let at = chain.nodes[i].point;
         at.distance(span[0]) <= CORNER_REACH * tolerance_px
     };
     let kept = corners.len() == spans.len()
         && corners.iter().zip(&spans).all(near)
-        && keeps(&found.chain, &corners, &spans, STRAY * tolerance_px);
-    kept.then(|| found.chain.to_path())
+        && keeps(chain, &corners, &spans, STRAY * tolerance_px);
+    kept.then(|| {
+        tidy::smooth(&mut found);
+        tidy::level_ends(&mut found.chain);
+        found.chain.to_path()
+    })
 }
 
 /// One ring of spans that follow one another.

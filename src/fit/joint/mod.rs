@@ -13,6 +13,7 @@ mod found;
 mod improve;
 mod piece;
 mod samples;
+mod tidy;
 
 use super::judge::{judge, points_to_curve};
 use super::path;

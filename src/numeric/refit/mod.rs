@@ -7,6 +7,8 @@
 //! A row of the Jacobian touches eight numbers of one segment only: x, y, direction and handle of both ends.
 //! Rows are summed over these eight, and the 8 × 8 block of a segment is carried over to the free numbers once.
 
+mod prior;
+
 use super::chain::{Chain, Join, Kind};
 use super::skyline::Skyline;
 use kurbo::{CubicBez, Point, Vec2};
@@ -51,15 +53,6 @@ pub struct Stop {
 
 /// Steps as good as the last that a refinement is trusted to take still.
 const HOPE: f64 = 4.0;
-/// Handles of drawn curves are about this part of the chord; a quarter of a circle has 0.39.
-const HANDLE: f64 = 0.37;
-/// How far handles stray from [`HANDLE`], in chords. Wide: it only decides what the samples leave open.
-const HANDLE_SPREAD: f64 = 0.4;
-
-/// A handle longer than this, in chords, makes the curve run past its end where no sample holds it.
-const LONGEST: f64 = 1.0;
-/// How soon that is felt, in chords.
-const LONGEST_SPREAD: f64 = 0.05;
 /// A free direction leaves the chord by no more than this, radians: further, the curve would hook back.
 const HOOK: f64 = 1.75;
 /// How far a node may go from where it was, in shorter sides: only what the samples leave open is held by it.
@@ -279,8 +272,9 @@ impl Refit {
         for i in 0..chain.kinds.len() {
             self.powers.push(Powers::new(&chain.cubic(i)));
             let mut block = Block::default();
-            cost += handle_prior(chain, i, &mut block);
-            cost += anchor_prior(chain.nodes[i].point, self.anchors[i], &mut block);
+            cost += prior::handles(chain, i, &mut block);
+            cost += prior::levels(chain, i, scale.sigma, &mut block);
+            cost += prior::anchor(chain.nodes[i].point, self.anchors[i], &mut block);
             self.blocks.push(block);
         }
         for (sample, foot) in samples.iter().zip(feet) {
@@ -495,42 +489,6 @@ fn shorter_side(chain: &Chain, i: usize) -> f64 {
         .flatten()
         .map(length);
     sides.fold(f64::INFINITY, f64::min)
-}
-
-/// Cost of a node's way from where it was.
-fn anchor_prior(at: Point, (anchor, tight): (Point, f64), block: &mut Block) -> f64 {
-    let d = at - anchor;
-    block.gradient[0] += d.x * tight;
-    block.gradient[1] += d.y * tight;
-    block.hessian[0][0] += tight;
-    block.hessian[1][1] += tight;
-    0.5 * tight * d.hypot2()
-}
-
-/// Cost of a cubic's handles by themselves, and its rows.
-fn handle_prior(chain: &Chain, segment: usize, block: &mut Block) -> f64 {
-    if chain.kinds[segment] == Kind::Line {
-        return 0.0;
-    }
-    let (a, b) = chain.ends(segment);
-    let (a, b) = (&chain.nodes[a], &chain.nodes[b]);
-    let chord = a.point.distance(b.point).max(1e-9);
-    let mut cost = 0.0;
-    for (k, handle) in [(3, a.ahead), (4, b.back)] {
-        let off = (handle / chord - HANDLE) / HANDLE_SPREAD;
-        let slope = 1.0 / (chord * HANDLE_SPREAD);
-        cost += 0.5 * off * off;
-        block.gradient[k] += off * slope;
-        block.hessian[k][k] += slope * slope;
-        let over = (handle / chord - LONGEST) / LONGEST_SPREAD;
-        if over > 0.0 {
-            let slope = 1.0 / (chord * LONGEST_SPREAD);
-            cost += 0.5 * over * over;
-            block.gradient[k] += over * slope;
-            block.hessian[k][k] += slope * slope;
-        }
-    }
-    cost
 }
 
 /// How the distance at a foot changes with the eight numbers of its segment.

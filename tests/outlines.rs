@@ -1,0 +1,309 @@
+//! Drawings with a known edge through the whole trace: where their outlines run, and what they never do.
+
+use khatt::pipeline::picture::{Options, to_picture, trace_picture};
+use khatt::types::Gray;
+use kurbo::{BezPath, ParamCurve, ParamCurveArclen, PathEl, PathSeg, Point, Shape, Vec2};
+
+/// A picture of `side` px squared, y down, of the points where `distance` is below 0; 8 × 8 samples a pixel.
+fn picture(side: usize, distance: impl Fn(Point) -> f64) -> Gray {
+    Gray::from_fn(side, side, |x, y| {
+        let at = |p: usize, i: u16| p as f64 + (f64::from(i) + 0.5) / 8.0;
+        let inside = |i: &u16| distance(Point::new(at(x, i % 8), at(y, i / 8))) < 0.0;
+        (0..64).filter(inside).count() as f32 / 64.0
+    })
+}
+
+/// Outlines in the picture's own space, y down.
+fn outlines(gray: &Gray) -> Vec<BezPath> {
+    traced(gray, &Options::default())
+}
+
+fn traced(gray: &Gray, options: &Options) -> Vec<BezPath> {
+    let flip = to_picture(gray);
+    let paths = trace_picture(gray, options).expect("default options are in their ranges");
+    paths.iter().map(|p| flip * p).collect()
+}
+
+/// Points along a path, a quarter of a pixel apart.
+fn points(path: &BezPath) -> Vec<Point> {
+    let along = |s: PathSeg| {
+        let n = (s.arclen(0.1) * 4.0).ceil().max(1.0);
+        let steps = (0..).map(f64::from).take_while(move |i| *i < n);
+        steps.map(move |i| s.eval(i / n))
+    };
+    path.segments().flat_map(along).collect()
+}
+
+/// The largest distance of outlines from the drawn edge.
+fn off(paths: &[BezPath], distance: impl Fn(Point) -> f64) -> f64 {
+    let all = paths.iter().flat_map(points);
+    all.map(|p| distance(p).abs()).fold(0.0, f64::max)
+}
+
+/// Turns at the nodes of a path, degrees.
+fn turns(path: &BezPath) -> Vec<f64> {
+    let way = |s: &PathSeg, from: f64, to: f64| {
+        let d = s.eval(to) - s.eval(from);
+        d / d.hypot().max(1e-12)
+    };
+    let all: Vec<PathSeg> = path.segments().filter(|s| s.arclen(0.1) > 1e-6).collect();
+    let before = all.iter().cycle().skip(all.len() - 1);
+    let pairs = all.iter().zip(before);
+    let turn = |(b, a): (&PathSeg, &PathSeg)| {
+        let (u, v) = (way(a, 1.0 - 1e-4, 1.0), way(b, 0.0, 1e-4));
+        u.cross(v).atan2(u.dot(v)).abs().to_degrees()
+    };
+    pairs.map(turn).collect()
+}
+
+fn nodes(path: &BezPath) -> usize {
+    path.segments().filter(|s| s.arclen(0.1) > 1e-6).count()
+}
+
+/// Distance from a box of half sides `half` around `centre` with rounded corners.
+fn rounded(p: Point, centre: Point, half: f64, radius: f64) -> f64 {
+    let d = p - centre;
+    let q = Vec2::new(d.x.abs() - half + radius, d.y.abs() - half + radius);
+    let outside = Vec2::new(q.x.max(0.0), q.y.max(0.0)).hypot();
+    outside + q.x.max(q.y).min(0.0) - radius
+}
+
+const CENTRE: Point = Point::new(48.3, 47.8);
+
+#[test]
+fn a_disk_has_its_extrema() {
+    let disk = |p: Point| p.distance(CENTRE) - 36.4;
+    let got = outlines(&picture(96, disk));
+    assert_eq!((got.len(), nodes(&got[0])), (1, 4));
+    assert!(off(&got, disk) < 0.05, "{}", off(&got, disk));
+    for s in got[0].segments() {
+        let d = s.start() - CENTRE;
+        assert!(d.x.abs().min(d.y.abs()) < 0.1, "{d:?}");
+    }
+}
+
+#[test]
+fn a_square_has_four_lines() {
+    let square = |p: Point| rounded(p, CENTRE, 30.2, 0.0);
+    let got = outlines(&picture(96, square));
+    assert_eq!((got.len(), nodes(&got[0])), (1, 4));
+    assert!(got[0].segments().all(|s| matches!(s, PathSeg::Line(_))));
+    assert!(off(&got, square) < 0.03, "{}", off(&got, square));
+}
+
+#[test]
+fn a_rounded_square_has_no_corner() {
+    let drawn = |p: Point| rounded(p, CENTRE, 36.2, 12.0);
+    let got = outlines(&picture(96, drawn));
+    assert!(off(&got, drawn) < 0.1, "{}", off(&got, drawn));
+    assert!(nodes(&got[0]) <= 8, "{}", nodes(&got[0]));
+    assert!(turns(&got[0]).iter().all(|t| *t < 1.0));
+}
+
+#[test]
+fn a_cusp_keeps_its_tip() {
+    // a drop: a disk and the two tangents from a point
+    let tip = Point::new(48.3, 8.2);
+    let (centre, radius) = (Point::new(48.3, 64.0), 22.0);
+    let half = (radius / tip.distance(centre)).asin();
+    let inside = |p: Point| {
+        let d = p - tip;
+        let wedge =
+            d.x.atan2(d.y).abs() < half && d.dot(d) < (centre - tip).hypot2() - radius * radius;
+        p.distance(centre) < radius || wedge
+    };
+    let got = outlines(&picture(96, |p| if inside(p) { -1.0 } else { 1.0 }));
+    assert_eq!(got.len(), 1);
+    let sharp = turns(&got[0]).iter().filter(|t| **t > 40.0).count();
+    assert_eq!(sharp, 1, "{:?}", turns(&got[0]));
+    let top = got[0].bounding_box().min_y();
+    assert!((top - tip.y).abs() < 0.5, "{top}");
+}
+
+#[test]
+fn an_s_is_smooth() {
+    // a wave with rounded ends
+    let wave = |x: f64| Point::new(x, 48.0 + 20.0 * (x / 11.0).sin());
+    let spine: Vec<Point> = (0..=720)
+        .map(|i| wave(12.0 + f64::from(i) / 10.0))
+        .collect();
+    let stroke = |p: Point| {
+        let d = spine
+            .iter()
+            .map(|q| p.distance_squared(*q))
+            .fold(f64::INFINITY, f64::min);
+        d.sqrt() - 5.3
+    };
+    let got = outlines(&picture(96, stroke));
+    assert_eq!(got.len(), 1);
+    assert!(off(&got, stroke) < 0.15, "{}", off(&got, stroke));
+    assert!(
+        turns(&got[0]).iter().all(|t| *t < 1.0),
+        "{:?}",
+        turns(&got[0])
+    );
+    assert!(nodes(&got[0]) <= 24, "{}", nodes(&got[0]));
+}
+
+#[test]
+fn hairlines_keep_their_width() {
+    let (a, b) = (Point::new(10.0, 20.0), Point::new(84.0, 71.0));
+    let along = (b - a) / (b - a).hypot();
+    let line = |p: Point| {
+        let d = p - a;
+        let (x, y) = (d.dot(along), d.cross(along));
+        (y.abs() - 0.75).max(-x).max(x - (b - a).hypot())
+    };
+    let got = outlines(&picture(96, line));
+    assert_eq!(got.len(), 1);
+    let width = got[0].area().abs() / (b - a).hypot();
+    assert!((width - 1.5).abs() < 0.1, "{width}");
+}
+
+#[test]
+fn what_almost_touches_stays_apart() {
+    let (a, b) = (Point::new(27.1, 48.0), Point::new(68.3, 48.0));
+    let both = |p: Point| (p.distance(a) - 20.0).min(p.distance(b) - 20.0);
+    let got = outlines(&picture(96, both));
+    assert_eq!(got.len(), 2, "the gap is 1.2 px");
+    assert!(off(&got, both) < 0.25, "{}", off(&got, both));
+    let [left, right] = [&got[0], &got[1]].map(|p| p.bounding_box());
+    assert!(left.max_x().min(right.max_x()) < left.min_x().max(right.min_x()));
+}
+
+#[test]
+fn a_contour_of_six_pixels_is_there() {
+    let dot = |p: Point| p.distance(Point::new(12.4, 11.7)) - 3.0;
+    let got = outlines(&picture(24, dot));
+    assert_eq!(got.len(), 1);
+    assert!(off(&got, dot) < 0.15, "{}", off(&got, dot));
+}
+
+/// A shape with curves, corners and lines, moved by `by`.
+fn leaf(p: Point, by: Vec2) -> f64 {
+    let p = p - by;
+    let lens =
+        (p.distance(Point::new(20.0, 48.0)) - 46.0).max(p.distance(Point::new(70.0, 40.0)) - 46.0);
+    lens.max(p.y - 70.0)
+}
+
+#[test]
+fn a_shift_shifts() {
+    let still = outlines(&picture(96, |p| leaf(p, Vec2::ZERO)));
+    for by in [(0.37, 0.21), (0.5, 0.5), (0.81, 0.09)] {
+        let by = Vec2::from(by);
+        let moved = outlines(&picture(96, |p| leaf(p, by)));
+        assert_eq!(nodes(&moved[0]), nodes(&still[0]), "{by:?}");
+        let off = off(&moved, |p| leaf(p, by));
+        assert!(off < 0.25, "{by:?}: {off}");
+    }
+}
+
+#[test]
+fn a_quarter_turn_turns() {
+    let gray = picture(96, |p| leaf(p, Vec2::ZERO));
+    let turned = Gray::from_fn(96, 96, |x, y| gray.at(y, 95 - x));
+    let (a, b) = (outlines(&gray), outlines(&turned));
+    // (x, y) came from (y, 96 − x): back again
+    let back = kurbo::Affine::new([0.0, -1.0, 1.0, 0.0, 0.0, 96.0]);
+    let b: Vec<BezPath> = b.iter().map(|p| back * p).collect();
+    assert_eq!(nodes(&a[0]), nodes(&b[0]));
+    let near = |p: &Point| {
+        points(&b[0])
+            .iter()
+            .map(|q| q.distance(*p))
+            .fold(f64::INFINITY, f64::min)
+    };
+    let worst = points(&a[0]).iter().map(near).fold(0.0, f64::max);
+    // the points along both are a quarter of a pixel apart
+    assert!(worst < 0.25, "{worst}");
+}
+
+#[test]
+fn the_level_moves_outlines_by_little() {
+    let gray = picture(96, |p| leaf(p, Vec2::ZERO));
+    let at = |level: f64| {
+        let mut options = Options::default();
+        options.trace.level = level;
+        let area: f64 = traced(&gray, &options).iter().map(Shape::area).sum();
+        area.abs()
+    };
+    let edge = outlines(&gray)[0].perimeter(0.1);
+    for level in [0.4, 0.45, 0.5, 0.55] {
+        let moved = (at(level) - at(level + 0.02)).abs() / edge;
+        assert!(moved < 0.05, "{level}: {moved} px");
+    }
+}
+
+/// A blob of some waves around a circle.
+fn blob(p: Point, seed: u32) -> f64 {
+    let d = p - Point::new(48.0, 48.0);
+    let phase = f64::from(seed) * 1.7;
+    let waves = [
+        (2.0, 4.0),
+        (3.0, 3.0),
+        (5.0, 2.0),
+        (7.0, f64::from(seed % 3)),
+    ];
+    let bumps: f64 = waves
+        .iter()
+        .map(|(k, a)| a * (k * d.atan2() + phase * k).sin())
+        .sum();
+    d.hypot() - 30.0 - bumps
+}
+
+#[test]
+fn outlines_do_not_cross_themselves() {
+    for seed in 0..12 {
+        let gray = picture(96, |p| blob(p, seed));
+        for path in outlines(&gray) {
+            let mut ring = Vec::new();
+            kurbo::flatten(&path, 0.05, |el| match el {
+                PathEl::MoveTo(p) | PathEl::LineTo(p) => ring.push(p),
+                _ => {}
+            });
+            assert_eq!(crossings(&ring), 0, "{seed}");
+        }
+    }
+}
+
+/// Pairs of edges of a ring that cross, neighbours left out.
+fn crossings(ring: &[Point]) -> usize {
+    let edges: Vec<(Point, Point)> = ring
+        .iter()
+        .copied()
+        .zip(ring.iter().copied().cycle().skip(1))
+        .collect();
+    let side = |a: Point, b: Point, p: Point| (b - a).cross(p - a);
+    let cross = |(a, b): (Point, Point), (c, d): (Point, Point)| {
+        side(a, b, c) * side(a, b, d) < 0.0 && side(c, d, a) * side(c, d, b) < 0.0
+    };
+    let pairs = (0..edges.len()).flat_map(|i| (i + 2..edges.len()).map(move |j| (i, j)));
+    pairs.filter(|&(i, j)| cross(edges[i], edges[j])).count()
+}
+
+#[test]
+fn no_ink_is_lost() {
+    // disks of 1.3 to 4.3 px, on a jittered grid, all above the speckle limit of 4 px²
+    let dots: Vec<(Point, f64)> = (0..36_u32)
+        .map(|i| {
+            let jitter = |k: u32| f64::from((i * k) % 17) / 17.0;
+            let at = Point::new(
+                10.0 + 15.0 * f64::from(i % 6) + jitter(5),
+                10.0 + 15.0 * f64::from(i / 6) + jitter(11),
+            );
+            (at, 1.3 + 3.0 * jitter(7))
+        })
+        .collect();
+    let ink = |p: Point| {
+        dots.iter()
+            .map(|(c, r)| p.distance(*c) - r)
+            .fold(f64::INFINITY, f64::min)
+    };
+    let got = outlines(&picture(96, ink));
+    assert_eq!(got.len(), dots.len());
+    for (c, r) in dots {
+        let here = got.iter().filter(|p| p.winding(c) != 0).count();
+        assert_eq!(here, 1, "a disk of {r} px at {c}");
+    }
+}
