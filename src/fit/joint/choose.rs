@@ -8,9 +8,9 @@ use crate::numeric::chain::{Chain, Join, Kind, Node};
 use crate::numeric::refit::Foot;
 
 /// Segments that cost so much more than their structure are not lengthened further.
-const HOPELESS: f64 = 50.0;
+const HOPELESS: f64 = 36.0;
 /// Consecutive hopeless lengthenings before giving up: noise may pass.
-const PATIENCE: usize = 3;
+const PATIENCE: usize = 2;
 #[derive(Debug, Clone, Copy)]
 struct State {
     cost: f64,
