@@ -200,6 +200,11 @@ fn what_is_no_font_is_named() {
         read::svg(&[("x.svg".to_owned(), empty.to_vec())]),
         Err(ReadError::Empty)
     ));
+    let far = br#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 9 9"><path d="M1 5Q5 9 2 7T1 599999999999z"/></svg>"#;
+    assert!(matches!(
+        read::svg(&[("x.svg".to_owned(), far.to_vec())]),
+        Err(ReadError::Damaged { .. })
+    ));
     let axis = read::font(&written("ttf"), &[("wght".to_owned(), 700.0)]);
     assert!(matches!(axis, Err(ReadError::Axis(..))), "{axis:?}");
 }

@@ -84,6 +84,9 @@ pub(super) fn resolve(
     Ok((project, remarks))
 }
 
+/// A page has fewer cells than this.
+const MOST_CELLS: usize = 1_000_000;
+
 /// Confidence from which a cell is named by what it looks like.
 const NAMED: f64 = 0.5;
 
@@ -150,9 +153,11 @@ pub(super) fn doubts(
 fn sheet_labels(sheet: &SheetTable, world: World<'_>) -> Result<Vec<Label>, Problem> {
     match (sheet.glyphs.is_auto(), sheet.layout) {
         (false, _) => labels::of_sheet(sheet, world),
-        (true, Layout::Grid(rows, columns)) => {
-            Ok(vec![Label("?".to_owned()); rows.saturating_mul(columns)])
-        }
+        // a grid of more cells than this is refused when it is cut
+        (true, Layout::Grid(rows, columns)) => Ok(vec![
+            Label("?".to_owned());
+            rows.saturating_mul(columns).min(MOST_CELLS)
+        ]),
         (true, _) => Err(Problem::Sheet {
             sheet: sheet.name(),
             why: "glyphs = \"auto\" needs layout = { grid = [rows, columns] }".to_owned(),

@@ -2,11 +2,13 @@
 
 use super::{Names, ReadError, Reading, notdef};
 use crate::types::{Font, Glyph, Info, Metrics, Outline};
-use kurbo::{Affine, BezPath, Point, Shape};
+use kurbo::{Affine, BezPath, Point, Rect, Shape};
 use std::path::Path as FilePath;
 use usvg::tiny_skia_path::{Path, PathSegment, Point as PathPoint};
 use usvg::{FillRule, Node, Options, Tree};
 
+/// The largest coordinate that the tables of a font hold, font units.
+const FARTHEST: f64 = 32_767.0;
 /// Units an em of the font that drawings make.
 const EM: f64 = 1000.0;
 
@@ -62,6 +64,12 @@ pub fn svg(files: &[(String, Vec<u8>)]) -> Result<Reading, ReadError> {
     Ok(Reading { font, lost })
 }
 
+/// The largest coordinate, either way.
+fn farthest(bounds: Rect) -> f64 {
+    let sides = [bounds.x0, bounds.y0, bounds.x1, bounds.y1];
+    sides.iter().fold(0.0, |far, v| v.abs().max(far))
+}
+
 struct Drawing {
     outline: Outline,
     width: f64,
@@ -87,6 +95,11 @@ fn drawing(bytes: &[u8], file: &str, lost: &mut Vec<String>) -> Result<Drawing, 
     let mut contours = Vec::new();
     collect(tree.root(), place, &mut contours, (file, lost));
     let outline = Outline::new(contours).map_err(|e| bad(&e))?;
+    if let Some(far) = outline.bounds().map(farthest).filter(|far| *far > FARTHEST) {
+        return Err(bad(&format!(
+            "a coordinate is {far:.0} font units; no font holds more than {FARTHEST}"
+        )));
+    }
     Ok(Drawing {
         outline,
         width: bw * scale,

@@ -111,7 +111,9 @@ pub enum ScanError {
         what: &'static str,
     },
     /// A layout without rows or columns.
-    #[error("a grid needs at least one row and one column, not {rows} × {columns}")]
+    #[error(
+        "a grid of {rows} × {columns} cells does not fit the picture: it needs at least one row and one column, and a few pixels for each"
+    )]
     NoGrid {
         /// rows asked for
         rows: usize,

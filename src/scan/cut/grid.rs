@@ -22,6 +22,9 @@ const SMALL: f64 = 0.4;
 /// Ink in a cell without a name counts from this share of a usual cell's ink.
 const COUNTS: f64 = 0.1;
 
+/// A cell is at least this large, px.
+const LEAST_CELL: usize = 4;
+
 /// The grid that a user said.
 pub(super) struct Plan<'a> {
     rows: usize,
@@ -38,7 +41,9 @@ impl<'a> Plan<'a> {
         columns: usize,
     ) -> Result<Self, ScanError> {
         let source = page.sheet.source.as_str();
-        let fine = rows > 0 && columns > 0;
+        let gray = &page.sheet.gray;
+        let fits = |n: usize, side: usize| n > 0 && n <= side / LEAST_CELL;
+        let fine = fits(rows, gray.height()) && fits(columns, gray.width());
         fine.then_some(Self {
             rows,
             columns,

@@ -215,7 +215,10 @@ fn names_and_cells_must_agree() {
     );
     let blank = cut_page(&Paper::new(300, 300, 0.0), "a", &grid).unwrap_err();
     assert!(matches!(blank, ScanError::Blank { .. }), "{blank}");
-    assert!(cut_page(&paper, NAMES, &options(Layout::Grid(0, 5))).is_err());
+    for (rows, columns) in [(0, 5), (4, 99_999_999_999), (usize::MAX, usize::MAX)] {
+        let none = cut_page(&paper, NAMES, &options(Layout::Grid(rows, columns))).unwrap_err();
+        assert!(matches!(none, ScanError::NoGrid { .. }), "{none}");
+    }
     let mut holed = grid_page(0.0);
     holed
         .bars

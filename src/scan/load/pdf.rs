@@ -3,7 +3,7 @@
 use crate::scan::error::{MAX_PIXELS, ScanError};
 use hayro_syntax::Pdf;
 use hayro_syntax::object::stream::{FilterResult, ImageDecodeParams};
-use hayro_syntax::object::{Array, Name, Stream};
+use hayro_syntax::object::{Array, Dict, Name, Stream};
 use hayro_syntax::page::{Page, Rotation};
 use image::{DynamicImage, GrayImage, RgbImage};
 
@@ -61,6 +61,11 @@ fn page(
             height,
         });
     }
+    if claims_more(stream.dict(), width.max(height)) {
+        return Err(fail(
+            "its scan's coding claims other rows and columns than the scan has",
+        ));
+    }
     let image = decode(&stream, (width, height)).map_err(fail)?;
     let media = page.media_box();
     let (across, down) = (
@@ -79,6 +84,20 @@ fn page(
         Rotation::FlippedHorizontal => image.rotate270(),
     };
     Ok((turned, dpi))
+}
+
+/// Whether the parameters of its coding claim rows or columns far beyond its longer side, by which a decoder would
+/// take memory.
+fn claims_more(dict: &Dict<'_>, longer: u32) -> bool {
+    let most = 64.0 + 4.0 * f64::from(longer);
+    let beyond = |p: &Dict<'_>| {
+        let numbers = ["Columns", "Rows", "Colors"].map(|key| p.get::<f64>(key));
+        numbers.into_iter().flatten().any(|n| n.abs() > most)
+    };
+    let one = dict.get::<Dict<'_>>("DecodeParms");
+    let several = dict.get::<Array<'_>>("DecodeParms");
+    let several = several.iter().flat_map(|a| a.iter::<Dict<'_>>());
+    one.into_iter().chain(several).any(|p| beyond(&p))
 }
 
 /// The picture of a stream; what is wrong with it otherwise.

@@ -245,6 +245,26 @@ fn pdf_file(entries: &str, data: &[u8]) -> Vec<u8> {
 }
 
 #[test]
+fn a_pdf_that_claims_what_its_scan_has_not() {
+    let coding = "/BitsPerComponent 1 /ColorSpace /DeviceGray /Filter [/CCITTFaxDecode]";
+    for claim in [
+        "/Columns 99999999999",
+        "/Columns 40 /Rows 99999999",
+        "/Columns -99999999",
+    ] {
+        let file = pdf_file(
+            &format!("{coding} /DecodeParms [<< /K -1 {claim} >>]"),
+            b"\x00\x10",
+        );
+        let wrong = load(&file, "page.pdf", Polarity::Auto).unwrap_err();
+        assert!(
+            matches!(wrong, ScanError::Decode { .. }),
+            "{claim}: {wrong}"
+        );
+    }
+}
+
+#[test]
 fn a_pdf_gives_the_scan_of_its_page() {
     let grey = picture();
     let plain = pdf_file("/ColorSpace /DeviceGray /BitsPerComponent 8", grey.as_raw());
