@@ -1,6 +1,6 @@
 # Targets a user types. `cargo` is all they need.
 
-.PHONY: all font test check bench clean
+.PHONY: all font test check bench fuzz clean
 
 all: font
 
@@ -17,6 +17,9 @@ check: ## the gate: format, lints, tests, docs
 bench: ## the papers' tables on the silhouettes of the folder SHAPES
 	cargo bench --locked --quiet --bench papers -- $(SHAPES)
 
+fuzz: ## broken inputs at every door, 10 seconds each; `cargo fuzz` goes deeper, see fuzz/README.md
+	cargo run --release --quiet --manifest-path fuzz/Cargo.toml -- --seconds 10
+
 clean: ## what was built
 	cargo clean --quiet
-	rm -rf build
+	rm -rf build fuzz/target

@@ -9,9 +9,15 @@ const ALPHABET: &str = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123
 /// The Adobe Glyph List names few characters beyond: East Asian ones and dingbats.
 const LAST_NAMED: u32 = 0x2300;
 
+/// No font holds a longer name; looking for what is like it would take seconds.
+const LONGEST: usize = 63;
+
 /// The nearest known name: one edit or a script's suffix away among all names, or up to a third of
 /// its letters away among those of the Adobe Glyph List.
 pub(super) fn name(base: &str) -> Option<String> {
+    if base.len() > LONGEST {
+        return None;
+    }
     let known = |n: &String| characters(n).is_some();
     let mut close = with_script(base).chain(edits(base)).filter(known);
     close.next().or_else(|| listed(base))
@@ -87,6 +93,11 @@ fn distance(a: &str, b: &str) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn no_name_is_near_to_a_long_one() {
+        assert_eq!(name(&"x".repeat(1_000_000)), None);
+    }
 
     #[test]
     fn distances() {

@@ -77,6 +77,11 @@ impl Opened {
     /// A file that the project names, or why there is none.
     fn read(&self, path: &Path) -> Result<Vec<u8>, String> {
         let path = self.path(path);
+        // a pipe or a device could go on for ever
+        let file = fs::metadata(&path).map_err(|e| e.to_string())?;
+        if !file.is_file() {
+            return Err("this is no regular file".to_owned());
+        }
         let bytes = fs::read(&path).map_err(|e| e.to_string())?;
         let mut inputs = self.inputs.lock().unwrap_or_else(PoisonError::into_inner);
         if !inputs.contains(&path) {

@@ -8,7 +8,8 @@ use crate::{
     types::Gray,
 };
 use kurbo::{Affine, BezPath};
-use serde::{Deserialize, Serialize};
+use serde::de::Error;
+use serde::{Deserialize, Deserializer, Serialize};
 
 /// How a picture becomes curves.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -21,7 +22,18 @@ pub struct Options {
     /// Curves.
     pub fit: fit::Method,
     /// Distance between contour and curve that a fitter aims at, px.
+    #[serde(deserialize_with = "tolerance")]
     pub tolerance_px: f64,
+}
+
+/// A distance in px that a fitter can aim at.
+fn tolerance<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
+    let px = f64::deserialize(from)?;
+    if (0.001..=1000.0).contains(&px) {
+        Ok(px)
+    } else {
+        Err(D::Error::custom("must be between 0.001 and 1000 pixels"))
+    }
 }
 
 impl Default for Options {

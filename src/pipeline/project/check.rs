@@ -19,20 +19,6 @@ pub(super) fn named<'de, D: Deserializer<'de>>(from: D) -> Result<String, D::Err
     Ok(text)
 }
 
-/// One path, or a list of them.
-pub(super) fn paths<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<PathBuf>, D::Error> {
-    #[derive(Deserialize)]
-    #[serde(untagged, expecting = "must be a path or a list of paths")]
-    enum Paths {
-        One(PathBuf),
-        Many(Vec<PathBuf>),
-    }
-    Ok(match Paths::deserialize(from)? {
-        Paths::One(path) => vec![path],
-        Paths::Many(paths) => paths,
-    })
-}
-
 pub(super) fn version<'de, D: Deserializer<'de>>(from: D) -> Result<String, D::Error> {
     let text = String::deserialize(from)?;
     match super::font::version_numbers(&text) {
@@ -82,13 +68,17 @@ pub(super) fn slant<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error>
 
 /// Largest size in px or font units: what a font file's 16 bits hold.
 const LARGEST: f64 = 32767.0;
+/// Smallest size: below, coordinates leave these bits by far.
+const SMALLEST: f64 = 0.01;
 
 pub(super) fn optional_size<'de, D: Deserializer<'de>>(from: D) -> Result<Option<f64>, D::Error> {
     let size = f64::deserialize(from)?;
-    if size > 0.0 && size <= LARGEST {
+    if (SMALLEST..=LARGEST).contains(&size) {
         Ok(Some(size))
     } else {
-        Err(D::Error::custom("must be above 0 and at most 32767"))
+        Err(D::Error::custom(
+            "must be above 0, at least 0.01, and at most 32767",
+        ))
     }
 }
 

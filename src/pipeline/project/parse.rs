@@ -104,6 +104,7 @@ ttf = "build/KhattLatin.ttf"
             ("1000", "\"x\"", "invalid type", "\"x\"", ""),
             ("504", "-1", "must be above 0", "-1", ""),
             ("504", "nan", "must be above 0", "nan", ""),
+            ("504", "1e-300", "must be above 0", "1e-300", ""),
             ("grid", "grad", "unknown variant", "grad", "grid"),
         ];
         for (right, wrong, message, at, help) in cases {
