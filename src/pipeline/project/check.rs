@@ -69,7 +69,7 @@ pub(super) fn slant<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error>
 /// Largest size in px or font units: what a font file's 16 bits hold.
 const LARGEST: f64 = 32767.0;
 /// Smallest size: below, coordinates leave these bits by far.
-const SMALLEST: f64 = 0.01;
+const SMALLEST: f64 = 0.001;
 
 pub(super) fn optional_size<'de, D: Deserializer<'de>>(from: D) -> Result<Option<f64>, D::Error> {
     let size = f64::deserialize(from)?;
@@ -77,7 +77,7 @@ pub(super) fn optional_size<'de, D: Deserializer<'de>>(from: D) -> Result<Option
         Ok(Some(size))
     } else {
         Err(D::Error::custom(
-            "must be above 0, at least 0.01, and at most 32767",
+            "must be above 0, at least 0.001, and at most 32767",
         ))
     }
 }
