@@ -71,7 +71,7 @@ pub struct Project {
 pub struct MatchTable {
     /// TTF or OTF fonts, relative to the project file, one or a list of which the nearest letter counts;
     /// without one labels are believed.
-    #[serde(deserialize_with = "check::one_or_several")]
+    #[serde(deserialize_with = "check::paths")]
     pub reference: Vec<PathBuf>,
     /// What is compared.
     pub method: recognise::Method,
