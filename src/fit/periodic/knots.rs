@@ -10,9 +10,6 @@ const MARGIN: f64 = 0.25;
 const FAR: f64 = 4.0;
 /// Knots that are tried in vain before the search for a better place ends.
 const VAIN: usize = 6;
-/// A knot is taken out where the squared leap of the third derivative is such a part of the largest: on a
-/// circle all are alike, and taking any out would be by chance.
-const EVEN: f64 = 0.06;
 /// Points times trials that the search may take: some seconds.
 const EFFORT: usize = 60_000;
 /// And trials at most.
@@ -51,7 +48,7 @@ impl Task<'_> {
             };
             let cut = i as f64 + worst[i].1.clamp(MARGIN, 1.0 - MARGIN);
             let Some(&out) = self
-                .evenest(&state, 1.0)
+                .evenest(&state)
                 .iter()
                 .filter(|&&k| k != i && k != i + 1)
                 .nth(vain)
@@ -75,40 +72,20 @@ impl Task<'_> {
     /// End points taken out until so many pieces are left.
     pub(super) fn reduce(&self, mut state: State, pieces: usize) -> Option<State> {
         while state.spline.pieces() > pieces {
-            let out = *self.evenest(&state, 1.0).first()?;
+            let out = *self.evenest(&state).first()?;
             let knots = (0..=state.spline.pieces()).filter(|&k| k != out);
             state = self.settled(self.reknot(&state, knots.map(|k| k as f64).collect())?);
         }
         Some(state)
     }
 
-    /// End points taken out as long as the tolerance is kept.
-    pub(super) fn thin(&self, mut state: State) -> State {
-        let mut vain = 0;
-        for _ in 0..self.trials() {
-            let Some(&out) = self.evenest(&state, EVEN).get(vain) else {
-                break;
-            };
-            let knots = (0..=state.spline.pieces()).filter(|&k| k != out);
-            let fewer = self.reknot(&state, knots.map(|k| k as f64).collect());
-            match fewer.map(|s| self.settled(s)).filter(|s| self.meets(s)) {
-                Some(thinner) => (state, vain) = (thinner, 0),
-                None => vain += 1,
-            }
-            if vain == VAIN {
-                break;
-            }
-        }
-        state
-    }
-
     pub(super) fn trials(&self) -> usize {
         TRIALS.min(EFFORT / self.points.len().max(1))
     }
 
-    /// The knots inside, the one first whose removal changes the spline least: by the square of the leap of
-    /// its third derivative, which is at most `even` of the largest.
-    fn evenest(&self, state: &State, even: f64) -> Vec<usize> {
+    /// The knots inside, the one first whose removal changes the spline least: by the leap of its
+    /// third derivative.
+    fn evenest(&self, state: &State) -> Vec<usize> {
         let (v, pieces) = (&state.spline.vertices, state.spline.pieces());
         if pieces <= 4 {
             return Vec::new();
@@ -119,7 +96,6 @@ impl Task<'_> {
         // Equal but for the noise of arithmetic counts as equal, so that a shift changes nothing.
         let level = |i: usize| (1e6 * leap(i) / most).round();
         let mut leaps: Vec<(f64, usize)> = (1..pieces).map(|i| (level(i), i)).collect();
-        leaps.retain(|l| l.0 <= 1e6 * even);
         leaps.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         leaps.into_iter().map(|(_, i)| i).collect()
     }

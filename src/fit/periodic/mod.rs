@@ -11,7 +11,7 @@
 //!          paper's 1 the feet around sharp corners held the curve back (measured: Africa, rms 3.8 for 0.9 px);
 //!          the quintics of five pieces around are solved, not of all: a foot on the far side of a stroke is
 //!          wrong even when nearer; control points are added in several places at once (step 0: in one), and
-//!          taken out, or moved where their number is given, as long as that helps;
+//!          where their number is given taken out of more and moved as long as that helps;
 //!          a ring is settled by linear least squares before BFGS;
 //!          open spans, which the paper leaves out, pass through their ends
 //! Cost     O(n + m^2) a BFGS step for n points, m control points      Fails  never; Verdict::Exhausted when
@@ -210,14 +210,7 @@ impl<'a> Task<'a> {
         }
         let state = match count {
             Some(count) => self.exactly(state, count),
-            None => {
-                let grown = self.grow(state, most);
-                if self.meets(&grown) {
-                    self.thin(grown)
-                } else {
-                    grown
-                }
-            }
+            None => self.grow(state, most),
         };
         let within = self.meets(&state);
         let (last, _) = self.descend(state.clone(), self.options.iterations, FINE);
