@@ -29,6 +29,9 @@ const BLANK: f64 = 2e-6;
 /// Bins of the histograms, over −¼…1.
 const BINS: usize = 1280;
 
+/// A page that covers less than this share of its picture is surely surrounded by something else.
+const SURROUNDED: f64 = 0.5;
+
 /// A page with its light evened out.
 #[derive(Debug, Clone)]
 pub struct Page {
@@ -42,18 +45,19 @@ pub struct Page {
     pub(super) paper: Option<Paper>,
 }
 
-/// Evens out the light of a page.
+/// Evens out the light of a page. Where the paper covers less than half of the picture, what lies beside it counts
+/// for nothing.
 ///
 /// # Errors
 /// Nothing on the page is darker than its paper.
 pub fn clean(sheet: Sheet) -> Result<Page, ScanError> {
     let field = Field::measure(&sheet.gray);
-    even(sheet, &field, None)
+    let paper = Paper::find(&field.values, field.columns, field.block);
+    even(sheet, &field, paper.filter(|p| p.share < SURROUNDED))
 }
 
-/// The same where a picture shows more than the page: what lies beside the paper counts for nothing. `None` where
-/// the picture shows one sheet of paper alone. A shadow with a sharp edge looks like the paper's end, so this is
-/// for pictures that cannot be cut otherwise.
+/// The same wherever a picture shows more than the page; `None` where it shows one sheet of paper alone. A shadow
+/// with a sharp edge looks like the paper's end, so this is for pictures that cannot be cut otherwise.
 ///
 /// # Errors
 /// Nothing on the page is darker than its paper.

@@ -16,6 +16,8 @@ pub(super) struct Paper {
     block: usize,
     columns: usize,
     inside: Vec<bool>,
+    /// Share of the picture that it covers.
+    pub(super) share: f64,
 }
 
 impl Paper {
@@ -41,6 +43,7 @@ impl Paper {
             block,
             columns,
             inside,
+            share,
         })
     }
 

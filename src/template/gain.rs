@@ -28,6 +28,8 @@ const REACH: f64 = 0.6;
 const BIN: f64 = 0.02;
 /// How far from a true edge its profile is taken for straight. mm
 const MIDDLE: f64 = 0.05;
+/// A level nearer to a half than this is taken for a half: following it moved weights no nearer to the truth.
+const LEAST_SHIFT: f64 = 0.03;
 /// The contour's level stays within this of a half: further off, thin strokes break or fill.
 const MOST_SHIFT: f64 = 0.2;
 
@@ -35,6 +37,9 @@ impl Gain {
     /// The coverage at which contours are to run.
     #[must_use]
     pub fn level(&self) -> f64 {
+        if (self.edge_level - 0.5).abs() < LEAST_SHIFT {
+            return 0.5;
+        }
         self.edge_level.clamp(0.5 - MOST_SHIFT, 0.5 + MOST_SHIFT)
     }
 }
