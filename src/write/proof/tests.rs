@@ -54,6 +54,19 @@ fn what_a_user_wrote_is_escaped() {
 }
 
 #[test]
+fn text_is_set_in_the_built_font() {
+    let css = include_str!("proof.css");
+    for selector in [".set", "#waterfall span", ".sample"] {
+        let rules = css.split('}').filter_map(|rule| rule.split_once('{'));
+        let mut fonts = rules.filter(|(to, _)| to.split(',').any(|s| s.trim() == selector));
+        assert!(
+            fonts.any(|(_, rule)| rule.contains("font-family: proofed")),
+            "{selector}"
+        );
+    }
+}
+
+#[test]
 fn remarks_and_what_was_left_out_are_shown() {
     let page = proof(&[entry("a", "a")]);
     assert!(page.contains("it looks &lt;odd&gt;"));
