@@ -3,6 +3,7 @@
 mod cells;
 mod cli;
 mod common;
+mod compose;
 mod convert;
 mod demo;
 mod detectors;

@@ -1,10 +1,12 @@
 //! Two hundred Arabic words, set: every join overlaps and has no step.
 
+use crate::common::demo::{self, Demo, output};
 use crate::fonts::{set, single};
 use khatt::assemble::{self, Assembled, Drawn, Options};
 use khatt::types::{Font, Info, Label, Outline};
 use khatt::write::layout;
-use kurbo::{BezPath, Line, ParamCurve, Point, Rect, Shape};
+use kurbo::{Affine, BezPath, Line, ParamCurve, PathEl, Point, Rect, Shape};
+use std::collections::BTreeSet;
 
 /// Letters that join on both sides, and those that join only the letter before them.
 const DUAL: &str = "بتثجحخسشصضطظعغفقكلمنهيئ";
@@ -157,6 +159,89 @@ fn two_hundred_words_join() {
         }
     }
     assert!(joins > 350, "the words have {joins} joins");
+}
+
+/// Pieces of ink of a shape drawn at that size that have ink at a height: letters' bodies. Dots may touch.
+fn bodies(shape: &BezPath, px_per_em: f64, height: f64) -> usize {
+    let shape = Affine::scale(px_per_em / 1000.0) * shape.clone();
+    let (ink, mut edges) = (shape.bounding_box(), Vec::new());
+    let (mut first, mut last) = (Point::ORIGIN, Point::ORIGIN);
+    kurbo::flatten(&shape, 0.05, |el| match el {
+        PathEl::MoveTo(to) => (first, last) = (to, to),
+        _ => {
+            let to = el.end_point().unwrap_or(first);
+            edges.push((last, to));
+            last = to;
+        }
+    });
+    let columns = |y: f64| -> Vec<usize> {
+        let cross = |&(a, b): &(Point, Point)| {
+            let up = i32::from(b.y > y) - i32::from(a.y > y);
+            (up != 0).then(|| (a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x) - ink.x0, up))
+        };
+        let mut crossings: Vec<(f64, i32)> = edges.iter().filter_map(cross).collect();
+        crossings.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let winding = |x: f64| {
+            crossings
+                .iter()
+                .take_while(|c| c.0 <= x)
+                .map(|c| c.1)
+                .sum::<i32>()
+        };
+        (0_u32..)
+            .take_while(|x| f64::from(*x) < ink.width())
+            .filter(|x| winding(f64::from(*x) + 0.5) != 0)
+            .map(|x| x as usize)
+            .collect()
+    };
+    let rows = (0_u32..).take_while(|y| f64::from(*y) < ink.height());
+    let mut left: BTreeSet<(usize, usize)> = rows
+        .flat_map(|y| {
+            columns(ink.y0 + f64::from(y) + 0.5)
+                .into_iter()
+                .map(move |x| (x + 1, y as usize + 1))
+        })
+        .collect();
+    let line = height * px_per_em / 1000.0 - ink.y0;
+    let is_there = |row: usize| (row as f64 - 1.0..row as f64).contains(&line);
+    let mut count = 0;
+    while let Some(first) = left.pop_first() {
+        let (mut open, mut is_body) = (vec![first], false);
+        while let Some((x, y)) = open.pop() {
+            is_body |= is_there(y);
+            let around = (x - 1..=x + 1).flat_map(|x| (y - 1..=y + 1).map(move |y| (x, y)));
+            open.extend(around.filter(|p| left.remove(p)));
+        }
+        count += usize::from(is_body);
+    }
+    count
+}
+
+/// Checks that a word has one body less for each join than its glyphs by themselves.
+fn is_one_body((font, otf): (&Font, &[u8]), word: &str, px_per_em: f64, height: f64) {
+    let names = set(font, otf, word);
+    let (mut whole, mut x, mut single, mut joins) = (BezPath::new(), 0.0, 0, 0);
+    for name in &names {
+        let glyph = font.glyph(name).expect("a glyph");
+        let shape = font.shape(glyph).to_path();
+        single += bodies(&shape, px_per_em, height);
+        joins += usize::from(name.ends_with(".fina") || name.ends_with(".medi"));
+        whole.extend(Affine::translate((x, 0.0)) * shape);
+        x += glyph.advance;
+    }
+    let found = bodies(&whole, px_per_em, height);
+    assert_eq!(found, single - joins, "{word} at {px_per_em} px: {names:?}");
+}
+
+#[test]
+fn joined_letters_are_one_body() {
+    let words: Vec<&str> = include_str!("words.txt").split_whitespace().collect();
+    for name in ["arabic", "rasm"] {
+        let Demo { built, outputs, .. } = demo::built(name);
+        for word in &words {
+            is_one_body((&built.font, output(outputs, "otf")), word, 96.0, 45.0);
+        }
+    }
 }
 
 #[test]

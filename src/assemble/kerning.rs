@@ -11,9 +11,10 @@ use super::Draft;
 use super::features::is_arabic;
 use super::profile::median;
 use super::spacing::Rhythm;
-use crate::types::Kerning;
+use crate::types::{Kerning, Name};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 
 /// How pairs are kerned.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -67,6 +68,7 @@ pub(super) fn pairs(
     };
     let sides: Vec<Sides> = drafts
         .iter()
+        .filter(|d| d.parts.is_empty())
         .filter_map(|d| sides(d, &rhythm, em))
         .collect();
     let furthest = FURTHEST * rhythm.counter();
@@ -93,7 +95,34 @@ pub(super) fn pairs(
             }
         }
     }
-    kerning
+    grouped(kerning, drafts)
+}
+
+/// The pairs with each letter that others are composed of in a group with them: they have its sides.
+fn grouped(kerning: Kerning, drafts: &[Draft]) -> Kerning {
+    let mut families: BTreeMap<&str, Vec<Name>> = BTreeMap::new();
+    for draft in drafts {
+        if let Some(base) = draft.parts.first().and_then(|p| drafts.get(p.draft)) {
+            let family = families.entry(base.id.name.as_str());
+            let family = family.or_insert_with(|| vec![base.id.name.clone()]);
+            family.push(draft.id.name.clone());
+        }
+    }
+    let mut out = Kerning::default();
+    let side = |name: String, groups: &mut BTreeMap<String, Vec<Name>>| match families
+        .get(name.as_str())
+    {
+        Some(family) => {
+            groups.insert(name.clone(), family.clone());
+            format!("@{name}")
+        }
+        None => name,
+    };
+    for ((first, second), value) in kerning.pairs {
+        let pair = (side(first, &mut out.first), side(second, &mut out.second));
+        out.pairs.insert(pair, value);
+    }
+    out
 }
 
 fn sides(draft: &Draft, rhythm: &Rhythm, em: f64) -> Option<Sides> {

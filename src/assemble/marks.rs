@@ -25,13 +25,13 @@ const TATWEEL: char = '\u{640}';
 
 /// Where a mark goes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Place {
+pub(super) enum Place {
     Top,
     Bottom,
 }
 
 /// Where the standard puts a combining character; none for those inside or around a letter.
-fn place(mark: char) -> Option<Place> {
+pub(super) fn place(mark: char) -> Option<Place> {
     match canonical_combining_class(mark) {
         27 | 28 | 30 | 31 | 33..=36 | 230 | 232 | 234 => Some(Place::Top),
         29 | 32 | 202 | 220 | 222 | 233 => Some(Place::Bottom),
@@ -47,7 +47,7 @@ pub(super) fn anchors(drafts: &[Draft], em: f64) -> Vec<Vec<Anchor>> {
     drafts.iter().map(|d| of_draft(d, em)).collect()
 }
 
-fn of_draft(draft: &Draft, em: f64) -> Vec<Anchor> {
+pub(super) fn of_draft(draft: &Draft, em: f64) -> Vec<Anchor> {
     let Some(ink) = draft.outline.bounds() else {
         return Vec::new();
     };
@@ -70,7 +70,7 @@ fn anchor(name: String, x: f64, y: f64) -> Anchor {
     }
 }
 
-fn of_mark(place: Place, ink: Rect, em: f64) -> Vec<Anchor> {
+pub(super) fn of_mark(place: Place, ink: Rect, em: f64) -> Vec<Anchor> {
     let x = ink.center().x;
     let (name, near, far) = match place {
         Place::Top => ("top", ink.y0, ink.y1 + GAP * em),

@@ -5,6 +5,7 @@
 //! no-break space.
 
 mod basics;
+pub mod compose;
 mod features;
 pub mod joining;
 pub mod kerning;
@@ -19,7 +20,8 @@ mod tails;
 
 pub use stroke::Side;
 
-use crate::types::{Anchor, Font, FontError, Glyph, Info, Label, Outline};
+use crate::types::{Anchor, Component, Font, FontError, Glyph, Info, Label, Name, Outline};
+use kurbo::{Affine, Vec2};
 use names::{Form, Identity, LabelError};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -79,7 +81,16 @@ pub struct Options {
     pub space: Option<f64>,
     /// Vertical measures; those left out are measured.
     pub heights: metrics::Heights,
+    /// Letters composed of others: `[compose]` of a project.
+    #[serde(skip)]
+    pub compose: compose::Options,
+    /// Anchors by hand: `[anchors]` of a project.
+    #[serde(skip)]
+    pub anchors: Anchors,
 }
+
+/// Anchors set by hand, font units: by glyph name and their own.
+pub type Anchors = BTreeMap<String, BTreeMap<String, (f64, f64)>>;
 
 /// Something that a user should know about a font that was built all the same.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
@@ -111,6 +122,17 @@ struct Draft {
     /// Left and right end of the advance where a stroke joins.
     joint: (Option<f64>, Option<f64>),
     advance: f64,
+    /// What it is composed of; empty for what was drawn.
+    parts: Vec<Part>,
+}
+
+/// A draft that is part of another.
+#[derive(Debug, Clone, Copy)]
+struct Part {
+    /// Its position among the drafts.
+    draft: usize,
+    /// From its place to the one in the whole, font units.
+    shift: Vec2,
 }
 
 impl Draft {
@@ -136,17 +158,25 @@ pub fn font(
     let (joining, mut notes) = joining::set(&mut drafts, em, &options.joining);
     let stroke = joining.contract.map(|c| c.edges.1 - c.edges.0);
     spacing::set(&mut drafts, &info, stroke, options);
+    notes.extend(compose::add(
+        &mut drafts,
+        em,
+        &options.compose,
+        &options.anchors,
+    ));
+    encode(&mut drafts);
     let rhythm = spacing::Rhythm::of(&drafts, &info);
     let kerning = kerning::pairs(&drafts, rhythm, em, &options.kerning);
     let mut glyphs = basics::glyphs(&drafts, &info, options);
     let (features, missing) = features::text(&drafts);
     notes.extend(missing);
     let anchors = marks::anchors(&drafts, em);
+    let names: Vec<Name> = drafts.iter().map(|d| d.id.name.clone()).collect();
     let letters = drafts
         .into_iter()
         .zip(anchors)
         .filter(|(d, _)| !basics::is_basic(d));
-    glyphs.extend(letters.map(|(draft, anchors)| glyph(draft, anchors)));
+    glyphs.extend(letters.map(|(draft, anchors)| glyph(draft, anchors, &names)));
     let mut font = Font::new(info, glyphs)?;
     font.features = features;
     font.kerning = kerning;
@@ -157,9 +187,18 @@ pub fn font(
     })
 }
 
-fn glyph(draft: Draft, anchors: Vec<Anchor>) -> Glyph {
+fn glyph(draft: Draft, anchors: Vec<Anchor>, names: &[Name]) -> Glyph {
+    let component = |part: &Part| {
+        Some(Component {
+            base: names.get(part.draft)?.clone(),
+            place: Affine::translate(part.shift),
+        })
+    };
+    let components: Vec<Component> = draft.parts.iter().filter_map(component).collect();
+    let own = components.is_empty().then_some(draft.outline);
     Glyph {
-        outline: draft.outline,
+        outline: own.unwrap_or_default(),
+        components,
         anchors,
         ..Glyph::new(draft.id.name, draft.codepoints, draft.advance)
     }
@@ -187,6 +226,7 @@ fn drafts(drawn: Vec<Drawn>) -> Result<Vec<Draft>, AssembleError> {
             given: shape.advance,
             joint: (None, None),
             advance: 0.0,
+            parts: Vec::new(),
         });
     }
     Ok(out)
@@ -197,6 +237,7 @@ fn drafts(drawn: Vec<Drawn>) -> Result<Vec<Draft>, AssembleError> {
 fn encode(drafts: &mut [Draft]) {
     let mut owners: BTreeMap<char, (usize, usize)> = BTreeMap::new();
     for (i, draft) in drafts.iter_mut().enumerate() {
+        draft.codepoints.clear();
         let [c] = draft.id.chars[..] else { continue };
         if draft.id.suffixes.is_empty() {
             draft.codepoints = vec![c];

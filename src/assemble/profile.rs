@@ -139,7 +139,7 @@ pub(super) fn median(values: impl Iterator<Item = f64>) -> Option<f64> {
 }
 
 /// The outline as straight edges.
-fn edges(outline: &Outline, tolerance: f64) -> Vec<(Point, Point)> {
+pub(super) fn edges(outline: &Outline, tolerance: f64) -> Vec<(Point, Point)> {
     let mut out = Vec::new();
     for contour in outline.contours() {
         let (mut start, mut at) = (Point::ORIGIN, Point::ORIGIN);
@@ -156,7 +156,7 @@ fn edges(outline: &Outline, tolerance: f64) -> Vec<(Point, Point)> {
 }
 
 /// Where the edges cross a height, in order.
-fn crossings(edges: &[(Point, Point)], y: f64) -> Vec<f64> {
+pub(super) fn crossings(edges: &[(Point, Point)], y: f64) -> Vec<f64> {
     let mut out: Vec<f64> = edges
         .iter()
         .filter(|(a, b)| (a.y <= y) != (b.y <= y))

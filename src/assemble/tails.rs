@@ -84,6 +84,7 @@ mod tests {
             given: None,
             joint: (None, None),
             advance: 0.0,
+            parts: Vec::new(),
         }
     }
 

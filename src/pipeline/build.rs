@@ -83,7 +83,12 @@ pub fn build(project: &Project, world: World<'_>) -> Result<Built, Vec<Problem>>
     let drawn = all(drawn)?;
     let twins = alike::notes(&letters, &drawn, project.font.units_per_em);
     let info = project.font.info(world.created);
-    let assembled = assemble::font(drawn, info, &project.spacing).map_err(|e| vec![e.into()])?;
+    let options = assemble::Options {
+        compose: project.compose.clone(),
+        anchors: project.anchors.clone(),
+        ..project.spacing.clone()
+    };
+    let assembled = assemble::font(drawn, info, &options).map_err(|e| vec![e.into()])?;
     Ok(Built {
         font: by_hand::set(assembled.font, project, world)?,
         letters,

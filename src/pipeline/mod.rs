@@ -33,5 +33,5 @@ pub use printing::sheets;
 pub use problem::{Place, Problem};
 pub use project::{Project, ProjectError};
 pub use repeats::Repeated;
-pub use report::{CellRemark, PageRow, Remark, Removed, Report, Row};
+pub use report::{CellRemark, Composed, PageRow, Remark, Removed, Report, Row};
 pub use watch::{Stage, Unwatched, Watch};

@@ -29,8 +29,19 @@ pub struct Report {
     pub pages: Vec<PageRow>,
     /// A row a drawn glyph, in reading order.
     pub glyphs: Vec<Row>,
+    /// A row a composed glyph, in glyph order.
+    pub composed: Vec<Composed>,
     /// What could not be met.
     pub notes: Vec<Remark>,
+}
+
+/// A glyph that nobody drew.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
+pub struct Composed {
+    /// Its name in the font.
+    pub name: String,
+    /// The glyphs that it consists of.
+    pub parts: Vec<String>,
 }
 
 /// A page.
@@ -128,6 +139,7 @@ impl Report {
             units_per_em: info.units_per_em,
             pages: built.pages.iter().map(page_row).collect(),
             glyphs: rows.collect(),
+            composed: composed(&built.font),
             notes: built.notes.iter().map(remark).collect(),
         }
     }
@@ -154,6 +166,19 @@ impl Report {
         }
         out
     }
+}
+
+fn composed(font: &Font) -> Vec<Composed> {
+    let made = font.glyphs().iter().filter(|g| !g.components.is_empty());
+    made.map(|glyph| Composed {
+        name: glyph.name.to_string(),
+        parts: glyph
+            .components
+            .iter()
+            .map(|c| c.base.to_string())
+            .collect(),
+    })
+    .collect()
 }
 
 fn page_row(page: &Page) -> PageRow {

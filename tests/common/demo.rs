@@ -22,7 +22,12 @@ pub(crate) fn folder() -> PathBuf {
 pub(crate) fn built(name: &str) -> &'static Demo {
     static LATIN: OnceLock<Demo> = OnceLock::new();
     static ARABIC: OnceLock<Demo> = OnceLock::new();
-    let place = if name == "latin" { &LATIN } else { &ARABIC };
+    static RASM: OnceLock<Demo> = OnceLock::new();
+    let place = match name {
+        "latin" => &LATIN,
+        "arabic" => &ARABIC,
+        _ => &RASM,
+    };
     place.get_or_init(|| build(name))
 }
 

@@ -45,9 +45,12 @@ pub struct Project {
     /// Room between letters, overlap of joined ones, vertical measures.
     #[serde(default)]
     pub spacing: assemble::Options,
+    /// Letters that are composed of others.
+    #[serde(default)]
+    pub compose: assemble::compose::Options,
     /// Anchors by glyph name and their own name, font units: they win over those that follow from shapes.
     #[serde(default)]
-    pub anchors: BTreeMap<String, BTreeMap<String, (f64, f64)>>,
+    pub anchors: assemble::Anchors,
     /// Kerning by two glyph names with a space between, font units: it wins over what is measured.
     #[serde(default)]
     pub kerning: BTreeMap<String, f64>,

@@ -68,6 +68,9 @@ glyphs = "A B C _ beh-ar.init"
 pixels_per_em = 504
 [trace]
 tolerance_px = 0.4
+[compose]
+letters = ["urdu", "é"]
+gap = 0.06
 [output]
 ttf = "build/KhattLatin.ttf"
 "#;
@@ -105,6 +108,21 @@ ttf = "build/KhattLatin.ttf"
             ("504", "-1", "must be above 0", "-1", ""),
             ("504", "nan", "must be above 0", "nan", ""),
             ("504", "1e-300", "must be above 0", "1e-300", ""),
+            (
+                "urdu",
+                "klingon",
+                "is neither an alphabet",
+                "[\"klingon\", \"é\"]",
+                "",
+            ),
+            (
+                "\"é\"",
+                "\"e\"",
+                "nor a letter that others compose",
+                "[\"urdu\", \"e\"]",
+                "",
+            ),
+            ("0.06", "-0.06", "must be between 0 and 1", "-0.06", ""),
             ("grid", "grad", "unknown variant", "grad", "grid"),
         ];
         for (right, wrong, message, at, help) in cases {

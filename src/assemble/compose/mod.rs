@@ -1,0 +1,462 @@
+//! Letters composed of others: dotless skeletons and dots, letters and accents.
+//!
+//! What is drawn whole is taken as it is. Of what is left, a letter is composed in each form that its body was
+//! drawn in: an Arabic letter of its skeleton (rasm) and dots, others by their canonical decompositions. Bodies
+//! are spaced and joined already; a composed letter has its body's advance and joins, more only where a sign
+//! would stand out. Dots keep a gap from their body (`place`); marks attach as they do in text, by anchors. i and j
+//! lose their dot under a mark: ı is taken if it is drawn, and else i without the piece above it.
+
+mod place;
+mod recipes;
+
+use super::marks::{self, Place};
+use super::names::{self, Form};
+use super::{Anchors, Draft, Note, Part};
+use crate::types::{Anchor, Label, Outline};
+use kurbo::{Affine, Point, Rect, Vec2};
+use recipes::{Dots, Recipe};
+use serde::de::Error;
+use serde::{Deserialize, Deserializer, Serialize};
+use unicode_normalization::char::{canonical_combining_class, decompose_compatible};
+
+/// What is composed, and how. Lengths are parts of the em.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Options {
+    /// Alphabets and single letters; none of them, nothing is composed.
+    pub letters: Vec<Letters>,
+    /// White between a letter's body and its dots, 0…1.
+    #[serde(deserialize_with = "share")]
+    pub gap: f64,
+    /// White between the dots of a group made of single ones, part of a dot's width, 0…1.
+    #[serde(deserialize_with = "share")]
+    pub between: f64,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self {
+            letters: Vec::new(),
+            gap: 0.05,
+            between: 0.2,
+        }
+    }
+}
+
+fn share<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
+    let value = f64::deserialize(from)?;
+    if (0.0..=1.0).contains(&value) {
+        Ok(value)
+    } else {
+        Err(D::Error::custom("must be between 0 and 1"))
+    }
+}
+
+/// An alphabet (`arabic`, `persian`, `urdu`, `latin`), or one letter that others compose.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(try_from = "String", into = "String")]
+pub struct Letters {
+    word: String,
+    letters: Vec<char>,
+}
+
+impl TryFrom<String> for Letters {
+    type Error = String;
+
+    fn try_from(word: String) -> Result<Self, String> {
+        let single = || {
+            let id = names::identify(&Label(word.clone())).ok()?;
+            let [letter] = id.chars[..] else { return None };
+            let forms = recipes::forms(letter).iter();
+            let made = forms
+                .map(|f| recipes::recipe(letter, *f))
+                .any(|r| r.is_some());
+            made.then(|| vec![letter])
+        };
+        match recipes::alphabet(&word).or_else(single) {
+            Some(letters) => Ok(Self { word, letters }),
+            None => Err(format!(
+                "“{word}” is neither an alphabet (arabic, persian, urdu, latin) nor a letter that others compose"
+            )),
+        }
+    }
+}
+
+impl From<Letters> for String {
+    fn from(letters: Letters) -> Self {
+        letters.word
+    }
+}
+
+/// Overlap of a mark that grows from its letter, em.
+const ROOT: f64 = 0.01;
+
+/// Adds the letters that the options ask for and nobody drew.
+pub(super) fn add(
+    drafts: &mut Vec<Draft>,
+    em: f64,
+    options: &Options,
+    by_hand: &Anchors,
+) -> Vec<Note> {
+    let mut notes = Vec::new();
+    let mut work = Work {
+        drafts,
+        em,
+        options,
+        by_hand,
+    };
+    for set in &options.letters {
+        for &letter in &set.letters {
+            let missing = work.letter(letter);
+            let is_there = work.drafts.iter().any(|d| d.id.chars == [letter]);
+            // most of latin stays undrawn, and nobody misses it
+            if !is_there && set.word != "latin" {
+                notes.push(note(letter, missing));
+            }
+        }
+    }
+    work.ligatures();
+    notes
+}
+
+fn note(letter: char, missing: Option<char>) -> Note {
+    let code = |c: char| format!("{} (U+{:04X})", names::name_of(&[c]), u32::from(c));
+    let message = match missing {
+        Some(part) => format!(
+            "neither drawn nor composed: its part {} is missing; draw it, or the whole letter",
+            code(part)
+        ),
+        None => "not drawn, and made of no other letter; draw it".to_owned(),
+    };
+    Note {
+        glyph: names::name_of(&[letter]),
+        message,
+    }
+}
+
+/// Drafts in the making.
+struct Work<'a> {
+    drafts: &'a mut Vec<Draft>,
+    em: f64,
+    options: &'a Options,
+    by_hand: &'a Anchors,
+}
+
+/// A sign over or under a body: the pieces it consists of, and where all of it lies.
+struct Sign {
+    parts: Vec<Part>,
+    ink: Rect,
+}
+
+impl Work<'_> {
+    /// Composes a letter in every form that is missing and can be had; the first part that is not there.
+    fn letter(&mut self, letter: char) -> Option<char> {
+        let mut missing = None;
+        for &form in recipes::forms(letter) {
+            if self.find(letter, form).is_some() {
+                continue;
+            }
+            let Some(recipe) = recipes::recipe(letter, form) else {
+                continue;
+            };
+            match self.compose(&[letter], form, &recipe) {
+                Ok(draft) => self.drafts.extend(draft),
+                Err(part) => missing = missing.or(Some(part)),
+            }
+        }
+        missing
+    }
+
+    /// Ligatures that end in a letter of which marks make others: لا gives لأ.
+    fn ligatures(&mut self) {
+        let wanted: Vec<char> = self
+            .options
+            .letters
+            .iter()
+            .flat_map(|l| l.letters.clone())
+            .collect();
+        for i in 0..self.drafts.len() {
+            let Some(ligature) = self.drafts.get(i).map(|d| d.id.clone()) else {
+                continue;
+            };
+            let ([first, last], None) = (&ligature.chars[..], ligature.alternates().next()) else {
+                continue;
+            };
+            let form = ligature.form().unwrap_or(Form::Isol);
+            for &letter in &wanted {
+                let Some(recipe) = recipes::recipe(letter, Form::Isol) else {
+                    continue;
+                };
+                let chars = [*first, letter];
+                let has = self
+                    .drafts
+                    .iter()
+                    .any(|d| d.id.chars == chars && d.id.form().unwrap_or(Form::Isol) == form);
+                if recipe.bodies == [*last] && !has {
+                    let draft = self.signed(i, &chars, form, &recipe.signs);
+                    self.drafts.extend(draft.ok().flatten());
+                }
+            }
+        }
+    }
+
+    /// The drawn or composed form of a letter.
+    fn find(&self, letter: char, form: Form) -> Option<usize> {
+        self.drafts.iter().position(|d| {
+            d.id.chars == [letter]
+                && d.id.alternates().next().is_none()
+                && d.id.form().unwrap_or(Form::Isol) == form
+        })
+    }
+
+    /// A letter of its parts, or the part that is missing.
+    fn compose(
+        &mut self,
+        chars: &[char],
+        form: Form,
+        recipe: &Recipe,
+    ) -> Result<Option<Draft>, char> {
+        let loses_dot = recipe.signs.first().and_then(|&m| marks::place(m)) == Some(Place::Top);
+        let body = recipe.bodies.iter().find_map(|&b| match b {
+            'i' if loses_dot => self.dotless('i', 'ı'),
+            'j' if loses_dot => self.dotless('j', 'ȷ'),
+            _ => self.find(b, form),
+        });
+        let body = body.ok_or_else(|| recipe.bodies.first().copied().unwrap_or_default())?;
+        self.signed(body, chars, form, &recipe.signs)
+    }
+
+    /// A body with its signs; nothing where a name or place cannot be given.
+    fn signed(
+        &self,
+        body: usize,
+        chars: &[char],
+        form: Form,
+        signs: &[char],
+    ) -> Result<Option<Draft>, char> {
+        let suffix = if form == Form::Isol {
+            String::new()
+        } else {
+            format!(".{}", form.tag())
+        };
+        let label = Label(format!("{}{suffix}", names::name_of(chars)));
+        let (Ok(id), Some(base)) = (names::identify(&label), self.drafts.get(body)) else {
+            return Ok(None);
+        };
+        let mut above: Vec<Sign> = Vec::new();
+        for &sign in signs {
+            let placed = match recipes::dots(sign) {
+                Some(dots) => self.dots(base, dots),
+                None => self.mark(base, sign, &above),
+            };
+            above.push(placed.ok_or(sign)?);
+        }
+        let mut parts = self.parts(body);
+        parts.extend(above.iter().flat_map(|s| s.parts.iter().copied()));
+        // a sign keeps inside the advance where nothing joins
+        let out = |joined: Option<f64>, by: f64| {
+            if joined.is_none() {
+                by.max(0.0).ceil()
+            } else {
+                0.0
+            }
+        };
+        let ink = above.iter().map(|s| s.ink).reduce(|a, b| a.union(b));
+        let (left, right) = ink.map_or((0.0, 0.0), |ink| {
+            (
+                out(base.joint.0, -ink.x0),
+                out(base.joint.1, ink.x1 - base.advance),
+            )
+        });
+        parts.iter_mut().for_each(|p| p.shift.x += left);
+        Ok(Some(Draft {
+            id,
+            outline: self.outline(&parts),
+            advance: base.advance + left + right,
+            parts,
+            ..base.clone()
+        }))
+    }
+
+    /// A draft as parts of another: itself, or what it is composed of.
+    fn parts(&self, draft: usize) -> Vec<Part> {
+        match self.drafts.get(draft) {
+            Some(d) if !d.parts.is_empty() => d.parts.clone(),
+            _ => vec![Part {
+                draft,
+                shift: Vec2::ZERO,
+            }],
+        }
+    }
+
+    fn outline(&self, parts: &[Part]) -> Outline {
+        let contours = parts.iter().flat_map(|part| {
+            let own = self.drafts.get(part.draft).map(|d| d.outline.contours());
+            own.into_iter()
+                .flatten()
+                .map(|c| Affine::translate(part.shift) * c)
+        });
+        Outline::new(contours.collect()).unwrap_or_default()
+    }
+
+    /// An anchor set by hand.
+    fn by_hand(&self, draft: &Draft, anchor: &str) -> Option<Point> {
+        let &(x, y) = self.by_hand.get(draft.id.name.as_str())?.get(anchor)?;
+        Some(Point::new(x, y))
+    }
+
+    /// The dots of a body where they belong.
+    fn dots(&self, base: &Draft, dots: Dots) -> Option<Sign> {
+        let parts = self.group(dots)?;
+        let ink = self.outline(&parts).bounds()?;
+        let (name, edge) = match dots.side {
+            Place::Top => ("above", ink.y0),
+            Place::Bottom => ("below", ink.y1),
+        };
+        let at = self.by_hand(base, name).or_else(|| {
+            let body = place::Body {
+                letter: base.id.chars.first().copied().unwrap_or_default(),
+                is_end: base.id.form().is_none_or(|f| !f.joins_after()),
+                outline: &base.outline,
+                tooth: self.tooth(),
+                gap: self.options.gap * self.em,
+                em: self.em,
+            };
+            body.place(ink.size(), dots.side)
+        })?;
+        Some(Sign { parts, ink }.moved(at - Point::new(ink.center().x, edge)))
+    }
+
+    /// A group of dots as it was drawn, or of single ones.
+    fn group(&self, dots: Dots) -> Option<Vec<Part>> {
+        let find = |chars: &[char]| chars.iter().find_map(|&c| self.find(c, Form::Isol));
+        if let Some(drawn) = find(dots.drawn) {
+            return Some(self.parts(drawn));
+        }
+        let single = find(&recipes::SINGLE).filter(|_| !dots.places.is_empty())?;
+        let size = self.drafts.get(single)?.outline.bounds()?.size() * (1.0 + self.options.between);
+        let part = |&(x, y): &(f64, f64)| Part {
+            draft: single,
+            shift: Vec2::new(x * size.width, y * size.height),
+        };
+        Some(dots.places.iter().map(part).collect())
+    }
+
+    /// Height of a tooth: the line that dots above keep clear of, over bowls too.
+    fn tooth(&self) -> Option<f64> {
+        let forms = [Form::Medi, Form::Init, Form::Isol, Form::Fina].into_iter();
+        let found = forms
+            .flat_map(|f| ['ٮ', 'ں'].map(|c| self.find(c, f)))
+            .flatten()
+            .next()?;
+        Some(self.drafts.get(found)?.outline.bounds()?.y1)
+    }
+
+    /// A mark on a body, or on the last mark of its side.
+    fn mark(&self, base: &Draft, mark: char, before: &[Sign]) -> Option<Sign> {
+        let place = marks::place(mark)?;
+        let (name, own) = match place {
+            Place::Top => ("top", "_top"),
+            Place::Bottom => ("bottom", "_bottom"),
+        };
+        let drawn = self.find_mark(mark)?;
+        let draft = self.drafts.get(drawn)?;
+        let ink = draft.outline.bounds()?;
+        let automatic = marks::of_mark(place, ink, self.em);
+        let near = self.by_hand(draft, own).or_else(|| at(&automatic, own))?;
+        let last = before.last().map(|s| s.ink);
+        let last = last.map(|ink| marks::of_mark(place, ink, self.em));
+        let foot = match last {
+            Some(anchors) => at(&anchors, name)?,
+            None => self.foot(base, name, canonical_combining_class(mark))?,
+        };
+        let parts = self.parts(drawn);
+        Some(Sign { parts, ink }.moved(foot - near))
+    }
+
+    /// Where a letter carries its first mark; the last part of a ligature is the one that has it.
+    fn foot(&self, base: &Draft, name: &str, class: u8) -> Option<Point> {
+        /// Marks that grow from the letter: cedilla, ogonek.
+        const ATTACHED_BELOW: u8 = 202;
+        let part = match base.id.chars.len() {
+            1 => name.to_owned(),
+            n => format!("{name}_{n}"),
+        };
+        if let Some(at) = self.by_hand(base, &part) {
+            return Some(at);
+        }
+        let found = at(&marks::of_draft(base, self.em), &part)?;
+        let ink = base.outline.bounds()?;
+        Some(if class == ATTACHED_BELOW {
+            Point::new(found.x, ink.y0 + ROOT * self.em)
+        } else {
+            found
+        })
+    }
+
+    /// A combining mark, or the sign of its own that shows it over a space.
+    fn find_mark(&self, mark: char) -> Option<usize> {
+        let shows = |d: &Draft| match d.id.chars[..] {
+            [c] if c != mark => {
+                let mut parts = Vec::new();
+                decompose_compatible(c, |p| parts.push(p));
+                let shown = parts == [' ', mark] || recipes::SHOWN.contains(&(mark, c));
+                shown && d.id.suffixes.is_empty()
+            }
+            _ => false,
+        };
+        self.find(mark, Form::Isol)
+            .or_else(|| self.drafts.iter().position(shows))
+    }
+
+    /// The letter without its dot: drawn, or what is left of the dotted one when the pieces above it go.
+    fn dotless(&mut self, dotted: char, dotless: char) -> Option<usize> {
+        if let Some(found) = self.find(dotless, Form::Isol) {
+            return Some(found);
+        }
+        let whole = self.drafts.get(self.find(dotted, Form::Isol)?)?;
+        let bounds = |c: &kurbo::BezPath| kurbo::Shape::bounding_box(c);
+        let contours = whole.outline.contours();
+        let stem = contours
+            .iter()
+            .map(bounds)
+            .min_by(|a, b| a.y0.total_cmp(&b.y0))?;
+        let (kept, dots): (Vec<_>, Vec<_>) = contours
+            .iter()
+            .cloned()
+            .partition(|c| bounds(c).y0 < stem.y1);
+        let id = names::identify(&Label(dotless.to_string())).ok()?;
+        if dots.is_empty() {
+            return None;
+        }
+        let draft = Draft {
+            id,
+            outline: Outline::new(kept).ok()?,
+            ..whole.clone()
+        };
+        self.drafts.push(draft);
+        Some(self.drafts.len() - 1)
+    }
+}
+
+impl Sign {
+    /// Moved by whole units: components stand on the grid.
+    fn moved(self, by: Vec2) -> Self {
+        let by = by.round();
+        let moved = self.parts.into_iter().map(|p| Part {
+            shift: (p.shift + by).round(),
+            ..p
+        });
+        Self {
+            parts: moved.collect(),
+            ink: self.ink + by,
+        }
+    }
+}
+
+fn at(anchors: &[Anchor], name: &str) -> Option<Point> {
+    anchors.iter().find(|a| a.name == name).map(|a| a.at)
+}
+
+#[cfg(test)]
+mod tests;
