@@ -9,6 +9,7 @@ mod demo;
 mod detectors;
 mod fitters;
 mod fonts;
+mod handwork;
 mod layers;
 mod outlines;
 mod papers;

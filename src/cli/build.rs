@@ -6,10 +6,11 @@ use super::failure::Failure;
 use super::progress::Times;
 use super::project::{Opened, created};
 use super::staged::{self, Staged};
-use super::{Common, Outcome, keep};
+use super::{Common, Outcome, files, keep};
 use clap::Args;
 use khatt::pipeline::{self, Built, Outputs, Store};
 use khatt::types::Files;
+use khatt::write::handwork;
 use serde_json::json;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -30,6 +31,9 @@ pub(crate) struct Build {
     /// Write nothing; fail where an output is not what would be written
     #[arg(long)]
     locked: bool,
+    /// Write the UFO anew, without what was done to it by hand
+    #[arg(long)]
+    overwrite: bool,
     #[command(flatten)]
     cache: CacheArgs,
 }
@@ -42,6 +46,7 @@ impl Build {
             keep: None,
             depfile: None,
             locked: false,
+            overwrite: false,
             cache: CacheArgs::default(),
         }
     }
@@ -89,8 +94,11 @@ impl Build {
                 let outputs = pipeline::outputs(project, &built, world)?;
                 Ok((built, outputs))
             })?;
-        let files = self.files(opened, &outputs, (total, &times));
-        let said = remarks(&built);
+        let mut files = self.files(opened, &outputs, (total, &times));
+        let mut said = remarks(&built);
+        if !self.overwrite {
+            said += &keep_handwork(opened, &mut files)?;
+        }
         if self.locked {
             staged::same(&files)?;
             return Ok((files, said));
@@ -122,6 +130,7 @@ impl Build {
             opened.text(),
             self.depfile,
             self.locked,
+            self.overwrite,
             created()?
         ]);
         Ok(digest(asked.to_string().as_bytes()))
@@ -151,6 +160,38 @@ impl Build {
         }
         files
     }
+}
+
+/// Takes over what was done by hand to the UFO that lies where one is to be written; says what.
+fn keep_handwork(opened: &Opened, outputs: &mut [(PathBuf, Files)]) -> Result<String, Failure> {
+    // a folder of other things is refused where it would be replaced
+    let ufo = opened
+        .ufo()
+        .filter(|path| path.join("metainfo.plist").is_file());
+    let Some((path, files)) = ufo.and_then(|path| outputs.iter_mut().find(|(p, _)| *p == path))
+    else {
+        return Ok(String::new());
+    };
+    let name = path.display();
+    let old = files::folder(path)?;
+    let (merged, kept) = handwork::merge(&old, files).map_err(|e| {
+        let remedy = "give another folder; --overwrite replaces what khatt has built there";
+        Failure::at(&name, &e).help(remedy)
+    })?;
+    *files = merged;
+    let mut said = String::new();
+    if !kept.kept.is_empty() {
+        said += &format!(
+            "note: {name}: kept as changed by hand: {}\n",
+            kept.kept.join(", ")
+        );
+    }
+    for thing in &kept.conflicts {
+        said += &format!(
+            "warning: {name}: {thing} was changed by hand and by this build; the hand's stays\n"
+        );
+    }
+    Ok(said)
 }
 
 /// The report with the time of each stage.

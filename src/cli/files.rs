@@ -44,3 +44,23 @@ pub(crate) fn write(path: &Path, content: &[u8]) -> Result<(), Failure> {
     staged.add(path, &Files::single(content.to_vec()))?;
     staged.commit()
 }
+
+/// Everything in a folder and the folders below it.
+pub(crate) fn folder(root: &Path) -> Result<Files, Failure> {
+    let fail = |e: &io::Error| Failure::at(root.display(), e);
+    let mut out = Files::default();
+    let mut open = vec![root.to_owned()];
+    while let Some(folder) = open.pop() {
+        for entry in fs::read_dir(folder).map_err(|e| fail(&e))? {
+            let path = entry.map_err(|e| fail(&e))?.path();
+            if path.is_dir() {
+                open.push(path);
+            } else {
+                let within = path.strip_prefix(root).unwrap_or(&path);
+                let name: Vec<_> = within.iter().map(|p| p.to_string_lossy()).collect();
+                out.0.insert(name.join("/"), read(&path)?);
+            }
+        }
+    }
+    Ok(out)
+}

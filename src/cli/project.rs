@@ -96,6 +96,12 @@ impl Opened {
         Some(self.path(path))
     }
 
+    /// Where the UFO goes.
+    pub(crate) fn ufo(&self) -> Option<PathBuf> {
+        let path = self.project.output.ufo.as_ref()?;
+        Some(self.path(path))
+    }
+
     /// What the project file says.
     pub(crate) fn text(&self) -> &str {
         &self.text

@@ -4,6 +4,7 @@
 //! bytes, and nothing touches the disk.
 
 mod cff;
+pub mod handwork;
 pub mod layout;
 mod names;
 mod numbers;

@@ -2,9 +2,10 @@
 //!
 //! Features stand in `features.fea`; kerning and marks do not: compilers derive them from
 //! `kerning.plist` and the anchors, as our own writers do, so that a change to either counts.
+//! What was built stands in the libs, so that the next build knows hand work ([`super::handwork`]).
 
 use super::layout::{self, Class};
-use super::{WriteError, names};
+use super::{WriteError, handwork, names};
 use crate::types::{Files, Font, Glyph, Info};
 use kurbo::{BezPath, PathEl, Point, Vec2};
 use norad::fontinfo::{NonNegativeIntegerOrFloat, StyleMapStyle};
@@ -21,7 +22,13 @@ const USE_TYPO_METRICS: u8 = 7;
 
 /// The files of a UFO.
 pub(super) fn files(font: &Font) -> Result<Files, WriteError> {
-    let ufo = convert(font)?;
+    let mut ufo = convert(font)?;
+    handwork::sign(&mut ufo)?;
+    bytes(&ufo)
+}
+
+/// The files of a UFO in memory.
+pub(super) fn bytes(ufo: &norad::Font) -> Result<Files, WriteError> {
     let files = Mutex::new(Files::default());
     let sink = |path: &Path, data: &[u8]| {
         let name = path
@@ -40,7 +47,7 @@ pub(super) fn files(font: &Font) -> Result<Files, WriteError> {
     files.into_inner().map_err(|e| failed(&e))
 }
 
-fn failed(error: &dyn std::error::Error) -> WriteError {
+pub(super) fn failed(error: &dyn std::error::Error) -> WriteError {
     WriteError::table("UFO", error)
 }
 
