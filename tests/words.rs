@@ -2,10 +2,13 @@
 
 use crate::common::demo::{self, Demo, output};
 use crate::fonts::{set, single};
+use harfrust::{ShapeOptions, ShaperData, UnicodeBuffer};
+use khatt::assemble::joining::Method;
 use khatt::assemble::{self, Assembled, Drawn, Options};
 use khatt::types::{Font, Info, Label, Outline};
 use khatt::write::layout;
 use kurbo::{Affine, BezPath, Line, ParamCurve, PathEl, Point, Rect, Shape};
+use skrifa::FontRef;
 use std::collections::BTreeSet;
 
 /// Letters that join on both sides, and those that join only the letter before them.
@@ -242,6 +245,76 @@ fn joined_letters_are_one_body() {
             is_one_body((&built.font, output(outputs, "otf")), word, 96.0, 45.0);
         }
     }
+}
+
+/// Glyph, advance and shift of a word as a shaper sets it, in visual order.
+fn placed(otf: &[u8], word: &str) -> Vec<(usize, i32, i32, i32)> {
+    let face = FontRef::new(otf).expect("a font");
+    let data = ShaperData::new(&face);
+    let mut buffer = UnicodeBuffer::new();
+    buffer.push_str(word);
+    buffer.guess_segment_properties();
+    let shaped = data
+        .shaper(&face)
+        .build()
+        .shape(buffer, ShapeOptions::default());
+    let glyphs = shaped.glyph_infos().iter().zip(shaped.glyph_positions());
+    let one = |(i, p): (&harfrust::GlyphInfo, &harfrust::GlyphPosition)| {
+        (i.glyph_id as usize, p.x_advance, p.x_offset, p.y_offset)
+    };
+    glyphs.map(one).collect()
+}
+
+#[test]
+fn cursive_strokes_meet_where_they_were_drawn() {
+    // strokes that leave 150 units above where they come in, as in a slanted style
+    let labels = ["", ".init", ".medi", ".fina"].map(|form| format!("uni0628{form}"));
+    let raised = |mut drawn: Drawn| {
+        let rises = |p: &PathEl| {
+            let up = |p: Point| Point::new(p.x, p.y + 0.25 * (300.0 - p.x).max(0.0));
+            match *p {
+                PathEl::MoveTo(p) => PathEl::MoveTo(up(p)),
+                PathEl::LineTo(p) => PathEl::LineTo(up(p)),
+                PathEl::CurveTo(a, b, p) => PathEl::CurveTo(up(a), up(b), up(p)),
+                other => other,
+            }
+        };
+        let contours = drawn.outline.contours().iter();
+        let contours = contours.map(|c| c.elements().iter().map(rises).collect());
+        drawn.outline = Outline::new(contours.collect()).expect("closed contours");
+        drawn
+    };
+    let shapes: Vec<Drawn> = (0..)
+        .zip(&labels)
+        .map(|(seed, label)| raised(drawn(label, seed)))
+        .collect();
+    let mut options = Options::default();
+    options.joining.method = Method::Cursive;
+    let built = assemble::font(shapes, Info::default(), &options).expect("a font");
+    assert!(built.notes.is_empty(), "{:?}", built.notes);
+    assert!(
+        built.joining.joins.iter().all(|j| j.moved == (0.0, 0.0)),
+        "strokes stay"
+    );
+    let font = built.font;
+    let (mut x, mut exits, mut entries) = (0.0, Vec::new(), Vec::new());
+    let mut heights = Vec::new();
+    for (id, advance, dx, dy) in placed(&single(&font, "otf"), "ببببب") {
+        let at = |name: &str| {
+            let anchor = font.glyphs()[id].anchors.iter().find(|a| a.name == name)?;
+            Some(anchor.at + kurbo::Vec2::new(x + f64::from(dx), f64::from(dy)))
+        };
+        entries.extend(at("entry"));
+        exits.extend(at("exit"));
+        heights.push(dy);
+        x += f64::from(advance);
+    }
+    assert_eq!((entries.len(), exits.len()), (4, 4));
+    for (entry, exit) in entries.iter().zip(&exits) {
+        assert!(entry.distance(*exit) < 1e-9, "{entries:?} {exits:?}");
+    }
+    assert_eq!(heights[0], 0, "the last letter stands on the line");
+    assert!(heights[4] < -150, "the first far from it: {heights:?}");
 }
 
 #[test]

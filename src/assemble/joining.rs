@@ -6,17 +6,34 @@
 //! the advance. The drawn tip reaches across it into the next letter's stroke; where it is shorter than
 //! half the overlap, it is replaced by a square tab of that length. So at every join two strokes lie over
 //! each other with the same edges: no gap, and no step beyond what an end was too far away to be moved.
+//!
+//! Slanted and Nastaliq styles join at many heights. There strokes stay as they were drawn, and the middle of each
+//! end becomes a cursive anchor (`entry`, `exit`): text programs shift letters until the ends of two meet.
 
 use super::stroke::{self, Edges, End, Side, Tab, Warp};
 use super::{Draft, Note};
 use crate::types::Outline;
+use kurbo::Shape;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+
+/// How the strokes of two letters come together.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Method {
+    /// Strokes are moved onto one contract.
+    #[default]
+    Contract,
+    /// Strokes stay, letters carry cursive anchors (`curs`).
+    Cursive,
+}
 
 /// How joins are made. Lengths are parts of the em.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Options {
+    /// Whether strokes are moved or letters.
+    pub method: Method,
     /// How far the strokes of two joined letters overlap.
     pub overlap: f64,
     /// How far an edge may be moved to meet the others.
@@ -30,6 +47,7 @@ pub struct Options {
 impl Default for Options {
     fn default() -> Self {
         Self {
+            method: Method::default(),
             overlap: 0.02,
             limit: 0.03,
             reach: 0.15,
@@ -115,6 +133,23 @@ impl Joint {
     }
 }
 
+impl Joint {
+    /// Takes the outermost end of the largest contour: of the body, not of a dot.
+    fn choose_outermost(&mut self, drafts: &[Draft]) {
+        let Some(contours) = drafts.get(self.draft).map(|d| d.outline.contours()) else {
+            return;
+        };
+        let size = |e: &End| {
+            contours
+                .get(e.contour)
+                .map_or(0.0, |c| c.bounding_box().area())
+        };
+        let largest = self.ends.iter().map(size).fold(0.0, f64::max);
+        let of_body = |e: &End| size(e) >= largest;
+        self.chosen = self.ends.iter().position(of_body).unwrap_or_default();
+    }
+}
+
 /// Joins the drafts: their outlines and, on joined sides, the ends of their advances.
 pub(super) fn set(drafts: &mut [Draft], em: f64, options: &Options) -> (Report, Vec<Note>) {
     let mut joints = joints(drafts, em);
@@ -128,6 +163,11 @@ pub(super) fn set(drafts: &mut [Draft], em: f64, options: &Options) -> (Report, 
     let Some(contract) = contract else {
         return (Report::default(), notes);
     };
+    if options.method == Method::Cursive {
+        for joint in &mut joints {
+            joint.choose_outermost(drafts);
+        }
+    }
     let mut report = Report {
         contract: Some(contract),
         joins: Vec::new(),
@@ -254,7 +294,13 @@ struct Terms<'a> {
 fn join(draft: &mut Draft, side: Side, end: &End, terms: Terms<'_>) -> (Join, Option<Note>) {
     let (em, options) = (terms.em, terms.options);
     let limit = options.limit * em;
-    let Contract { edges, slopes } = terms.contract;
+    let Contract { edges, slopes } = match options.method {
+        Method::Contract => terms.contract,
+        Method::Cursive => Contract {
+            edges: end.edges,
+            slopes: end.slopes,
+        },
+    };
     let wanted = (edges.0 - end.edges.0, edges.1 - end.edges.1);
     let moved = (wanted.0.clamp(-limit, limit), wanted.1.clamp(-limit, limit));
     let shear = |want: f64, have: f64| (want - have).clamp(-MOST_SHEAR, MOST_SHEAR);
@@ -287,9 +333,10 @@ fn join(draft: &mut Draft, side: Side, end: &End, terms: Terms<'_>) -> (Join, Op
         draft.outline = outline;
     }
     let x = side.inward(end.cut);
+    let height = (options.method == Method::Cursive).then_some(0.5 * (edges.0 + edges.1));
     match side {
-        Side::Left => draft.joint.0 = Some(x),
-        Side::Right => draft.joint.1 = Some(x),
+        Side::Left => (draft.joint.0, draft.cursive.0) = (Some(x), height),
+        Side::Right => (draft.joint.1, draft.cursive.1) = (Some(x), height),
     }
     let missed = (wanted.0 - moved.0).abs().max((wanted.1 - moved.1).abs());
     let note = (missed > 1.0).then(|| Note {

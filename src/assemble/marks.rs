@@ -39,12 +39,26 @@ pub(super) fn place(mark: char) -> Option<Place> {
     }
 }
 
-/// The anchors of every draft, in order; empty for a font without marks.
+/// The anchors of every draft, in order: for marks where the font has any, and for letters that join cursively.
 pub(super) fn anchors(drafts: &[Draft], em: f64) -> Vec<Vec<Anchor>> {
-    if !drafts.iter().any(Draft::is_mark) {
-        return drafts.iter().map(|_| Vec::new()).collect();
-    }
-    drafts.iter().map(|d| of_draft(d, em)).collect()
+    let has_marks = drafts.iter().any(Draft::is_mark);
+    let of = |d: &Draft| {
+        let marks = if has_marks {
+            of_draft(d, em)
+        } else {
+            Vec::new()
+        };
+        marks.into_iter().chain(cursive(d)).collect()
+    };
+    drafts.iter().map(of).collect()
+}
+
+/// Where a stroke leaves to the next letter, at the left end of the advance, and where the one before comes in.
+fn cursive(draft: &Draft) -> impl Iterator<Item = Anchor> {
+    let (left, right) = draft.cursive;
+    let exit = left.map(|y| anchor("exit".to_owned(), 0.0, y));
+    let entry = right.map(|y| anchor("entry".to_owned(), draft.advance, y));
+    exit.into_iter().chain(entry)
 }
 
 pub(super) fn of_draft(draft: &Draft, em: f64) -> Vec<Anchor> {

@@ -121,6 +121,8 @@ struct Draft {
     given: Option<(f64, f64)>,
     /// Left and right end of the advance where a stroke joins.
     joint: (Option<f64>, Option<f64>),
+    /// Height of the cursive anchor at the left and right end of the advance.
+    cursive: (Option<f64>, Option<f64>),
     advance: f64,
     /// What it is composed of; empty for what was drawn.
     parts: Vec<Part>,
@@ -225,6 +227,7 @@ fn drafts(drawn: Vec<Drawn>) -> Result<Vec<Draft>, AssembleError> {
             outline: shape.outline,
             given: shape.advance,
             joint: (None, None),
+            cursive: (None, None),
             advance: 0.0,
             parts: Vec::new(),
         });

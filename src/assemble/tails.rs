@@ -83,6 +83,7 @@ mod tests {
             outline: Outline::new(contours).unwrap(),
             given: None,
             joint: (None, None),
+            cursive: (None, None),
             advance: 0.0,
             parts: Vec::new(),
         }

@@ -1,7 +1,7 @@
 //! OpenType layout: one feature text for every format, compiled in process.
 //!
 //! The text is the font's own features, then what follows from its data, as UFO compilers write it:
-//! kerning from its pairs, `mark` and `mkmk` from its anchors, glyph classes from both. A feature or
+//! kerning from its pairs, `curs`, `mark` and `mkmk` from its anchors, glyph classes from both. A feature or
 //! table that the font's text has already is left to it.
 
 use super::WriteError;
@@ -50,6 +50,9 @@ pub fn text(font: &Font) -> String {
     let mut out = font.features.clone();
     if !font.kerning.pairs.is_empty() && !own("feature kern") {
         out += &kern(font);
+    }
+    if !own("feature curs") {
+        out += &cursive(font);
     }
     let marks = Marks::of(font);
     if !marks.attaching.is_empty() {
@@ -103,6 +106,24 @@ fn kern(font: &Font) -> String {
 fn push(out: &mut String, text: std::fmt::Arguments<'_>) {
     let done = out.write_fmt(text);
     debug_assert!(done.is_ok(), "a string takes all that is written to it");
+}
+
+/// Letters that are shifted until the exit of one is the entry of the next; a word's last letter stays on the line.
+fn cursive(font: &Font) -> String {
+    let rule = |glyph: &Glyph| {
+        let place = |name: &str| glyph.anchors.iter().find(|a| a.name == name).map(at);
+        let null = || "<anchor NULL>".to_owned();
+        let (entry, exit) = (place("entry"), place("exit"));
+        (entry.is_some() || exit.is_some()).then(|| {
+            let (entry, exit) = (entry.unwrap_or_else(null), exit.unwrap_or_else(null));
+            format!("    pos cursive {} {entry} {exit};\n", glyph.name)
+        })
+    };
+    let rules: String = font.glyphs().iter().filter_map(rule).collect();
+    if rules.is_empty() {
+        return rules;
+    }
+    format!("\nfeature curs {{\n    lookupflag RightToLeft IgnoreMarks;\n{rules}}} curs;\n")
 }
 
 /// Glyphs with anchors, sorted by what they are.
