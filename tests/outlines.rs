@@ -19,7 +19,7 @@ fn outlines(gray: &Gray) -> Vec<BezPath> {
 }
 
 fn traced(gray: &Gray, options: &Options) -> Vec<BezPath> {
-    let flip = to_picture(gray);
+    let flip = to_picture(gray.height());
     let paths = trace_picture(gray, options).expect("default options are in their ranges");
     paths.iter().map(|p| flip * p).collect()
 }

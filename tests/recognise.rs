@@ -41,7 +41,7 @@ fn remarks(spoil: impl Fn(&mut Vec<String>)) -> Vec<String> {
     spoil(&mut labels);
     project.sheets[0].glyphs = Labels::Text(labels.join(" "));
     let world = World {
-        read: &read,
+        inputs: &read,
         watch: &Unwatched,
         created: 0,
         store: &Nothing,

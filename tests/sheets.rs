@@ -612,3 +612,143 @@ fn a_folder_with_somebodys_files_is_not_replaced() {
         "nothing is written, nothing is lost"
     );
 }
+
+/// Exit status of a build and what it said.
+fn build_in(dir: &Path, args: &[&str]) -> (Option<i32>, String) {
+    let out = khatt(dir, &[&["build", "font.toml"], args].concat());
+    let said = String::from_utf8_lossy(&out.stderr).into_owned();
+    (out.status.code(), said)
+}
+
+#[test]
+fn a_proof_shows_what_has_changed_and_stays_the_same_until_something_does() {
+    let dir = project(LETTERS, &page(&[]));
+    let proof = || fs::read_to_string(dir.path().join("out/test.html")).expect("a proof");
+    assert_eq!(build_in(dir.path(), &["--no-cache"]).0, Some(0));
+    let first = proof();
+    assert!(!first.contains("Changed since the build before"));
+    assert_eq!(build_in(dir.path(), &["--no-cache"]).0, Some(0));
+    assert_eq!(proof(), first, "nothing has changed");
+
+    let path = dir.path().join("font.toml");
+    let text = fs::read_to_string(&path).expect("the project");
+    let lower = format!("{text}[cells.o]\nbaseline_shift = -20\n");
+    fs::write(&path, lower).expect("a project");
+    assert_eq!(build_in(dir.path(), &[]).0, Some(0));
+    let second = proof();
+    let (_, row) = second
+        .split_once("<a href=\"#glyph-o\">o</a>")
+        .expect("a change");
+    assert!(row.starts_with("</td><td>20."), "{}", &row[..50]);
+    assert_eq!(build_in(dir.path(), &["--no-cache"]).0, Some(0));
+    assert_eq!(proof(), second, "what was before stays");
+    assert_eq!(build_in(dir.path(), &["--locked", "--no-cache"]).0, Some(0));
+}
+
+#[test]
+fn what_a_build_remarks_and_why_it_fails_is_in_the_sarif_log() {
+    let dir = project(LETTERS, &page(&[]));
+    let log = || -> serde_json::Value {
+        let bytes = fs::read(dir.path().join("log/out.sarif")).expect("a log");
+        serde_json::from_slice(&bytes).expect("JSON")
+    };
+    let args = ["--sarif", "log/out.sarif"];
+    assert_eq!(build_in(dir.path(), &args).0, Some(0));
+    let good = log();
+    // o and c are one drawing in the page, and so on: that is remarked
+    assert!(!results(&good).is_empty());
+    for result in results(&good) {
+        assert_ne!(result["level"], "error", "{result}");
+        let place = &result["locations"][0];
+        let uri = &place["physicalLocation"]["artifactLocation"]["uri"];
+        assert_eq!(uri, "page.png", "{result}");
+        assert_eq!(place["logicalLocations"][0]["kind"], "glyph", "{result}");
+    }
+
+    fs::write(dir.path().join("page.png"), page(&[4, 7])).expect("a picture");
+    assert_eq!(build_in(dir.path(), &args).0, Some(1));
+    let bad = log();
+    let said: Vec<&str> = results(&bad)
+        .iter()
+        .filter_map(|r| r["message"]["text"].as_str())
+        .collect();
+    assert_eq!(said.len(), 2, "{said:?}");
+    let first = "page.png, cell 5 “e”: the cell is empty";
+    assert!(said[0].contains(first), "{said:?}");
+    let errors = results(&bad).iter().filter(|r| r["level"] == "error");
+    assert_eq!(errors.count(), 2, "{said:?}");
+}
+
+/// The results of a SARIF log, whose shape is that of version 2.1.0: what its schema demands of the parts used
+/// (sarifLog, run, tool, toolComponent, reportingDescriptor, result, location, artifactLocation, message).
+fn results(log: &serde_json::Value) -> &[serde_json::Value] {
+    let shape = |value: &serde_json::Value, wanted: &[&str]| {
+        assert_eq!(keys(value), wanted, "{value}");
+    };
+    let level = |value: &serde_json::Value| {
+        let known = matches!(value.as_str(), Some("error" | "warning" | "note"));
+        assert!(known, "{value} is no level");
+    };
+    shape(log, &["$schema", "runs", "version"]);
+    assert_eq!(log["version"], "2.1.0", "{log}");
+    let run = &log["runs"][0];
+    shape(run, &["results", "tool"]);
+    shape(&run["tool"], &["driver"]);
+    let driver = &run["tool"]["driver"];
+    shape(driver, &["name", "rules", "semanticVersion"]);
+    let rules = driver["rules"].as_array().expect("a list");
+    for rule in rules {
+        shape(rule, &["defaultConfiguration", "id", "shortDescription"]);
+        shape(&rule["shortDescription"], &["text"]);
+        level(&rule["defaultConfiguration"]["level"]);
+    }
+    let results = run["results"].as_array().expect("a list");
+    for result in results {
+        let parts = ["level", "locations", "message", "ruleId", "ruleIndex"];
+        shape(result, &parts);
+        shape(&result["message"], &["text"]);
+        level(&result["level"]);
+        let index = result["ruleIndex"].as_u64().expect("a number");
+        let rule = &rules[usize::try_from(index).expect("a few")];
+        assert_eq!(rule["id"], result["ruleId"], "{result}");
+        for place in result["locations"].as_array().expect("a list") {
+            let known = ["logicalLocations", "physicalLocation"];
+            assert!(keys(place).iter().all(|k| known.contains(k)), "{place}");
+            let uri = &place["physicalLocation"]["artifactLocation"]["uri"];
+            let reference = uri.as_str().is_some_and(|u| !u.contains([' ', '\\']));
+            assert!(reference, "{place}");
+        }
+    }
+    results
+}
+
+/// The keys of a table, sorted.
+fn keys(value: &serde_json::Value) -> Vec<&str> {
+    let mut keys: Vec<&str> = value
+        .as_object()
+        .expect("a table")
+        .keys()
+        .map(String::as_str)
+        .collect();
+    keys.sort_unstable();
+    keys
+}
+
+#[test]
+fn a_changed_correction_redoes_no_other_page() {
+    let dir = project(LETTERS, &page(&[]));
+    fs::write(dir.path().join("more.png"), page(&[])).expect("a picture");
+    let path = dir.path().join("font.toml");
+    let text = fs::read_to_string(&path).expect("the project");
+    let second = "[[sheet]]\nimage = \"more.png\"\nlayout = { grid = [3, 3] }\n\
+                  glyphs = \"A p i B j C q k r\"\npixels_per_em = 150\n[output]";
+    let text = text.replace("[output]", second);
+    fs::write(&path, &text).expect("a project");
+    let args = ["--quiet", "--cache-dir", "kept"];
+    let kept = || files(&dir.path().join("kept")).len();
+    assert_eq!(build_in(dir.path(), &args).0, Some(0));
+    assert_eq!(kept(), 3, "two pages and a build");
+    fs::write(&path, format!("{text}[cells.p]\nbaseline_shift = 9\n")).expect("a project");
+    assert_eq!(build_in(dir.path(), &args).0, Some(0));
+    assert_eq!(kept(), 5, "one page and a build more");
+}

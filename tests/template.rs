@@ -321,7 +321,7 @@ report = "out/report.json"
 fn printed(project: &str) -> (Layout, Vec<Page>) {
     let project = Project::parse(&project.replace("IMAGES", "[]")).expect("a project");
     let world = World {
-        read: &|path: &Path| Err(format!("{} is not wanted", path.display())),
+        inputs: &|path: &Path| Err(format!("{} is not wanted", path.display())),
         watch: &Unwatched,
         created: 0,
         store: &Nothing,
@@ -425,6 +425,43 @@ fn drawn_pages_become_a_font_whatever_their_order() {
             "{page}"
         );
     }
+}
+
+#[test]
+fn one_of_a_templates_pages_scanned_again_redoes_no_other() {
+    let (layout, pages) = printed(PROJECT);
+    let first = drawn(&layout, &pages[0], FLATBED);
+    let second = drawn(&layout, &pages[1], FLATBED);
+    let dir = folder(&[("1.png", &first), ("2.png", &second)]);
+    let build = || {
+        let args = ["build", "font.toml", "--cache-dir", "kept"];
+        let out = khatt(dir.path(), &args);
+        let said = String::from_utf8_lossy(&out.stderr).into_owned();
+        assert_eq!(out.status.code(), Some(0), "{said}");
+        let font = fs::read(dir.path().join("out/test.ttf")).expect("a font");
+        let kept = fs::read_dir(dir.path().join("kept"))
+            .expect("a folder")
+            .flatten();
+        let entries = kept.flat_map(|e| fs::read_dir(e.path()).into_iter().flatten());
+        (font, entries.count())
+    };
+    let (font, kept) = build();
+    assert_eq!(kept, 3, "two pages and a build");
+    let again = drawn(
+        &layout,
+        &pages[1],
+        Camera {
+            quarters: 2,
+            ..FLATBED
+        },
+    );
+    fs::write(dir.path().join("2.png"), again).expect("a picture");
+    let (_, kept) = build();
+    assert_eq!(kept, 4, "one page more");
+    fs::write(dir.path().join("2.png"), second).expect("a picture");
+    assert_eq!(build().0, font);
+    fs::remove_dir_all(dir.path().join("kept")).expect("what is kept");
+    assert_eq!(build().0, font);
 }
 
 /// An outline of a font, font units.

@@ -39,13 +39,13 @@ pub fn project(data: &[u8]) {
         _ => Ok(PAGE.to_vec()),
     };
     let world = World {
-        read: &read,
+        inputs: &read,
         watch: &Unwatched,
         created: 0,
         store: &Nothing,
     };
     if let Ok(built) = build(&project, world) {
-        let _ = outputs(&project, &built, world);
+        let _ = outputs(&project, &built, None, world);
     }
 }
 

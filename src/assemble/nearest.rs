@@ -2,6 +2,7 @@
 
 use super::names::characters;
 use read_fonts::ps::agl;
+use std::sync::LazyLock;
 
 /// The letters that a changed name may take.
 const ALPHABET: &str = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-";
@@ -9,13 +10,23 @@ const ALPHABET: &str = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123
 /// The Adobe Glyph List names few characters beyond: East Asian ones and dingbats.
 const LAST_NAMED: u32 = 0x2300;
 
-/// No font holds a longer name; looking for what is like it would take seconds.
-const LONGEST: usize = 63;
+/// No list has a longer name, its script's suffix included.
+const LONGEST: usize = 40;
+
+/// The names of the Adobe Glyph List: finding them takes longer than a search among them.
+static LISTED: LazyLock<Vec<String>> = LazyLock::new(|| {
+    let names = (0x20..LAST_NAMED).filter_map(|code| {
+        let mut buffer = [0; agl::MAX_NAME_LEN + 1];
+        agl::char_to_name(code, &mut buffer).map(str::to_owned)
+    });
+    names.collect()
+});
 
 /// The nearest known name: one edit or a script's suffix away among all names, or up to a third of
 /// its letters away among those of the Adobe Glyph List.
 pub(super) fn name(base: &str) -> Option<String> {
-    if base.len() > LONGEST {
+    // names are ASCII: what is not has none near it
+    if base.len() > LONGEST || !base.is_ascii() {
         return None;
     }
     let known = |n: &String| characters(n).is_some();
@@ -57,15 +68,11 @@ fn edits(base: &str) -> impl Iterator<Item = String> {
 /// The nearest name of the Adobe Glyph List within a third of the letters.
 fn listed(base: &str) -> Option<String> {
     let allowed = base.chars().count() / 3;
-    let names = (0x20..LAST_NAMED).filter_map(|code| {
-        let mut buffer = [0; agl::MAX_NAME_LEN + 1];
-        agl::char_to_name(code, &mut buffer).map(str::to_owned)
-    });
-    names
-        .map(|n| (distance(base, &n), n))
-        .filter(|(d, _)| *d <= allowed)
-        .min()
-        .map(|(_, n)| n)
+    let as_long = LISTED.iter();
+    let as_long = as_long.filter(|n| n.len().abs_diff(base.len()) <= allowed);
+    let near = as_long.map(|n| (distance(base, n), n));
+    let near = near.filter(|(d, _)| *d <= allowed).min();
+    near.map(|(_, n)| n.clone())
 }
 
 /// Letters to change, add or drop to make one word the other (Levenshtein's distance).
@@ -97,6 +104,7 @@ mod tests {
     #[test]
     fn no_name_is_near_to_a_long_one() {
         assert_eq!(name(&"x".repeat(1_000_000)), None);
+        assert_eq!(name("alef\u{FFFD}"), None, "names are ASCII");
     }
 
     #[test]

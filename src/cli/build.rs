@@ -1,14 +1,14 @@
 //! `khatt build`: a project becomes fonts.
 
-use super::cache::{CacheArgs, digest};
+use super::cache::CacheArgs;
 use super::done::Done;
 use super::failure::Failure;
 use super::progress::Times;
 use super::project::{Opened, created};
 use super::staged::{self, Staged};
-use super::{Common, Outcome, files, keep};
+use super::{Common, Outcome, files, keep, sarif};
 use clap::Args;
-use khatt::pipeline::{self, Built, Outputs, Store};
+use khatt::pipeline::{self, Built, Outputs, Report, Store, digest};
 use khatt::types::Files;
 use khatt::write::handwork;
 use serde_json::json;
@@ -28,8 +28,11 @@ pub(crate) struct Build {
     /// Also write a rule for Make or Ninja: outputs, colon, inputs
     #[arg(long, value_name = "FILE.d")]
     depfile: Option<PathBuf>,
+    /// Also write what there is to remark, or why the build failed, as a SARIF log
+    #[arg(long, value_name = "FILE.sarif")]
+    sarif: Option<PathBuf>,
     /// Write nothing; fail where an output is not what would be written
-    #[arg(long)]
+    #[arg(long, conflicts_with = "sarif")]
     locked: bool,
     /// Write the UFO anew, without what was done to it by hand
     #[arg(long)]
@@ -45,6 +48,7 @@ impl Build {
             project,
             keep: None,
             depfile: None,
+            sarif: None,
             locked: false,
             overwrite: false,
             cache: CacheArgs::default(),
@@ -56,11 +60,22 @@ impl Build {
     }
 
     pub(crate) fn run(&self, common: &Common) -> Outcome {
+        let outcome = self.build(common);
+        if let Some((path, failure)) = self.sarif.as_ref().zip(outcome.as_ref().err()) {
+            let log = sarif::failed(&self.project, failure);
+            let mut staged = Staged::default();
+            staged.add(path, &log)?;
+            staged.commit()?;
+        }
+        outcome
+    }
+
+    fn build(&self, common: &Common) -> Outcome {
         let opened = Opened::new(&self.project)?;
         let cache = self.cache.open();
         let key = self.key(&opened)?;
         if self.keep.is_none()
-            && let Some(said) = Done::recall(&cache, &key)
+            && let Some(said) = Done::recall(&cache, &key, &opened)
         {
             if !common.quiet {
                 eprint!("{said}");
@@ -69,7 +84,7 @@ impl Build {
             return Ok(());
         }
         let (files, said) = self.make(&cache, &opened, common)?;
-        if let Some(done) = Done::new(&opened.inputs(), &files, &said) {
+        if let Some(done) = Done::new(&opened, &files, &said) {
             done.keep(&cache, &key);
         }
         cache.trim();
@@ -88,16 +103,20 @@ impl Build {
         opened: &Opened,
         common: &Common,
     ) -> Result<(Vec<(PathBuf, Files)>, String), Failure> {
+        let last = opened.proof().and_then(|path| files::last(&path));
         let ((built, outputs), total, times) =
             opened.work_with(store, common, |project, world| {
                 let built = pipeline::build(project, world)?;
-                let outputs = pipeline::outputs(project, &built, world)?;
+                let outputs = pipeline::outputs(project, &built, last.as_deref(), world)?;
                 Ok((built, outputs))
             })?;
         let mut files = self.files(opened, &outputs, (total, &times));
         let mut said = remarks(&built);
         if !self.overwrite {
             said += &keep_handwork(opened, &mut files)?;
+        }
+        if let Some(path) = &self.sarif {
+            files.push((path.clone(), sarif::remarks(opened, &built)));
         }
         if self.locked {
             staged::same(&files)?;
@@ -129,6 +148,7 @@ impl Build {
             project,
             opened.text(),
             self.depfile,
+            self.sarif,
             self.locked,
             self.overwrite,
             created()?
@@ -150,8 +170,8 @@ impl Build {
         if self.locked {
             return files;
         }
-        if let Some(path) = opened.report() {
-            files.push((path, report(outputs, total, times)));
+        if let Some((path, made)) = opened.report().zip(outputs.report.as_ref()) {
+            files.push((path, report(made, total, times)));
         }
         if let Some(path) = &self.depfile {
             let targets = files.iter().map(|(path, _)| path.as_path());
@@ -195,12 +215,12 @@ fn keep_handwork(opened: &Opened, outputs: &mut [(PathBuf, Files)]) -> Result<St
 }
 
 /// The report with the time of each stage.
-fn report(outputs: &Outputs, total: Duration, times: &Times) -> Files {
+fn report(report: &Report, total: Duration, times: &Times) -> Files {
     let stages = times.iter();
     let stages: serde_json::Map<_, _> = stages
         .map(|(stage, time)| (stage.to_string(), json!(time.as_secs_f64())))
         .collect();
-    let mut report = json!(outputs.report);
+    let mut report = json!(report);
     if let Some(table) = report.as_object_mut() {
         table.insert("seconds".to_owned(), json!(total.as_secs_f64()));
         table.insert("stage_seconds".to_owned(), stages.into());

@@ -4,8 +4,7 @@
 //! renamed: builds at the same time do not see halves. A wrong entry counts as none. Nothing here fails a build.
 
 use clap::Args;
-use khatt::pipeline::Store;
-use sha2::{Digest, Sha256};
+use khatt::pipeline::{Store, digest};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
@@ -123,10 +122,4 @@ fn program() -> Option<String> {
     Some(digest(
         format!("{version} {} {built}", file.len()).as_bytes(),
     ))
-}
-
-/// SHA-256, hexadecimal.
-pub(crate) fn digest(bytes: &[u8]) -> String {
-    let hex = Sha256::digest(bytes);
-    hex.iter().map(|b| format!("{b:02x}")).collect()
 }

@@ -54,7 +54,7 @@ pub(super) fn ufo(gray: &Gray, drawn: &Centerline, to: &Path) -> Result<Files, B
         glyph.codepoints = Codepoints::new([*c]);
     }
     glyph.width = gray.width() as f64;
-    let up = to_picture(gray).inverse();
+    let up = to_picture(gray.height()).inverse();
     glyph.contours = drawn
         .lines
         .iter()

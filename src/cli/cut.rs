@@ -5,13 +5,11 @@ use super::project::Opened;
 use super::staged::Staged;
 use super::{Common, Outcome};
 use clap::Args;
-use image::{GrayImage, ImageFormat};
 use khatt::pipeline::project::{CellTable, Cells, Layout};
 use khatt::pipeline::{self, Page};
-use khatt::types::{Cell, Files, Gray};
+use khatt::types::{Cell, Files, Png};
 use kurbo::Rect;
 use serde_json::{Value, json};
-use std::io::Cursor;
 use std::path::PathBuf;
 
 /// Writes the cells of the project's pages as pictures, with a list of them in cells.json
@@ -91,7 +89,10 @@ fn found(page: &Page, layout: Option<Layout>) -> Cells {
 fn entry(page: &Page) -> (Vec<(String, Vec<u8>)>, Value) {
     let cut = &page.cut;
     let name = |c: &Cell| format!("{:02}-{:03}.png", page.table + 1, c.index + 1);
-    let pictures = cut.cells.iter().map(|c| (name(c), png(&c.gray)));
+    let pictures = cut
+        .cells
+        .iter()
+        .map(|c| (name(c), Png::of(&c.gray).bytes().to_vec()));
     let cells = cut.cells.iter().map(|c| {
         json!({
             "cell": c.index + 1,
@@ -131,19 +132,4 @@ fn entry(page: &Page) -> (Vec<(String, Vec<u8>)>, Value) {
 /// Left, top, right and bottom.
 fn corners(r: Rect) -> [f64; 4] {
     [r.x0, r.y0, r.x1, r.y1]
-}
-
-/// Dark ink on white paper, 8 bit.
-pub(crate) fn png(gray: &Gray) -> Vec<u8> {
-    let bytes = gray.levels().iter().map(|ink| 255 - ink).collect();
-    let size = u32::try_from(gray.width())
-        .ok()
-        .zip(u32::try_from(gray.height()).ok());
-    let picture = size
-        .and_then(|(w, h)| GrayImage::from_raw(w, h, bytes))
-        .unwrap_or_default();
-    let mut out = Cursor::new(Vec::new());
-    let written = picture.write_to(&mut out, ImageFormat::Png);
-    debug_assert!(written.is_ok(), "memory takes everything");
-    out.into_inner()
 }

@@ -1,8 +1,10 @@
 //! Whether a build has nothing to do: the files that it read last time and the outputs that it wrote are still the same.
 
-use super::cache::{Cache, digest};
-use khatt::pipeline::Store;
+use super::cache::Cache;
+use super::project::Opened;
+use khatt::pipeline::{Store, digest};
 use khatt::types::Files;
+use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -20,19 +22,18 @@ pub(crate) struct Done {
 
 impl Done {
     /// What is remembered of a finished build; nothing where an input is gone already.
-    pub(crate) fn new(
-        inputs: &[PathBuf],
-        outputs: &[(PathBuf, Files)],
-        said: &str,
-    ) -> Option<Self> {
-        let input = |path: &PathBuf| Some((path.clone(), digest(&fs::read(path).ok()?)));
+    pub(crate) fn new(opened: &Opened, outputs: &[(PathBuf, Files)], said: &str) -> Option<Self> {
+        let input = |path: PathBuf| {
+            let digest = opened.digest_of(&path)?;
+            Some((path, digest))
+        };
         let output = |(path, files): &(PathBuf, Files)| {
             let files = files.0.iter();
             let digests = files.map(|(name, content)| (name.clone(), digest(content)));
             (path.clone(), digests.collect())
         };
         Some(Self {
-            inputs: inputs.iter().map(input).collect::<Option<_>>()?,
+            inputs: (opened.inputs().into_iter().map(input)).collect::<Option<_>>()?,
             outputs: outputs.iter().map(output).collect(),
             said: said.to_owned(),
         })
@@ -45,10 +46,12 @@ impl Done {
     }
 
     /// What the build of this key said, where all that it read and wrote is as it was.
-    pub(crate) fn recall(cache: &Cache, key: &str) -> Option<String> {
+    pub(crate) fn recall(cache: &Cache, key: &str, opened: &Opened) -> Option<String> {
         let done: Self = serde_json::from_slice(&cache.get(key)?).ok()?;
         let is = |path: &Path, wanted: &str| fs::read(path).is_ok_and(|b| digest(&b) == wanted);
-        let inputs = done.inputs.iter().all(|(path, wanted)| is(path, wanted));
+        let same =
+            |(path, wanted): &(PathBuf, String)| opened.digest_of(path).as_ref() == Some(wanted);
+        let inputs: Vec<bool> = done.inputs.par_iter().map(same).collect();
         let output = |(path, files): &(PathBuf, Vec<(String, String)>)| {
             let at = |name: &str| match name {
                 "" => path.clone(),
@@ -56,6 +59,6 @@ impl Done {
             };
             files.iter().all(|(name, wanted)| is(&at(name), wanted))
         };
-        (inputs && done.outputs.iter().all(output)).then_some(done.said)
+        (inputs.iter().all(|same| *same) && done.outputs.iter().all(output)).then_some(done.said)
     }
 }

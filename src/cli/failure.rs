@@ -41,6 +41,17 @@ impl Failure {
         self
     }
 
+    /// What each error says, with its remedy.
+    pub(crate) fn texts(&self) -> impl Iterator<Item = String> {
+        self.0.iter().map(|complaint| match complaint {
+            Complaint::Said { what, help } => match help {
+                Some(help) => format!("{what}\n{help}"),
+                None => what.clone(),
+            },
+            Complaint::Drawn(text) => text.trim().to_owned(),
+        })
+    }
+
     /// `place` and the error with all its causes.
     pub(crate) fn at(place: impl fmt::Display, error: &dyn Error) -> Self {
         Self::new(format!("{place}: {}", chain(error)))

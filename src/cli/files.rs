@@ -33,6 +33,12 @@ pub(crate) fn read(path: &Path) -> Result<Vec<u8>, Failure> {
     fs::read(path).map_err(|e| Failure::at(name(path), &e))
 }
 
+/// What an earlier run left in a file, where it is text.
+pub(crate) fn last(path: &Path) -> Option<String> {
+    let file = fs::metadata(path).ok().filter(fs::Metadata::is_file);
+    file.and_then(|_| fs::read_to_string(path).ok())
+}
+
 /// Writes a file in one step, or to standard output: a reader sees the old file or the new one.
 pub(crate) fn write(path: &Path, content: &[u8]) -> Result<(), Failure> {
     if is_dash(path) {

@@ -1,6 +1,6 @@
 //! `--keep`: what each stage made of each cell.
 
-use super::{cut, trace};
+use super::trace;
 use khatt::pipeline::{Built, Letter};
 use khatt::types::{Contour, Files};
 use khatt::write;
@@ -11,18 +11,19 @@ use kurbo::{BezPath, PathEl};
 pub(crate) fn files(built: &Built) -> Files {
     let mut files = Files::default();
     for (n, letter) in built.letters.iter().enumerate() {
-        let stem = format!("{:03}-{}", n + 1, letter.cell.index + 1);
-        let gray = &letter.cell.gray;
+        let stem = format!("{:03}-{}", n + 1, letter.index + 1);
+        let picture = &letter.picture;
+        let size = (picture.width(), picture.height());
         let mut add = |stage: &str, kind: &str, content: Vec<u8>| {
             files.0.insert(format!("{stage}/{stem}.{kind}"), content);
         };
-        add("1-cut", "png", cut::png(gray));
+        add("1-cut", "png", picture.bytes().to_vec());
         add(
             "2-trace",
             "svg",
-            trace::svg(gray, &rings(letter)).into_bytes(),
+            trace::svg(size, &rings(letter)).into_bytes(),
         );
-        add("3-fit", "svg", trace::svg(gray, &letter.paths).into_bytes());
+        add("3-fit", "svg", trace::svg(size, &letter.paths).into_bytes());
     }
     if let Some(format) = write::format("svg") {
         let outlines = (format.write)(&built.font).unwrap_or_default();

@@ -40,8 +40,11 @@ pub(crate) struct Merge {
     results: Vec<PathBuf>,
 }
 
-/// Bytes of the key and of the checksum at the head of a result.
-const HEAD: (usize, usize) = (64, 4);
+/// A key and what is kept under it.
+type Entry = (String, Vec<u8>);
+
+/// Bytes of a key.
+const KEY: usize = 64;
 
 impl Page {
     pub(crate) fn run(&self, common: &Common) -> Outcome {
@@ -51,12 +54,15 @@ impl Page {
             pipeline::sheet_letters(project, self.sheet, world)
         })?;
         let kept = results.kept.into_inner();
-        let mut staged = Staged::default();
+        let mut bytes = Vec::new();
         for (key, content) in kept.unwrap_or_else(PoisonError::into_inner) {
-            let check = crc32fast::hash(&content).to_le_bytes();
-            let bytes = [key.as_bytes(), &check, &content].concat();
-            staged.add(&self.output, &Files::single(bytes))?;
+            bytes.extend(key.as_bytes());
+            bytes.extend((content.len() as u64).to_le_bytes());
+            bytes.extend(crc32fast::hash(&content).to_le_bytes());
+            bytes.extend(content);
         }
+        let mut staged = Staged::default();
+        staged.add(&self.output, &Files::single(bytes))?;
         staged.commit()
     }
 }
@@ -65,8 +71,9 @@ impl Merge {
     pub(crate) fn run(&self, common: &Common) -> Outcome {
         let results = Results::default();
         for path in &self.results {
-            let (key, content) = read(path)?;
-            results.put(&key, &content);
+            for (key, content) in read(path)? {
+                results.put(&key, &content);
+            }
         }
         let opened = Opened::new(&self.project)?;
         let missing = opened.work_with(&results, common, |project, world| {
@@ -89,20 +96,31 @@ impl Merge {
     }
 }
 
-/// A result's key and content.
-fn read(path: &Path) -> Result<(String, Vec<u8>), Failure> {
+/// The keys and contents of a result: one for each picture file of the sheet.
+fn read(path: &Path) -> Result<Vec<Entry>, Failure> {
     let bytes = files::read(path)?;
-    let wrong = || {
-        Failure::new(format!("{}: is no result of khatt page", path.display()))
-            .help("make it again with khatt page")
-    };
-    let (key, rest) = bytes.split_at_checked(HEAD.0).ok_or_else(wrong)?;
-    let (check, content) = rest.split_at_checked(HEAD.1).ok_or_else(wrong)?;
-    let key = std::str::from_utf8(key).map_err(|_| wrong())?;
-    if crc32fast::hash(content).to_le_bytes().as_slice() != check {
-        return Err(wrong());
+    let (mut rest, mut entries) = (bytes.as_slice(), Vec::new());
+    while !rest.is_empty() {
+        let (entry, after) = entry(rest).ok_or_else(|| {
+            Failure::new(format!("{}: is no result of khatt page", path.display()))
+                .help("make it again with khatt page")
+        })?;
+        entries.push(entry);
+        rest = after;
     }
-    Ok((key.to_owned(), content.to_owned()))
+    Ok(entries)
+}
+
+/// The first key and content, and what follows; nothing where these bytes are no entry.
+fn entry(bytes: &[u8]) -> Option<(Entry, &[u8])> {
+    let (key, rest) = bytes.split_at_checked(KEY)?;
+    let (length, rest) = rest.split_first_chunk()?;
+    let (check, rest) = rest.split_first_chunk()?;
+    let length = usize::try_from(u64::from_le_bytes(*length)).ok()?;
+    let (content, after) = rest.split_at_checked(length)?;
+    let whole = crc32fast::hash(content) == u32::from_le_bytes(*check);
+    let key = std::str::from_utf8(key).ok().filter(|_| whole)?;
+    Some(((key.to_owned(), content.to_owned()), after))
 }
 
 /// Results in memory.

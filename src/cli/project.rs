@@ -1,17 +1,19 @@
 //! The project file and what lies beside it.
 
 use super::failure::{Complaint, Failure, chain};
+use super::inputs::Digests;
 use super::progress::{Progress, Times};
 use super::staged::parent;
 use super::{Common, files};
-use khatt::pipeline::{Nothing, Problem, Project, ProjectError, Store, World};
+use khatt::pipeline::{Inputs, Nothing, Problem, Project, ProjectError, Store, World};
 use miette::{
     Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, NamedSource, SourceCode,
 };
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
-use std::{env, fmt, fs};
+use std::{env, fmt, iter};
 
 /// A project and the folder that its paths start from.
 #[derive(Debug)]
@@ -20,7 +22,10 @@ pub(crate) struct Opened {
     /// What the project file says.
     text: String,
     folder: PathBuf,
-    inputs: Mutex<Vec<PathBuf>>,
+    file: PathBuf,
+    digests: Digests,
+    /// What was asked for beside the project file.
+    used: Mutex<BTreeSet<PathBuf>>,
 }
 
 impl Opened {
@@ -28,6 +33,8 @@ impl Opened {
     pub(crate) fn new(path: &Path) -> Result<Self, Failure> {
         let name = files::name(path);
         let bytes = files::read(path)?;
+        let digests = Digests::default();
+        digests.is(path, &bytes);
         let text = String::from_utf8(bytes).map_err(|e| Failure::at(&name, &e))?;
         let project =
             Project::parse(&text).map_err(|e| Failure::drawn(draw(&name, text.clone(), e)))?;
@@ -35,7 +42,9 @@ impl Opened {
             project,
             text,
             folder: parent(path).to_owned(),
-            inputs: Mutex::new(vec![path.to_owned()]),
+            file: path.to_owned(),
+            digests,
+            used: Mutex::default(),
         })
     }
 
@@ -62,9 +71,8 @@ impl Opened {
         work: impl FnOnce(&Project, World<'_>) -> Result<T, Vec<Problem>>,
     ) -> Result<(T, Duration, Times), Failure> {
         let progress = Progress::new(common);
-        let read = |path: &Path| self.read(path);
         let world = World {
-            read: &read,
+            inputs: self,
             watch: &progress,
             created: created()?,
             store,
@@ -72,22 +80,6 @@ impl Opened {
         let done = work(&self.project, world);
         let (total, times) = progress.finish();
         done.map(|value| (value, total, times)).map_err(failure)
-    }
-
-    /// A file that the project names, or why there is none.
-    fn read(&self, path: &Path) -> Result<Vec<u8>, String> {
-        let path = self.path(path);
-        // a pipe or a device could go on for ever
-        let file = fs::metadata(&path).map_err(|e| e.to_string())?;
-        if !file.is_file() {
-            return Err("this is no regular file".to_owned());
-        }
-        let bytes = fs::read(&path).map_err(|e| e.to_string())?;
-        let mut inputs = self.inputs.lock().unwrap_or_else(PoisonError::into_inner);
-        if !inputs.contains(&path) {
-            inputs.push(path);
-        }
-        Ok(bytes)
     }
 
     /// Where the report goes.
@@ -102,6 +94,12 @@ impl Opened {
         Some(self.path(path))
     }
 
+    /// Where the proof goes.
+    pub(crate) fn proof(&self) -> Option<PathBuf> {
+        let path = self.project.output.proof.as_ref()?;
+        Some(self.path(path))
+    }
+
     /// What the project file says.
     pub(crate) fn text(&self) -> &str {
         &self.text
@@ -109,8 +107,22 @@ impl Opened {
 
     /// The files that were read, the project file first.
     pub(crate) fn inputs(&self) -> Vec<PathBuf> {
-        let read = self.inputs.lock().unwrap_or_else(PoisonError::into_inner);
-        read.clone()
+        let used = self.used.lock().unwrap_or_else(PoisonError::into_inner);
+        let others = used.iter().filter(|p| **p != self.file);
+        iter::once(&self.file).chain(others).cloned().collect()
+    }
+
+    /// The digest of a file as it was last read.
+    pub(crate) fn digest_of(&self, path: &Path) -> Option<String> {
+        self.digests.of(path).ok()
+    }
+
+    /// Where a path of the project file lies, which is used from now on.
+    fn use_path(&self, path: &Path) -> PathBuf {
+        let path = self.path(path);
+        let mut used = self.used.lock().unwrap_or_else(PoisonError::into_inner);
+        used.insert(path.clone());
+        path
     }
 
     /// Where a path of the project file lies.
@@ -120,6 +132,16 @@ impl Opened {
         } else {
             self.folder.join(path)
         }
+    }
+}
+
+impl Inputs for Opened {
+    fn read(&self, path: &Path) -> Result<Vec<u8>, String> {
+        self.digests.read(&self.use_path(path))
+    }
+
+    fn digest(&self, path: &Path) -> Result<String, String> {
+        self.digests.of(&self.use_path(path))
     }
 }
 
@@ -175,7 +197,7 @@ impl Diagnostic for Shown {
     fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
         let span = self.error.span.clone()?;
         let label = LabeledSpan::new_with_span(Some("here".to_owned()), span);
-        Some(Box::new(std::iter::once(label)))
+        Some(Box::new(iter::once(label)))
     }
 }
 

@@ -23,9 +23,10 @@ pub(crate) struct Proof {
 impl Proof {
     pub(crate) fn run(&self, common: &Common) -> Outcome {
         let opened = Opened::new(&self.project)?;
+        let last = files::last(&self.output);
         let (page, ..) = opened.work_with(&self.cache.open(), common, |project, world| {
             let built = pipeline::build(project, world)?;
-            pipeline::proof(project, &built, world)
+            pipeline::proof(project, &built, last.as_deref(), world)
         })?;
         files::write(&self.output, page.as_bytes())
     }

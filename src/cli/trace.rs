@@ -55,7 +55,8 @@ impl Trace {
         }
         let paths =
             trace_picture(&page.gray, &self.options()).map_err(|e| Failure::at(&name, &e))?;
-        files::write(&self.output, svg(&page.gray, &paths).as_bytes())
+        let size = (page.gray.width(), page.gray.height());
+        files::write(&self.output, svg(size, &paths).as_bytes())
     }
 
     /// Writes the middle of the lines: a UFO where the output is named so, else an SVG.
@@ -100,9 +101,8 @@ pub(super) fn positive(text: &str) -> Result<f64, String> {
 }
 
 /// One path of all contours; user space is the picture's px, y down.
-pub(crate) fn svg(gray: &Gray, paths: &[BezPath]) -> String {
-    let flip = to_picture(gray);
-    let (w, h) = (gray.width(), gray.height());
+pub(crate) fn svg((w, h): (usize, usize), paths: &[BezPath]) -> String {
+    let flip = to_picture(h);
     let mut d = String::new();
     for path in paths {
         for el in (flip * path).elements() {

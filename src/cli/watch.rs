@@ -36,10 +36,12 @@ impl Watch {
         eprintln!("the proof is at {} (Ctrl-C ends)", server.address());
         let (changed, changes) = channel();
         let mut inputs: BTreeSet<PathBuf> = BTreeSet::from([self.project.clone()]);
+        let mut last: Option<String> = None;
         loop {
-            match self.build(common) {
+            match self.build(last.as_deref(), common) {
                 Ok((page, read)) => {
                     inputs = read;
+                    last = Some(page.clone());
                     server.show(Page::Proof(page));
                 }
                 Err(failure) => {
@@ -54,14 +56,18 @@ impl Watch {
         }
     }
 
-    /// The outputs are made; the proof, and the files that it follows from.
-    fn build(&self, common: &Common) -> Result<(String, BTreeSet<PathBuf>), Failure> {
+    /// The outputs are made; the proof, which shows what has changed since `last`, and the files that it follows from.
+    fn build(
+        &self,
+        last: Option<&str>,
+        common: &Common,
+    ) -> Result<(String, BTreeSet<PathBuf>), Failure> {
         let build = Build::of(self.project.clone()).cached(self.cache.clone());
         build.run(common)?;
         let opened = Opened::new(&self.project)?;
         let (page, ..) = opened.work_with(&self.cache.open(), common, |project, world| {
             let built = pipeline::build(project, world)?;
-            pipeline::proof(project, &built, world)
+            pipeline::proof(project, &built, last, world)
         })?;
         Ok((page, opened.inputs().into_iter().collect()))
     }

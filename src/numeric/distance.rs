@@ -77,6 +77,22 @@ impl Polyline {
         best
     }
 
+    /// How far away the line is, or `limit` where it is no nearer: the smaller the limit, the shorter the search.
+    #[must_use]
+    pub fn distance_below(&self, p: Point, limit: f64) -> f64 {
+        let mut best = Nearest {
+            distance: limit * limit,
+            segment: usize::MAX,
+            t: 0.0,
+        };
+        self.descend(1, p, &mut best);
+        if best.segment == usize::MAX {
+            limit
+        } else {
+            best.distance.sqrt()
+        }
+    }
+
     /// Lowers `best`, whose distance is squared here, by what lies below `node`.
     fn descend(&self, node: usize, p: Point, best: &mut Nearest) {
         if node >= self.leaves {
@@ -127,6 +143,28 @@ fn to_box(p: Point, r: Rect) -> f64 {
     dx * dx + dy * dy
 }
 
+/// Room for rounding in a bound that follows from the neighbour.
+const SLACK: f64 = 1.0 + 1e-6;
+/// The same where both are 0, the points' own unit.
+const NEAR: f64 = 1e-9;
+
+/// The distance of each point of a ring or row to the nearest of these lines; infinite where there is none. A point
+/// cannot lie farther from them than its neighbour does, and as far again as the two are apart: neighbours
+/// in a row make each other's search short.
+#[must_use]
+pub fn distances(points: impl IntoIterator<Item = Point>, lines: &[Polyline]) -> Vec<(Point, f64)> {
+    let mut last: Option<(Point, f64)> = None;
+    let each = points.into_iter().map(|p| {
+        let bound = last.map_or(f64::INFINITY, |(q, d)| (d + p.distance(q)) * SLACK + NEAR);
+        let least = lines
+            .iter()
+            .fold(bound, |least, line| line.distance_below(p, least));
+        last = Some((p, least));
+        (p, least)
+    });
+    each.collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -154,6 +192,27 @@ mod tests {
                 "the place is the nearest one"
             );
         }
+    }
+
+    #[test]
+    fn neighbours_shorten_the_search_and_change_nothing() {
+        let ring = |r: f64, x: f64| {
+            let at = move |i: u32| {
+                let a = f64::from(i) * 0.11;
+                Point::new(x + r * a.cos(), r * a.sin())
+            };
+            (0..60).map(at).collect::<Vec<_>>()
+        };
+        let lines = [ring(5.0, 0.0), ring(3.0, 1.0), ring(7.0, 40.0)].map(Polyline::new);
+        let lines: Vec<Polyline> = lines.into_iter().flatten().collect();
+        for points in [ring(4.9, 0.3), ring(30.0, 20.0), lines[0].points.clone()] {
+            for (p, d) in distances(points, &lines) {
+                let alone = lines.iter().map(|l| l.nearest(p).distance);
+                let alone = alone.fold(f64::INFINITY, f64::min);
+                assert!(d.total_cmp(&alone).is_eq(), "{d} and {alone} at {p}");
+            }
+        }
+        assert!(distances([Point::ORIGIN], &[])[0].1.is_infinite());
     }
 
     #[test]

@@ -1,10 +1,10 @@
 //! Letters that came out the same: one drawing in two cells, or one page cut twice.
 
 use super::letter::Letter;
-use super::problem::Place;
 use crate::assemble::{Drawn, Note};
 use crate::numeric::distance::Polyline;
 use kurbo::{Affine, BezPath, Point, Rect, Vec2, flatten};
+use rayon::prelude::*;
 
 /// Two outlines are one drawing where they lie nowhere farther apart than this share of the em: a hand never
 /// repeats itself that well.
@@ -13,23 +13,19 @@ const SAME: f64 = 0.004;
 /// Remarks on letters whose outlines coincide once they stand on one place.
 pub(super) fn notes(letters: &[Letter], drawn: &[Drawn], units_per_em: u16) -> Vec<Note> {
     let near = SAME * f64::from(units_per_em);
-    let shapes: Vec<Option<Shape>> = drawn.iter().map(Shape::of).collect();
-    let mut out = Vec::new();
-    for (i, shape) in shapes.iter().enumerate() {
+    let shapes: Vec<Option<Shape>> = drawn.par_iter().map(Shape::of).collect();
+    let note = |(i, shape): (usize, &Option<Shape>)| {
         let twin = shapes[..i].iter().position(|other| {
             let pair = shape.as_ref().zip(other.as_ref());
             pair.is_some_and(|(a, b)| a.lies_on(b, near) && b.lies_on(a, near))
         });
-        let Some((letter, twin)) = letters.get(i).zip(twin.and_then(|j| letters.get(j))) else {
-            continue;
-        };
-        let place = Place::of(&twin.sheet, &twin.cell);
-        out.push(Note {
-            glyph: letter.cell.label.0.clone(),
+        let place = letters.get(twin?)?.spot();
+        Some(Note {
+            glyph: letters.get(i)?.label.0.clone(),
             message: format!("its outline is that of {place}: is one of them in the wrong cell?"),
-        });
-    }
-    out
+        })
+    };
+    shapes.par_iter().enumerate().filter_map(note).collect()
 }
 
 /// An outline as points and as lines between them, its box's corner at the origin.

@@ -1,6 +1,7 @@
 //! A project → a font: the whole way.
 
 use super::alike;
+use super::batch::Batch;
 use super::by_hand;
 use super::cache::{self, Store};
 use super::corrections::Corrections;
@@ -8,22 +9,45 @@ use super::doubt::Doubt;
 use super::labels;
 use super::letter::Letter;
 use super::letters;
-use super::page::{self, Page};
+use super::page::{Page, Source};
 use super::problem::Problem;
-use super::project::{Project, SheetTable};
+use super::project::Project;
 use super::repeats;
 use super::watch::{Stage, Watch};
-use crate::assemble::{self, Drawn, Note};
+use crate::assemble::{self, Note};
 use crate::types::{Cell, Font, Label};
 use rayon::prelude::*;
 use std::path::Path;
 use std::{fmt, mem};
 
+/// The files that a project names.
+pub trait Inputs: Sync {
+    /// A file's content.
+    ///
+    /// # Errors
+    /// Why there is none.
+    fn read(&self, path: &Path) -> Result<Vec<u8>, String>;
+
+    /// A digest of the content, that of the last reading where there was one.
+    ///
+    /// # Errors
+    /// Why there is none.
+    fn digest(&self, path: &Path) -> Result<String, String> {
+        self.read(path).map(|bytes| cache::digest(&bytes))
+    }
+}
+
+impl<F: Fn(&Path) -> Result<Vec<u8>, String> + Sync> Inputs for F {
+    fn read(&self, path: &Path) -> Result<Vec<u8>, String> {
+        self(path)
+    }
+}
+
 /// What a run needs of the world outside.
 #[derive(Clone, Copy)]
 pub struct World<'a> {
-    /// Gives a file that the project names, or says why not.
-    pub read: &'a (dyn Fn(&Path) -> Result<Vec<u8>, String> + Sync),
+    /// The files that the project names.
+    pub inputs: &'a dyn Inputs,
     /// Is told what is done.
     pub watch: &'a dyn Watch,
     /// Seconds since 1970 that the font gives as its date.
@@ -35,7 +59,7 @@ pub struct World<'a> {
 impl World<'_> {
     /// The content of a file that the project names.
     pub(super) fn file(&self, path: &Path) -> Result<Vec<u8>, Problem> {
-        (self.read)(path).map_err(|why| Problem::File {
+        self.inputs.read(path).map_err(|why| Problem::File {
             file: path.display().to_string(),
             why,
         })
@@ -76,11 +100,10 @@ pub fn build(project: &Project, world: World<'_>) -> Result<Built, Vec<Problem>>
     doubts.extend(letters::doubts(project, &letters, world).map_err(|p| vec![p])?);
     let (letters, repeats) = repeats::settle(letters, project.repeated);
     let _time = world.watch.enter(Stage::Assemble);
-    let drawn: Vec<Result<Drawn, Problem>> = letters
-        .iter()
+    let drawn = letters.par_iter();
+    let drawn = all(drawn
         .map(|letter| letter.place(project.font.units_per_em))
-        .collect();
-    let drawn = all(drawn)?;
+        .collect())?;
     let twins = alike::notes(&letters, &drawn, project.font.units_per_em);
     let info = project.font.info(world.created);
     let options = assemble::Options {
@@ -98,45 +121,91 @@ pub fn build(project: &Project, world: World<'_>) -> Result<Built, Vec<Problem>>
     })
 }
 
+/// The letters of a page, and the page without its cells.
+pub(super) type Traced = (Vec<Letter>, Page);
+
 /// The letters of all pages in reading order, and the pages without their cells.
 ///
 /// # Errors
 /// Everything that is wrong with the project, its pages and their cells.
 fn letters(project: &Project, world: World<'_>) -> Result<(Vec<Letter>, Vec<Page>), Vec<Problem>> {
-    let pages = tables(project, world, |number, table, labels| {
-        sheet(project, (number, table, labels), world)
-    })?;
-    let (letters, pages): (Vec<_>, Vec<_>) = pages.into_iter().unzip();
+    let named = labels(project, world)?;
+    let sources = sources(project, &named)?;
+    let mut batches = batches(&sources, project, world).into_iter();
+    let pages = sources.iter().map(|source| {
+        let own = batches.by_ref().take(source.images().len());
+        source.join(own.collect())
+    });
+    let pages = all_lists(pages.collect())?.into_iter().flatten();
+    let (letters, pages): (Vec<_>, Vec<_>) = pages.unzip();
     Ok((letters.into_iter().flatten().collect(), pages))
 }
 
-/// The letters of a table's pages, kept ones where nothing has changed.
-fn sheet(
-    project: &Project,
-    (number, table, labels): (usize, &SheetTable, &[Label]),
-    world: World<'_>,
-) -> Result<Vec<(Vec<Letter>, Page)>, Vec<Problem>> {
-    let corrections = Corrections::of(project)?;
-    let trace = |mut page: Page| {
-        let cells = mem::take(&mut page.cut.cells);
-        let sheet = page.name.as_str();
-        world.watch.expect(cells.len());
-        let letter = |cell: Cell| {
-            let options = corrections.trace(&cell.label, &project.trace);
-            let letter = Letter::new(sheet, cell, options, world.watch);
-            world.watch.done();
-            letter
-        };
-        // the one place where work is shared out
-        let letters = all(cells.into_par_iter().map(letter).collect())?;
-        Ok((letters, page))
+/// What became of every picture file of these tables: kept where nothing has changed.
+fn batches(sources: &[Source<'_>], project: &Project, world: World<'_>) -> Vec<Batch<Traced>> {
+    let images = |s: usize| sources[s].images().into_iter().map(move |image| (s, image));
+    let files: Vec<(usize, Option<&Path>)> = (0..sources.len()).flat_map(images).collect();
+    let kept = files.par_iter();
+    let kept = kept.map(|&(s, image)| cache::recall(&sources[s], image?, project, world));
+    let mut batches: Vec<Option<Batch<Traced>>> = kept.collect();
+    let pairs = files.iter().zip(&batches);
+    let fresh: Vec<_> = pairs
+        .filter_map(|(f, kept)| kept.is_none().then_some(*f))
+        .collect();
+    let cut = |&(s, image): &(usize, Option<&Path>)| sources[s].read(image, world);
+    let traced = |&(s, image): &(usize, Option<&Path>), cut: Batch<Page>| {
+        let traced = cut.map(|page| trace(page, &sources[s], project, world));
+        if let Some(image) = image {
+            cache::keep(&traced, (&sources[s], image), project, world);
+        }
+        traced
     };
-    let mut pages = cache::recalled((table, labels), project, world, || {
-        page::each((number, table), labels, project, world, trace)
-    })?;
-    // a table that was kept may have stood in another place
-    pages.iter_mut().for_each(|(_, page)| page.table = number);
-    Ok(pages)
+    let mut done = ahead(&fresh, cut, traced).into_iter();
+    for batch in &mut batches {
+        if batch.is_none() {
+            *batch = done.next();
+        }
+    }
+    batches.into_iter().flatten().collect()
+}
+
+/// What `second` makes of each item and of what `first` made of it. `first` is one item ahead of `second`: it keeps one
+/// thread while the others share out what `second` does, and no more than two of its results exist at a time.
+fn ahead<T: Sync, A: Send, B: Send>(
+    items: &[T],
+    first: impl Fn(&T) -> A + Sync,
+    second: impl Fn(&T, A) -> B + Sync,
+) -> Vec<B> {
+    let mut done = Vec::with_capacity(items.len());
+    let mut ready = items.first().map(&first);
+    for (i, item) in items.iter().enumerate() {
+        let Some(now) = ready.take() else { break };
+        let next = || items.get(i + 1).map(&first);
+        let (made, after) = rayon::join(|| second(item, now), next);
+        done.push(made);
+        ready = after;
+    }
+    done
+}
+
+/// The letters of a page.
+fn trace(
+    mut page: Page,
+    source: &Source<'_>,
+    project: &Project,
+    world: World<'_>,
+) -> Result<Traced, Vec<Problem>> {
+    let cells = mem::take(&mut page.cut.cells);
+    let sheet = page.name.as_str();
+    world.watch.expect(cells.len());
+    let letter = |cell: Cell| {
+        let options = source.trace(&cell.label, &project.trace);
+        let letter = Letter::new(sheet, cell, options, world.watch);
+        world.watch.done();
+        letter
+    };
+    let letters = all(cells.into_par_iter().map(letter).collect())?;
+    Ok((letters, page))
 }
 
 /// Does the work of one `[[sheet]]`, `number` from 1, and leaves the result in the world's store.
@@ -150,33 +219,37 @@ pub fn sheet_letters(
 ) -> Result<(), Vec<Problem>> {
     let (project, _) = letters::resolve(project, world)?;
     let named = labels::of(&project, world)?;
-    let found = project
-        .sheets
-        .iter()
-        .zip(&named)
-        .nth(number.wrapping_sub(1));
-    let Some((table, labels)) = found else {
+    let mut found = project.sheets.iter().zip(&named);
+    let Some((table, labels)) = found.nth(number.wrapping_sub(1)) else {
         return Err(vec![Problem::Sheet {
             sheet: format!("sheet {number}"),
             why: format!("the project has {} sheets", project.sheets.len()),
         }]);
     };
-    sheet(&project, (number - 1, table, labels), world).map(drop)
+    let source = [Source::new(&project, (number - 1, table, labels))?];
+    let batches = batches(&source, &project, world);
+    source[0].join(batches).map(drop)
 }
 
 /// The `[[sheet]]`s, from 1, whose result is not in the world's store.
 ///
 /// # Errors
-/// Something is wrong with the project, or a picture cannot be read.
+/// Something is wrong with the project.
 pub fn sheets_without_result(
     project: &Project,
     world: World<'_>,
 ) -> Result<Vec<usize>, Vec<Problem>> {
     let (project, _) = letters::resolve(project, world)?;
-    tables(&project, world, |number, table, labels| {
-        let has = cache::has((table, labels), &project, world).map_err(|p| vec![p])?;
-        Ok((!has).then_some(number + 1).into_iter().collect())
-    })
+    let named = labels(&project, world)?;
+    let sources = sources(&project, &named)?;
+    let missing = sources.iter().filter(|source| {
+        let mut images = source.images().into_iter();
+        images.any(|i| {
+            i.and_then(|i| cache::recall(source, i, &project, world))
+                .is_none()
+        })
+    });
+    Ok(missing.map(|source| source.number + 1).collect())
 }
 
 /// What `work` makes of each page, one after the other.
@@ -189,25 +262,34 @@ pub fn pages<T>(
     work: impl Fn(Page) -> Result<T, Vec<Problem>>,
 ) -> Result<Vec<T>, Vec<Problem>> {
     let (project, _) = letters::resolve(project, world)?;
-    tables(&project, world, |number, table, labels| {
-        page::each((number, table), labels, &project, world, &work)
-    })
+    let named = labels(&project, world)?;
+    let pages = sources(&project, &named)?.into_iter().map(|source| {
+        let images = source.images().into_iter();
+        let batches = images.map(|image| source.read(image, world).map(&work));
+        source.join(batches.collect())
+    });
+    Ok(all_lists(pages.collect())?.into_iter().flatten().collect())
 }
 
-/// What `work` makes of each table of pages, its number and its labels.
-fn tables<T>(
-    project: &Project,
-    world: World<'_>,
-    work: impl Fn(usize, &SheetTable, &[Label]) -> Result<Vec<T>, Vec<Problem>>,
-) -> Result<Vec<T>, Vec<Problem>> {
+/// The labels of every table; corrections are all of labels that there are.
+fn labels(project: &Project, world: World<'_>) -> Result<Vec<Vec<Label>>, Vec<Problem>> {
     let named = labels::of(project, world)?;
     let unused = Corrections::of(project)?.unused(named.iter().flatten());
-    if !unused.is_empty() {
-        return Err(unused);
+    if unused.is_empty() {
+        Ok(named)
+    } else {
+        Err(unused)
     }
-    let tables = project.sheets.iter().zip(&named).enumerate();
-    let done = tables.map(|(number, (table, labels))| work(number, table, labels));
-    Ok(all_lists(done.collect())?.into_iter().flatten().collect())
+}
+
+/// Where the pages of each table come from.
+fn sources<'a>(
+    project: &'a Project,
+    named: &'a [Vec<Label>],
+) -> Result<Vec<Source<'a>>, Vec<Problem>> {
+    let tables = project.sheets.iter().zip(named).enumerate();
+    let sources = tables.map(|(n, (table, labels))| Source::new(project, (n, table, labels)));
+    all_lists(sources.collect())
 }
 
 /// All values, or all problems.

@@ -1,18 +1,17 @@
-//! What became of a table's pages, kept under a digest of all that it follows from.
+//! What became of a picture's pages, kept under a digest of all that it follows from.
 //!
 //! Load, clean, cut and trace are nearly all of a build's work, and what they make of a page follows
 //! from its bytes, its labels, the options of these stages and the program. So a page that has not changed
 //! is not read again, and a change of what comes later, spacing or outputs, redoes no page.
 
-use super::build::World;
-use super::letter::Letter;
-use super::page::Page;
-use super::problem::Problem;
-use super::project::{Project, SheetTable};
+use super::batch::Batch;
+use super::build::{Traced, World};
+use super::page::Source;
+use super::project::Project;
 use super::record;
-use crate::types::Label;
 use serde_json::json;
 use sha2::{Digest, Sha256};
+use std::path::Path;
 
 /// Where results are kept between runs.
 pub trait Store: Sync {
@@ -35,48 +34,49 @@ impl Store for Nothing {
     fn put(&self, _: &str, _: &[u8]) {}
 }
 
-/// The letters and pages of a table: those that are kept, or what `make` gives, which is then kept.
-///
-/// # Errors
-/// A picture cannot be read, or `make` says so.
-pub(super) fn recalled(
-    (table, labels): (&SheetTable, &[Label]),
+/// What became of a picture file's pages, where that is kept.
+pub(super) fn recall(
+    source: &Source<'_>,
+    image: &Path,
     project: &Project,
     world: World<'_>,
-    make: impl FnOnce() -> Result<Vec<(Vec<Letter>, Page)>, Vec<Problem>>,
-) -> Result<Vec<(Vec<Letter>, Page)>, Vec<Problem>> {
-    let key = key(table, labels, project, world).map_err(|p| vec![p])?;
-    if let Some(kept) = world.store.get(&key).and_then(|b| record::read(&b)) {
-        return Ok(kept);
-    }
-    let made = make()?;
-    if let Some(bytes) = record::write(&made) {
-        world.store.put(&key, &bytes);
-    }
-    Ok(made)
+) -> Option<Batch<Traced>> {
+    let key = key(source, image, project, world).ok()?;
+    let mut batch = world.store.get(&key).and_then(|b| record::read(&b))?;
+    // the table may have stood in another place
+    let pages = batch.made.iter_mut();
+    pages.for_each(|(_, (_, page))| page.table = source.number);
+    Some(batch)
 }
 
-/// Whether the letters and pages of a table are kept.
-pub(super) fn has(
-    (table, labels): (&SheetTable, &[Label]),
+/// Keeps what became of a picture file's pages, unless something is wrong with them.
+pub(super) fn keep(
+    batch: &Batch<Traced>,
+    (source, image): (&Source<'_>, &Path),
     project: &Project,
     world: World<'_>,
-) -> Result<bool, Problem> {
-    Ok(world
-        .store
-        .get(&key(table, labels, project, world)?)
-        .is_some())
+) {
+    // the digest of the picture as it was read: it may have changed since it was asked for
+    let key = key(source, image, project, world).ok();
+    let content = batch.problems.is_empty().then(|| record::write(batch));
+    if let Some((key, content)) = key.zip(content.flatten()) {
+        world.store.put(&key, &content);
+    }
 }
 
-/// A digest of the pictures and of every setting but those that only later stages look at.
+/// A digest of a picture file and of every setting but those that only later stages look at.
 fn key(
-    table: &SheetTable,
-    labels: &[Label],
+    source: &Source<'_>,
+    image: &Path,
     project: &Project,
     world: World<'_>,
-) -> Result<String, Problem> {
+) -> Result<String, String> {
     let mut earlier = project.clone();
-    earlier.sheets = vec![table.clone()];
+    let mut table = source.table.clone();
+    table.image = vec![image.to_owned()];
+    earlier.sheets = vec![table];
+    earlier.cells = source.corrected(project);
+    earlier.compose = <_>::default();
     earlier.spacing = <_>::default();
     earlier.anchors = <_>::default();
     earlier.kerning = <_>::default();
@@ -85,18 +85,15 @@ fn key(
     earlier.gate = <_>::default();
     earlier.matching = <_>::default();
     earlier.output = <_>::default();
-    let labels: Vec<&str> = labels.iter().map(|l| l.0.as_str()).collect();
-    let mut digest = Sha256::new();
-    let mut add = |bytes: &[u8]| {
-        digest.update(bytes.len().to_le_bytes());
-        digest.update(bytes);
-    };
-    add(json!([env!("CARGO_PKG_VERSION"), earlier, labels])
-        .to_string()
-        .as_bytes());
-    for image in &table.image {
-        add(&world.file(image)?);
-    }
-    let hex = digest.finalize();
-    Ok(hex.iter().map(|b| format!("{b:02x}")).collect())
+    let labels: Vec<&str> = source.labels.iter().map(|l| l.0.as_str()).collect();
+    let picture = world.inputs.digest(image)?;
+    let all = json!([env!("CARGO_PKG_VERSION"), earlier, labels, picture]);
+    Ok(digest(all.to_string().as_bytes()))
+}
+
+/// SHA-256, hexadecimal.
+#[must_use]
+pub fn digest(bytes: &[u8]) -> String {
+    let hex = Sha256::digest(bytes);
+    hex.iter().map(|b| format!("{b:02x}")).collect()
 }

@@ -6,16 +6,24 @@ use super::watch::{Stage, Watch};
 use crate::assemble::{Drawn, names};
 use crate::finish::place;
 use crate::trace;
-use crate::types::{Cell, Contour, Font, Frame, Gray};
-use kurbo::BezPath;
+use crate::types::{Cell, Contour, Font, Frame, Guides, Label, Png};
+use kurbo::{BezPath, Rect};
 
 /// What was drawn in a cell, still in the cell's px.
 #[derive(Debug, Clone)]
 pub struct Letter {
     /// The page, as messages name it.
     pub sheet: String,
-    /// The cell: its picture in 256 levels, for people to look at, its rectangle in the page, its guides.
-    pub cell: Cell,
+    /// What it is said to be.
+    pub label: Label,
+    /// Position of its cell in the page's reading order, from 0.
+    pub index: usize,
+    /// The ink's rectangle in the page's picture, px, y down.
+    pub in_sheet: Rect,
+    /// The cell's baseline and scale.
+    pub guides: Guides,
+    /// The cell, for people to look at.
+    pub picture: Png,
     /// The scanned edge that outlines are measured against, px, y up, origin at the picture's bottom left.
     pub edge: Vec<Contour>,
     /// Its closed curves, px, y up, origin at the picture's bottom left.
@@ -39,13 +47,27 @@ impl Letter {
             Ok(paths) => Ok(Self {
                 sheet: sheet.to_owned(),
                 edge: trace::trace(&cell.gray, &trace::Options::default()),
-                cell: coarse(cell),
+                picture: Png::of(&cell.gray),
+                label: cell.label,
+                index: cell.index,
+                in_sheet: cell.in_sheet,
+                guides: cell.guides,
                 paths,
             }),
             Err(source) => Err(Problem::Fit {
                 place: Place::of(sheet, &cell),
                 source: Box::new(source),
             }),
+        }
+    }
+
+    /// Where it was drawn.
+    #[must_use]
+    pub(super) fn spot(&self) -> Place {
+        Place {
+            sheet: self.sheet.clone(),
+            index: self.index,
+            label: Some(self.label.0.clone()),
         }
     }
 
@@ -56,17 +78,17 @@ impl Letter {
         reason = "pictures have fewer rows than 2^52"
     )]
     pub fn frame(&self, units_per_em: u16) -> Frame {
-        let guides = &self.cell.guides;
+        let guides = &self.guides;
         Frame {
             units_per_px: f64::from(units_per_em) / guides.px_per_em,
-            baseline_px: self.cell.gray.height() as f64 - guides.baseline_px,
+            baseline_px: self.picture.height() as f64 - guides.baseline_px,
             origin_px: 0.0,
         }
     }
 
     /// From the curves' px to the glyph as it stands in `font`, after spacing; `None` where it is not in it.
     pub(super) fn frame_in(&self, font: &Font) -> Option<Frame> {
-        let identity = names::identify(&self.cell.label).ok()?;
+        let identity = names::identify(&self.label).ok()?;
         let glyph = font.glyph(identity.name.as_str())?;
         let units_per_em = font.info.units_per_em;
         let frame = self.frame(units_per_em);
@@ -86,24 +108,15 @@ impl Letter {
     pub(super) fn place(&self, units_per_em: u16) -> Result<Drawn, Problem> {
         let frame = self.frame(units_per_em);
         let outline = place::outline(&self.paths, frame).map_err(|source| Problem::Outline {
-            place: Place::of(&self.sheet, &self.cell),
+            place: self.spot(),
             source,
         })?;
         let units = |px: f64| (px - frame.origin_px) * frame.units_per_px;
-        let advance = self.cell.guides.advance_px;
+        let advance = self.guides.advance_px;
         Ok(Drawn {
-            label: self.cell.label.clone(),
+            label: self.label.clone(),
             outline,
             advance: advance.map(|(left, right)| (units(left), units(right))),
         })
-    }
-}
-
-/// The cell with a picture in 256 levels: all that is shown, and what a cache keeps.
-fn coarse(cell: Cell) -> Cell {
-    let (width, height) = (cell.gray.width(), cell.gray.height());
-    match Gray::from_levels(width, height, &cell.gray.levels()) {
-        Ok(gray) => Cell { gray, ..cell },
-        Err(_) => cell,
     }
 }

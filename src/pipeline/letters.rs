@@ -8,7 +8,7 @@ use super::project::{Labels, Layout, Project, SheetTable};
 use super::reference::{Script, samples, spelling};
 use super::{corrections, labels, page};
 use crate::assemble::names;
-use crate::recognise::{Alphabet, Finding, Guess, Look, Method, Reading, check};
+use crate::recognise::{Alphabet, Finding, Guess, Look, Reading, check};
 use crate::types::{Cell, Label};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
@@ -36,9 +36,10 @@ pub fn match_letters(
     for sheet in &project.sheets {
         let labels = sheet_labels(sheet, world).map_err(|p| vec![p])?;
         let cells = page::cells(sheet, &labels, project, world)?;
-        let guesses = guesses(&cells, &alphabet, project.matching.method);
+        let guesses = guesses(&cells, seen(project), &alphabet);
         if !sheet.glyphs.is_auto() {
-            remarks.extend(findings(&sheet.name(), &labels, &cells, &guesses));
+            let indices = cells.iter().map(|c| c.index);
+            remarks.extend(findings(&sheet.name(), &labels, indices.zip(&guesses)));
         }
         let places = cells.iter().map(|c| Place::of(&sheet.name(), c));
         matched.extend(
@@ -70,7 +71,7 @@ pub(super) fn resolve(
         if sheet.glyphs.is_auto() {
             let labels = sheet_labels(sheet, world).map_err(|p| vec![p])?;
             let cells = page::cells(sheet, &labels, &project, world)?;
-            let guesses = guesses(&cells, &alphabet, project.matching.method);
+            let guesses = guesses(&cells, seen(&project), &alphabet);
             let (labels, unsure) = name(labels.len(), &cells, &guesses);
             let remark = |finding| Doubt {
                 sheet: sheet.name(),
@@ -137,14 +138,14 @@ pub(super) fn doubts(
     let mut remarks = Vec::new();
     for sheet in &project.sheets {
         let name = sheet.name();
-        let cells = letters
-            .iter()
-            .filter(|l| sheet.shows(&l.sheet))
-            .map(|l| l.cell.clone());
-        let cells: Vec<Cell> = cells.collect();
+        let drawn = letters.iter().filter(|l| sheet.shows(&l.sheet));
+        let drawn: Vec<&Letter> = drawn.collect();
         let labels = sheet_labels(sheet, world)?;
-        let guesses = guesses(&cells, &alphabet, project.matching.method);
-        remarks.extend(findings(&name, &labels, &cells, &guesses));
+        let method = project.matching.method;
+        let look = |l: &&Letter| Look::new(&l.picture.gray(), Some(l.guides), method);
+        let guesses = guesses(&drawn, look, &alphabet);
+        let indices = drawn.iter().map(|l| l.index);
+        remarks.extend(findings(&name, &labels, indices.zip(&guesses)));
     }
     Ok(remarks)
 }
@@ -166,22 +167,21 @@ fn sheet_labels(sheet: &SheetTable, world: World<'_>) -> Result<Vec<Label>, Prob
 }
 
 /// What speaks against the labels of cells.
-fn findings(sheet: &str, labels: &[Label], cells: &[Cell], guesses: &[Vec<Guess>]) -> Vec<Doubt> {
+fn findings<'a>(
+    sheet: &str,
+    labels: &[Label],
+    guesses: impl Iterator<Item = (usize, &'a Vec<Guess>)>,
+) -> Vec<Doubt> {
     let named: Vec<String> = labels.iter().map(spelling).collect();
     let drawn: Vec<usize> = (0..labels.len())
         .filter(|&j| !labels::skips(&labels[j]))
         .collect();
     let wanted: Vec<String> = drawn.iter().map(|&j| named[j].clone()).collect();
-    let at = |cell: &Cell| drawn.iter().position(|&j| j == cell.index);
-    let pairs = cells.iter().zip(guesses);
-    let readings: Vec<Reading<'_>> = pairs
-        .filter_map(|(c, g)| {
-            Some(Reading {
-                label: at(c)?,
-                guesses: g,
-            })
-        })
-        .collect();
+    let reading = |(index, guesses): (usize, &'a Vec<Guess>)| {
+        let label = drawn.iter().position(|&j| j == index)?;
+        Some(Reading { label, guesses })
+    };
+    let readings: Vec<Reading<'_>> = guesses.filter_map(reading).collect();
     let back = |i: usize| drawn.get(i).copied().unwrap_or(i);
     let remark = |f: Finding| Doubt {
         sheet: sheet.to_owned(),
@@ -191,9 +191,18 @@ fn findings(sheet: &str, labels: &[Label], cells: &[Cell], guesses: &[Vec<Guess>
     check(&wanted, &readings).into_iter().map(remark).collect()
 }
 
-/// The letters that each cell may hold.
-fn guesses(cells: &[Cell], alphabet: &Alphabet, method: Method) -> Vec<Vec<Guess>> {
-    let look = |c: &Cell| Look::new(&c.gray, Some(c.guides), method);
+/// How a cell looks to a project's method.
+fn seen(project: &Project) -> impl Fn(&Cell) -> Look + Send + Sync + use<> {
+    let method = project.matching.method;
+    move |cell| Look::new(&cell.gray, Some(cell.guides), method)
+}
+
+/// The letters that each cell of a page may hold.
+fn guesses<T: Sync>(
+    cells: &[T],
+    look: impl Fn(&T) -> Look + Send + Sync,
+    alphabet: &Alphabet,
+) -> Vec<Vec<Guess>> {
     let mut looks: Vec<Look> = cells.par_iter().map(look).collect();
     alphabet.settle_page(&mut looks);
     looks.par_iter().map(|l| alphabet.rank(l)).collect()

@@ -1,6 +1,8 @@
 //! The order of the stages: a page to cells, cells to outlines, outlines to a font.
 
 mod alike;
+mod batch;
+mod budget;
 mod build;
 mod by_hand;
 mod cache;
@@ -22,8 +24,9 @@ mod repeats;
 mod report;
 mod watch;
 
-pub use build::{Built, World, build, pages, sheet_letters, sheets_without_result};
-pub use cache::{Nothing, Store};
+pub use budget::Budget;
+pub use build::{Built, Inputs, World, build, pages, sheet_letters, sheets_without_result};
+pub use cache::{Nothing, Store, digest};
 pub use doubt::Doubt;
 pub use letter::Letter;
 pub use letters::{Matched, match_letters};

@@ -1,10 +1,11 @@
 //! A built font → the bytes of its outputs.
 
+use super::budget::{self, Measured};
 use super::build::{Built, World};
 use super::letter::Letter;
 use super::problem::Problem;
-use super::project::Project;
-use super::report::{Report, corners, deviations};
+use super::project::{GateTable, Project};
+use super::report::{Report, corners, mm_per_unit};
 use super::watch::Stage;
 use crate::assemble::names;
 use crate::finish::round;
@@ -19,26 +20,30 @@ pub struct Outputs {
     /// Where each output goes, relative to the project file, and what it is. The report is not among them:
     /// the caller may want to add to it.
     pub files: Vec<(PathBuf, Files)>,
-    /// What was done and how well.
-    pub report: Report,
+    /// What was done and how well, where the project asks for it, for a proof or has a gate.
+    pub report: Option<Report>,
 }
 
-/// Everything that the project's `[output]` names.
+/// Everything that the project's `[output]` names. `last` is the proof of the build before, where there was one: the new
+/// one shows what has changed.
 ///
 /// # Errors
 /// A format cannot hold the font, or a gate does not let it through.
 pub fn outputs(
     project: &Project,
     built: &Built,
+    last: Option<&str>,
     world: World<'_>,
 ) -> Result<Outputs, Vec<Problem>> {
     let quadratic = quadratic(project, &built.font, world)?;
-    let report = {
+    let asked = project.output.report.is_some() || project.output.proof.is_some();
+    let measured = (asked || project.gate != GateTable::default()).then(|| {
         let _time = world.watch.enter(Stage::Measure);
-        Report::new(built, &quadratic)
-    };
-    let problems = report.gated(&project.gate);
-    if !problems.is_empty() {
+        budget::measured(built, &quadratic)
+    });
+    let report = measured.as_ref().map(|m| Report::new(built, m));
+    let problems = report.as_ref().map(|r| r.gated(&project.gate));
+    if let Some(problems) = problems.filter(|p| !p.is_empty()) {
         return Err(problems);
     }
     let _time = world.watch.enter(Stage::Write);
@@ -57,9 +62,10 @@ pub fn outputs(
         }
         files.push((path.clone(), made));
     }
-    if let Some(path) = &project.output.proof {
+    if let Some((path, measured)) = project.output.proof.as_ref().zip(measured) {
         let woff2 = woff2.map_or_else(|| web_font(&quadratic), Ok);
-        let page = proof_page(built, &quadratic, &woff2.map_err(|e| vec![e.into()])?);
+        let woff2 = woff2.map_err(|e| vec![e.into()])?;
+        let page = proof_page(built, measured, &woff2, last);
         files.push((path.clone(), Files::single(page.into_bytes())));
     }
     Ok(Outputs { files, report })
@@ -88,22 +94,36 @@ fn quadratic(project: &Project, font: &Font, world: World<'_>) -> Result<Font, V
     })
 }
 
-/// The proof of a built font, whether or not the project names one.
+/// The proof of a built font, whether or not the project names one; `last` as in [`outputs`].
 ///
 /// # Errors
 /// The font cannot be written.
-pub fn proof(project: &Project, built: &Built, world: World<'_>) -> Result<String, Vec<Problem>> {
+pub fn proof(
+    project: &Project,
+    built: &Built,
+    last: Option<&str>,
+    world: World<'_>,
+) -> Result<String, Vec<Problem>> {
     let font = quadratic(project, &built.font, world)?;
+    let measured = {
+        let _time = world.watch.enter(Stage::Measure);
+        budget::measured(built, &font)
+    };
     let _time = world.watch.enter(Stage::Write);
     let woff2 = web_font(&font).map_err(|e| vec![e.into()])?;
-    Ok(proof_page(built, &font, &woff2))
+    Ok(proof_page(built, measured, &woff2, last))
 }
 
-/// The proof of a font whose text is set in `woff2`, with the deviations of the outlines that are compiled.
-fn proof_page(built: &Built, compiled: &Font, woff2: &Files) -> String {
-    let entries: Vec<Entry> = (built.letters.iter())
-        .filter_map(|letter| entry(built, compiled, letter))
-        .collect();
+/// The proof of a font whose text is set in `woff2`.
+fn proof_page(
+    built: &Built,
+    measured: Vec<Option<Measured>>,
+    woff2: &Files,
+    last: Option<&str>,
+) -> String {
+    let pairs = built.letters.iter().zip(measured);
+    let entries = pairs.filter_map(|(letter, measured)| entry(built, letter, measured?));
+    let entries: Vec<Entry> = entries.collect();
     let pieces = built.pages.iter().flat_map(|page| {
         page.cut.rejected.iter().map(|r| LeftOut {
             sheet: page.name.clone(),
@@ -118,24 +138,29 @@ fn proof_page(built: &Built, compiled: &Font, woff2: &Files) -> String {
         entries: &entries,
         left_out: &left_out,
         woff2: woff2.0.values().next().map_or(&[][..], Vec::as_slice),
+        last,
     })
 }
 
 /// A letter beside the glyph that became of it.
-fn entry(built: &Built, compiled: &Font, letter: &Letter) -> Option<Entry> {
+fn entry(built: &Built, letter: &Letter, measured: Measured) -> Option<Entry> {
     let font = &built.font;
-    let identity = names::identify(&letter.cell.label).ok()?;
+    let identity = names::identify(&letter.label).ok()?;
     let glyph = font.glyph(identity.name.as_str())?;
+    let Measured { edge, budget } = measured;
     Some(Entry {
         sheet: letter.sheet.clone(),
-        index: letter.cell.index,
-        gray: letter.cell.gray.clone(),
+        index: letter.index,
+        picture: letter.picture.clone(),
         frame: letter.frame_in(font)?,
-        edge: deviations(
-            font,
-            letter,
-            &compiled.glyph(identity.name.as_str())?.outline,
-        )?,
+        edge,
+        steps: [
+            ("trace and fit", budget.fit),
+            ("joining", budget.joining),
+            ("quadratics", budget.quadratic),
+            ("whole units", budget.rounding),
+        ],
+        mm_per_unit: mm_per_unit(built, letter),
         glyph: glyph.clone(),
         text: identity.chars.iter().collect(),
         remarks: remarks(built, letter, identity.name.as_str()),
@@ -146,8 +171,8 @@ fn entry(built: &Built, compiled: &Font, letter: &Letter) -> Option<Entry> {
 fn remarks(built: &Built, letter: &Letter, name: &str) -> Vec<String> {
     let pages = built.pages.iter().filter(|p| p.name == letter.sheet);
     let warnings = pages.flat_map(|p| &p.cut.warnings);
-    let own = warnings.filter(|w| w.index == Some(letter.cell.index));
-    let label = letter.cell.label.0.as_str();
+    let own = warnings.filter(|w| w.index == Some(letter.index));
+    let label = letter.label.0.as_str();
     let notes = built
         .notes
         .iter()

@@ -153,12 +153,12 @@ fn doubted(
     found
 }
 
-/// The map from the curves' space (y up) to the picture's (y down).
+/// The map from the curves' space (y up) to that of a picture so many px high (y down).
 #[must_use]
 #[expect(
     clippy::cast_precision_loss,
     reason = "pictures have fewer rows than 2^52"
 )]
-pub fn to_picture(gray: &Gray) -> Affine {
-    Affine::new([1.0, 0.0, 0.0, -1.0, 0.0, gray.height() as f64])
+pub fn to_picture(height: usize) -> Affine {
+    Affine::new([1.0, 0.0, 0.0, -1.0, 0.0, height as f64])
 }

@@ -1,5 +1,6 @@
 //! A template: the pages that are printed for a table of the project, and their pictures once they are drawn on.
 
+use super::batch::{self, Batch};
 use super::build::World;
 use super::labels::{self, skips};
 use super::page::Page;
@@ -103,44 +104,37 @@ impl<'a> Printing<'a> {
         })
     }
 
-    /// What `work` makes of each page and the labels that it should hold, in the order of the pages' numbers,
-    /// whatever the order of their pictures.
-    ///
-    /// # Errors
-    /// A picture shows no page of this printing, or one that another shows too; a page is missing; what `work` says.
-    pub(super) fn each<T>(
-        &self,
-        world: World<'_>,
-        work: impl Fn(Page, &[(usize, Label)]) -> Result<T, Vec<Problem>>,
-    ) -> Result<Vec<T>, Vec<Problem>> {
-        let mut seen: BTreeMap<usize, String> = BTreeMap::new();
-        let (mut done, mut problems) = (BTreeMap::new(), Vec::new());
-        for image in &self.table.image {
-            let sheets = self.load(image, world).unwrap_or_else(|p| {
-                problems.push(p);
-                Vec::new()
-            });
-            for sheet in sheets {
-                let (number, page) = match self.page(&sheet, &mut seen, world) {
-                    Ok(page) => page,
-                    Err(problem) => {
-                        problems.push(problem);
-                        continue;
-                    }
-                };
-                match work(page, &self.wanted(number)) {
-                    Ok(value) => drop(done.insert(number, value)),
-                    Err(more) => problems.extend(more),
+    /// The pages that a picture file shows, each by its number.
+    pub(super) fn read(&self, image: &Path, world: World<'_>) -> Batch<Page> {
+        let sheets = match self.load(image, world) {
+            Ok(sheets) => sheets,
+            Err(problem) => return Batch::failed(vec![problem]),
+        };
+        let mut out = Batch::failed(Vec::new());
+        for sheet in sheets {
+            match self.page(&sheet, world) {
+                Ok((number, page)) => {
+                    out.seen.push((number, page.name.clone()));
+                    out.made.push((number, page));
                 }
+                Err(problem) => out.problems.push(problem),
             }
         }
-        let missing = self.missing(&seen);
+        out
+    }
+
+    /// The pages of all picture files in the order of their numbers, whatever the order of the files.
+    ///
+    /// # Errors
+    /// A picture shows no page of this printing, or one that another shows too; a page is missing.
+    pub(super) fn join<T>(&self, batches: Vec<Batch<T>>) -> Result<Vec<T>, Vec<Problem>> {
+        let (made, seen, mut problems) = batch::join(batches);
         // a picture that was not recognised is probably the page that seems to be missing
         if seen.len() + problems.len() < self.pages.len() || problems.is_empty() {
-            problems.extend(missing);
+            problems.extend(self.missing(&seen));
         }
         if problems.is_empty() {
-            Ok(done.into_values().collect())
+            Ok(made.into_values().collect())
         } else {
             Err(problems)
         }
@@ -167,12 +161,7 @@ impl<'a> Printing<'a> {
     }
 
     /// Which page a picture shows, and its cells.
-    fn page(
-        &self,
-        sheet: &Sheet,
-        seen: &mut BTreeMap<usize, String>,
-        world: World<'_>,
-    ) -> Result<(usize, Page), Problem> {
+    fn page(&self, sheet: &Sheet, world: World<'_>) -> Result<(usize, Page), Problem> {
         let _time = world.watch.enter(Stage::Cut);
         let found = template::find(sheet, self.layout)?;
         let source = sheet.source.clone();
@@ -184,13 +173,6 @@ impl<'a> Printing<'a> {
                 expected: self.id.clone(),
             }));
         };
-        if let Some(first) = seen.insert(found.code.page, source.clone()) {
-            return Err(Problem::from(TemplateError::Twice {
-                page: found.code.page,
-                first,
-                second: source,
-            }));
-        }
         let gain = template::gain(sheet, self.layout, &found);
         let drawings = template::drawings(sheet, self.layout, &found, places, gain.as_ref());
         let down = found.view.near(self.layout.paper_mm().to_rect().center());
@@ -213,12 +195,13 @@ impl<'a> Printing<'a> {
             table: 0,
             cut,
             gain,
+            px_per_mm: Some(scale),
         };
         Ok((found.code.page, page))
     }
 
     /// The labels that a page should hold, with their places in the list.
-    fn wanted(&self, number: usize) -> Vec<(usize, Label)> {
+    pub(super) fn wanted(&self, number: usize) -> Vec<(usize, Label)> {
         let places = self.pages.get(number - 1).map_or(&[][..], Vec::as_slice);
         let labels = places.iter().map(|p| (p.index, Label(p.label.clone())));
         labels.filter(|(_, l)| !skips(l)).collect()

@@ -1,18 +1,21 @@
 //! Letters and pages as bytes and back, to the last bit.
 
+use super::batch::Batch;
+use super::build::Traced;
 use super::letter::Letter;
 use super::page::Page;
 use crate::scan::{Cut, Reason, Rejected, Warning};
 use crate::template::Gain;
-use crate::types::{Cell, Contour, Gray, Guides, Label};
+use crate::types::{Contour, Guides, Label, Png};
 use kurbo::{Affine, BezPath, PathEl, Point, Rect};
 use serde::{Deserialize, Serialize};
 
 /// A page and its letters.
 #[derive(Serialize, Deserialize)]
 struct PageRecord {
+    /// In its table, from 1.
+    number: usize,
     name: String,
-    table: usize,
     letters: Vec<LetterRecord>,
     /// Rectangle, area and reason.
     rejected: Vec<([f64; 4], usize, Reason)>,
@@ -22,6 +25,7 @@ struct PageRecord {
     upright: [f64; 6],
     specks: usize,
     gain: Option<Gain>,
+    px_per_mm: Option<f64>,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -31,9 +35,8 @@ struct LetterRecord {
     index: usize,
     width: usize,
     height: usize,
-    levels: Vec<u8>,
+    picture: Vec<u8>,
     in_sheet: [f64; 4],
-    to_sheet: [f64; 6],
     baseline_px: f64,
     px_per_em: f64,
     advance_px: Option<(f64, f64)>,
@@ -53,26 +56,33 @@ enum Step {
 }
 
 /// Pages and their letters as bytes; nothing where they cannot be written.
-pub(super) fn write(pages: &[(Vec<Letter>, Page)]) -> Option<Vec<u8>> {
-    let records: Vec<PageRecord> = pages.iter().map(PageRecord::of).collect();
+pub(super) fn write(batch: &Batch<Traced>) -> Option<Vec<u8>> {
+    let records: Vec<PageRecord> = batch.made.iter().map(PageRecord::of).collect();
     postcard::to_allocvec(&records).ok()
 }
 
 /// Pages and their letters from bytes; nothing where these are no such thing.
-pub(super) fn read(bytes: &[u8]) -> Option<Vec<(Vec<Letter>, Page)>> {
+pub(super) fn read(bytes: &[u8]) -> Option<Batch<Traced>> {
     let records: Vec<PageRecord> = postcard::from_bytes(bytes).ok()?;
-    records.into_iter().map(PageRecord::page).collect()
+    let made = records.into_iter().map(PageRecord::page);
+    let made: Vec<(usize, Traced)> = made.collect::<Option<_>>()?;
+    let seen = made.iter().map(|(n, (_, page))| (*n, page.name.clone()));
+    Some(Batch {
+        seen: seen.collect(),
+        made,
+        problems: Vec::new(),
+    })
 }
 
 impl PageRecord {
-    fn of((letters, page): &(Vec<Letter>, Page)) -> Self {
+    fn of((number, (letters, page)): &(usize, Traced)) -> Self {
         let cut = &page.cut;
         let rejected = cut.rejected.iter();
         let warnings = cut.warnings.iter();
         let label = |w: &Warning| w.label.as_ref().map(|l| l.0.clone());
         Self {
+            number: *number,
             name: page.name.clone(),
-            table: page.table,
             letters: letters.iter().map(LetterRecord::of).collect(),
             rejected: rejected
                 .map(|r| (corners(r.in_sheet), r.area_px, r.reason))
@@ -84,10 +94,11 @@ impl PageRecord {
             upright: cut.upright.as_coeffs(),
             specks: cut.specks,
             gain: page.gain.clone(),
+            px_per_mm: page.px_per_mm,
         }
     }
 
-    fn page(self) -> Option<(Vec<Letter>, Page)> {
+    fn page(self) -> Option<(usize, Traced)> {
         let letters = self.letters.into_iter().map(LetterRecord::letter);
         let rejected = self.rejected.into_iter();
         let rejected = rejected.map(|(r, area_px, reason)| Rejected {
@@ -103,7 +114,7 @@ impl PageRecord {
         });
         let page = Page {
             name: self.name,
-            table: self.table,
+            table: 0,
             cut: Cut {
                 cells: Vec::new(),
                 rejected: rejected.collect(),
@@ -113,27 +124,26 @@ impl PageRecord {
                 specks: self.specks,
             },
             gain: self.gain,
+            px_per_mm: self.px_per_mm,
         };
-        Some((letters.collect::<Option<_>>()?, page))
+        Some((self.number, (letters.collect::<Option<_>>()?, page)))
     }
 }
 
 impl LetterRecord {
     fn of(letter: &Letter) -> Self {
-        let cell = &letter.cell;
         let ring = |c: &Contour| (c.blur_px(), c.points().iter().map(pair).collect());
         Self {
             sheet: letter.sheet.clone(),
-            label: cell.label.0.clone(),
-            index: cell.index,
-            width: cell.gray.width(),
-            height: cell.gray.height(),
-            levels: cell.gray.levels(),
-            in_sheet: corners(cell.in_sheet),
-            to_sheet: cell.to_sheet.as_coeffs(),
-            baseline_px: cell.guides.baseline_px,
-            px_per_em: cell.guides.px_per_em,
-            advance_px: cell.guides.advance_px,
+            label: letter.label.0.clone(),
+            index: letter.index,
+            width: letter.picture.width(),
+            height: letter.picture.height(),
+            picture: letter.picture.bytes().to_vec(),
+            in_sheet: corners(letter.in_sheet),
+            baseline_px: letter.guides.baseline_px,
+            px_per_em: letter.guides.px_per_em,
+            advance_px: letter.guides.advance_px,
             edge: letter.edge.iter().map(ring).collect(),
             paths: letter.paths.iter().map(steps).collect(),
         }
@@ -146,17 +156,14 @@ impl LetterRecord {
         };
         Some(Letter {
             sheet: self.sheet,
-            cell: Cell {
-                label: Label(self.label),
-                index: self.index,
-                gray: Gray::from_levels(self.width, self.height, &self.levels).ok()?,
-                in_sheet: rect(self.in_sheet),
-                to_sheet: Affine::new(self.to_sheet),
-                guides: Guides {
-                    baseline_px: self.baseline_px,
-                    px_per_em: self.px_per_em,
-                    advance_px: self.advance_px,
-                },
+            label: Label(self.label),
+            index: self.index,
+            picture: Png::new(self.width, self.height, self.picture),
+            in_sheet: rect(self.in_sheet),
+            guides: Guides {
+                baseline_px: self.baseline_px,
+                px_per_em: self.px_per_em,
+                advance_px: self.advance_px,
             },
             edge: self.edge.into_iter().map(ring).collect::<Option<_>>()?,
             paths: self.paths.iter().map(|p| path(p)).collect(),

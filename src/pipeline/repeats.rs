@@ -1,7 +1,6 @@
 //! Several drawings of one glyph.
 
 use super::letter::Letter;
-use super::problem::Place;
 use crate::assemble::{Note, names};
 use crate::numeric::distance::Polyline;
 use crate::types::{Label, Name};
@@ -31,7 +30,7 @@ const SETS: usize = 20;
 pub(super) fn settle(letters: Vec<Letter>, repeated: Repeated) -> (Vec<Letter>, Vec<Note>) {
     let mut drawings: BTreeMap<Name, Vec<usize>> = BTreeMap::new();
     for (i, letter) in letters.iter().enumerate() {
-        if let Ok(identity) = names::identify(&letter.cell.label) {
+        if let Ok(identity) = names::identify(&letter.label) {
             drawings.entry(identity.name).or_default().push(i);
         }
     }
@@ -42,7 +41,7 @@ pub(super) fn settle(letters: Vec<Letter>, repeated: Repeated) -> (Vec<Letter>, 
         match repeated {
             Repeated::Alternates => {
                 for (set, &i) in all.iter().skip(1).take(SETS).enumerate() {
-                    letters[i].cell.label = Label(format!("{name}.ss{:02}", set + 1));
+                    letters[i].label = Label(format!("{name}.ss{:02}", set + 1));
                 }
                 out.extend(all.iter().skip(SETS + 1).copied());
             }
@@ -58,7 +57,7 @@ pub(super) fn settle(letters: Vec<Letter>, repeated: Repeated) -> (Vec<Letter>, 
                     message: format!(
                         "drawn {} times; the drawing with the calmest edge is taken, {}",
                         all.len(),
-                        Place::of(&letters[i].sheet, &letters[i].cell)
+                        letters[i].spot()
                     ),
                 }));
             }
@@ -83,7 +82,7 @@ fn noise(letter: &Letter) -> f64 {
         each.fold(f64::INFINITY, f64::min)
     });
     let (sum, n) = distances.fold((0.0, 0usize), |(s, n), d| (s + d * d, n + 1));
-    (sum / n.max(1) as f64).sqrt() / letter.cell.guides.px_per_em
+    (sum / n.max(1) as f64).sqrt() / letter.guides.px_per_em
 }
 
 fn chords(contour: &BezPath) -> Option<Polyline> {

@@ -1,20 +1,17 @@
 //! What was done and how well: a row a glyph.
 
+use super::budget::{self, Budget, Measured};
 use super::build::Built;
 use super::letter::Letter;
 use super::page::Page;
 use super::problem::{Place, Problem};
 use super::project::GateTable;
 use crate::assemble::{Note, names};
-use crate::numeric::distance::Polyline;
 use crate::template::Gain;
-use crate::types::{Contour, Font, Outline};
-use kurbo::{BezPath, Point, Rect, flatten};
+use crate::types::Font;
+use kurbo::{Point, Rect};
 use schemars::JsonSchema;
 use serde::Serialize;
-
-/// Chords of the measured outline leave its curves by no more than this, font units.
-const CHORD: f64 = 0.01;
 
 /// What was done and how well.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
@@ -108,10 +105,14 @@ pub struct Row {
     pub contours: usize,
     /// On-curve points of the cubic outline.
     pub nodes: usize,
-    /// Largest distance from the scanned edge to the outline that is compiled, font units.
+    /// Largest distance from the scanned edge to the outline as it is compiled, rounding included, font units.
     pub max_error: f64,
     /// Root mean square of that distance, font units.
     pub rms_error: f64,
+    /// What each step adds.
+    pub budget: Budget,
+    /// Millimetres of paper that a font unit measured where the letter was drawn, where the page or its file tells.
+    pub mm_per_unit: Option<f64>,
 }
 
 /// A remark about a glyph.
@@ -124,11 +125,12 @@ pub struct Remark {
 }
 
 impl Report {
-    /// Measures every glyph of `compiled` (the outlines that are written) against its scan.
+    /// What was done, with every letter's glyph as it was measured.
     #[must_use]
-    pub(super) fn new(built: &Built, compiled: &Font) -> Self {
+    pub(super) fn new(built: &Built, measured: &[Option<Measured>]) -> Self {
         let info = &built.font.info;
-        let rows = built.letters.iter().filter_map(|l| row(built, compiled, l));
+        let pairs = built.letters.iter().zip(measured);
+        let rows = pairs.filter_map(|(l, m)| row(built, l, m.as_ref()?));
         let remark = |n: &Note| Remark {
             glyph: n.glyph.clone(),
             message: n.message.clone(),
@@ -210,53 +212,34 @@ pub(super) const fn corners(r: Rect) -> [f64; 4] {
     [r.x0, r.y0, r.x1, r.y1]
 }
 
-fn row(built: &Built, compiled: &Font, letter: &Letter) -> Option<Row> {
-    let identity = names::identify(&letter.cell.label).ok()?;
+fn row(built: &Built, letter: &Letter, measured: &Measured) -> Option<Row> {
+    let identity = names::identify(&letter.label).ok()?;
     let glyph = built.font.glyph(identity.name.as_str())?;
-    let shape = compiled.glyph(identity.name.as_str())?;
-    let (max_error, rms_error) = errors(&deviations(&built.font, letter, &shape.outline)?);
+    let (max_error, rms_error) = errors(&measured.edge);
     let contours = glyph.outline.contours();
     let nodes = contours.iter().map(|c| c.segments().count());
     Some(Row {
         name: identity.name.to_string(),
         text: identity.chars.iter().collect(),
         sheet: letter.sheet.clone(),
-        cell: letter.cell.index + 1,
-        box_px: corners(letter.cell.in_sheet),
-        pixels_per_em: letter.cell.guides.px_per_em,
+        cell: letter.index + 1,
+        box_px: corners(letter.in_sheet),
+        pixels_per_em: letter.guides.px_per_em,
         advance: glyph.advance,
         contours: contours.len(),
         nodes: nodes.sum(),
         max_error,
         rms_error,
+        budget: measured.budget,
+        mm_per_unit: mm_per_unit(built, letter),
     })
 }
 
-/// The scanned edge of a letter where its glyph stands, contour by contour, font units; with each point
-/// its distance to `outline`. `None` where the font has no such glyph.
-pub(super) fn deviations(
-    font: &Font,
-    letter: &Letter,
-    outline: &Outline,
-) -> Option<Vec<Vec<(Point, f64)>>> {
-    let map = letter.frame_in(font)?.to_units();
-    let lines: Vec<Polyline> = outline.contours().iter().filter_map(chords).collect();
-    let distance = |p: Point| {
-        let each = lines.iter().map(|line| line.nearest(p).distance);
-        each.fold(f64::INFINITY, f64::min)
-    };
-    let ring = |c: &Contour| {
-        let points = c.points().iter().map(|&p| map * p);
-        points.map(|p| (p, distance(p))).collect()
-    };
-    Some(letter.edge.iter().map(ring).collect())
-}
-
-fn chords(contour: &BezPath) -> Option<Polyline> {
-    let mut chords = Vec::new();
-    flatten(contour, CHORD, |el| chords.extend(el.end_point()));
-    chords.extend(chords.first().copied());
-    Polyline::new(chords)
+/// Millimetres of paper that a font unit measured where a letter was drawn, where that is known.
+pub(super) fn mm_per_unit(built: &Built, letter: &Letter) -> Option<f64> {
+    let page = built.pages.iter().find(|p| p.name == letter.sheet)?;
+    let px_per_unit = letter.guides.px_per_em / f64::from(built.font.info.units_per_em);
+    Some(px_per_unit / page.px_per_mm?)
 }
 
 /// Largest and root mean square of the distances.
@@ -267,7 +250,7 @@ fn chords(contour: &BezPath) -> Option<Polyline> {
 fn errors(edge: &[Vec<(Point, f64)>]) -> (f64, f64) {
     let all = edge.iter().flatten().map(|(_, d)| *d);
     let all: Vec<f64> = all.filter(|d| d.is_finite()).collect();
-    let max = all.iter().copied().fold(0.0, f64::max);
     let squares: f64 = all.iter().map(|d| d * d).sum();
-    (max, (squares / all.len().max(1) as f64).sqrt())
+    let mean = squares / all.len().max(1) as f64;
+    (budget::largest(edge), mean.sqrt())
 }

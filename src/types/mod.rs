@@ -9,7 +9,7 @@
 //! | [`Fitted`] | curves through a span | px, y up |
 //! | [`Outline`] | closed curves | font units, y up, origin on the baseline |
 //! | [`Glyph`], [`Font`] | outlines with names, advances, anchors | font units |
-//! | [`Files`] | what a writer made | bytes |
+//! | [`Png`], [`Files`] | a picture to look at, what a writer made | bytes |
 //!
 //! Three functions cross between spaces, and no others: `scan::cut` (sheet to cell), `trace`
 //! (y down to y up) and `finish::place` (px to font units).
@@ -20,6 +20,7 @@ mod files;
 mod font;
 mod glyph;
 mod outline;
+mod png;
 mod raster;
 mod sheet;
 
@@ -29,5 +30,6 @@ pub use files::Files;
 pub use font::{Font, FontError, Info, Kerning, Metrics};
 pub use glyph::{Anchor, Component, Glyph, Name, NameError};
 pub use outline::{Frame, Outline, OutlineError};
+pub use png::Png;
 pub use raster::{Bitmap, Gray, RasterError};
 pub use sheet::{Cell, Colours, Guides, Label, Sheet};

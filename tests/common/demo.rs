@@ -37,13 +37,13 @@ fn build(name: &str) -> Demo {
     let project = Project::parse(&text).expect("a project file");
     let read = |path: &Path| fs::read(folder.join(path)).map_err(|e| e.to_string());
     let world = World {
-        read: &read,
+        inputs: &read,
         watch: &Unwatched,
         created: 0,
         store: &Nothing,
     };
     let built = pipeline::build(&project, world).expect("a font");
-    let outputs = pipeline::outputs(&project, &built, world).expect("outputs");
+    let outputs = pipeline::outputs(&project, &built, None, world).expect("outputs");
     let single = outputs.files.into_iter().filter_map(|(path, files)| {
         let ending = path.extension()?.to_str()?.to_owned();
         Some((ending, files.0.get("")?.clone()))

@@ -1,10 +1,9 @@
 //! A glyph over its cell as SVG, user space in font units with y down.
 
 use super::Entry;
-use crate::types::{Gray, Info};
+use crate::types::{Info, Png};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
-use image::{ExtendedColorType, ImageEncoder, codecs::png};
 use kurbo::{Affine, BezPath, PathEl, Point};
 use std::fmt::Write;
 
@@ -69,7 +68,7 @@ impl Drawn {
     reason = "pictures have fewer rows than 2^52"
 )]
 fn picture_to_user(entry: &Entry) -> Affine {
-    let height = entry.gray.height() as f64;
+    let height = entry.picture.height() as f64;
     Affine::FLIP_Y * entry.frame.to_units() * Affine::new([1.0, 0.0, 0.0, -1.0, 0.0, height])
 }
 
@@ -131,7 +130,7 @@ fn push(out: &mut String, text: std::fmt::Arguments<'_>) {
 }
 
 /// Path data to a tenth of a unit: below what a screen shows.
-fn path_data(path: &BezPath) -> String {
+pub(super) fn path_data(path: &BezPath) -> String {
     let mut out = String::new();
     for el in path.elements() {
         match el {
@@ -154,21 +153,8 @@ fn path_data(path: &BezPath) -> String {
     out
 }
 
-/// The cell as a PNG in a data URI, dark ink on nothing, so that it also shows on a dark page.
-pub(super) fn picture(gray: &Gray) -> String {
-    let bytes: Vec<u8> = gray.levels().iter().map(|ink| 255 - ink).collect();
-    let mut png = Vec::new();
-    let (w, h) = (u32::try_from(gray.width()), u32::try_from(gray.height()));
-    let encoder = png::PngEncoder::new_with_quality(
-        &mut png,
-        png::CompressionType::Fast,
-        png::FilterType::Sub,
-    );
-    let size = w.ok().zip(h.ok());
-    let done = size.map(|(w, h)| encoder.write_image(&bytes, w, h, ExtendedColorType::L8));
-    if !matches!(done, Some(Ok(()))) {
-        return "data:,".to_owned();
-    }
-    let data = STANDARD.encode(png);
+/// The cell's picture in a data URI.
+pub(super) fn picture(png: &Png) -> String {
+    let data = STANDARD.encode(png.bytes());
     format!("data:image/png;base64,{data}")
 }

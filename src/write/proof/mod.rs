@@ -3,13 +3,16 @@
 //! One self-contained file: pictures, font, style and script are inside. Everything that a user wrote is
 //! escaped by the template.
 
+mod budget;
+mod changes;
 mod draw;
 mod shapes;
 mod text;
 
-use crate::types::{Frame, Glyph, Gray, Info};
+use crate::types::{Frame, Glyph, Info, Png};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
+use changes::Memory;
 use draw::{Drawn, picture};
 use kurbo::Point;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
@@ -22,7 +25,7 @@ pub struct Entry {
     /// Position in the page's reading order, from 0.
     pub index: usize,
     /// The cell's picture.
-    pub gray: Gray,
+    pub picture: Png,
     /// From the picture's px (y up) to font units.
     pub frame: Frame,
     /// The scanned edge, contour by contour, font units; with each point its distance to the compiled outline.
@@ -33,6 +36,11 @@ pub struct Entry {
     pub text: String,
     /// What to look at in it.
     pub remarks: Vec<String>,
+    /// Each step from the scan to the font's file, and the largest distance that it adds, font units; the same
+    /// steps for every entry.
+    pub steps: [(&'static str, f64); 4],
+    /// Millimetres of paper that a font unit measured, where that is known.
+    pub mm_per_unit: Option<f64>,
 }
 
 /// Ink of a page that is in no glyph.
@@ -59,6 +67,8 @@ pub struct Proof<'a> {
     pub left_out: &'a [LeftOut],
     /// The font as WOFF2.
     pub woff2: &'a [u8],
+    /// The page of the build before, where there was one: what has changed since is shown.
+    pub last: Option<&'a str>,
 }
 
 /// The layers that can be switched, with their keys.
@@ -72,13 +82,18 @@ const LAYERS: &[(&str, &str, bool)] = &[
     ("extrema", "Corners and extrema", false),
     ("comb", "Curvature comb", false),
     ("heat", "Deviation", false),
+    (BEFORE, "Before", true),
 ];
+
+/// The layer of glyphs as they were, which only a page with changes has.
+const BEFORE: &str = "before";
 
 /// The page.
 #[must_use]
 pub fn page(proof: &Proof<'_>) -> String {
     let info = proof.info;
     let title = format!("{} {}", info.family, info.style);
+    let memory = Memory::new(proof.entries, proof.last);
     let off: Vec<String> = LAYERS
         .iter()
         .filter(|(_, _, on)| !on)
@@ -100,9 +115,12 @@ pub fn page(proof: &Proof<'_>) -> String {
                         (proof.entries.len()) " glyphs from " (sheets(proof)) ", " (info.units_per_em) " units an em" }
                 }
                 (text::specimen(proof.entries))
-                (controls())
-                main { @for entry in proof.entries { (cell(entry, info)) } }
+                (controls(&memory))
+                (memory.list())
+                main { @for entry in proof.entries { (cell(entry, info, &memory)) } }
+                (budget::table(proof.entries))
                 (left_out(proof.left_out))
+                (memory.markup())
                 script { (PreEscaped(include_str!("proof.js"))) }
             }
         }
@@ -124,15 +142,19 @@ fn sheets(proof: &Proof<'_>) -> String {
     names.join(", ")
 }
 
-fn controls() -> Markup {
+fn controls(memory: &Memory) -> Markup {
+    let layers = LAYERS
+        .iter()
+        .filter(|l| l.0 != BEFORE || !memory.is_empty());
     html! {
         nav {
-            @for (i, (key, label, on)) in LAYERS.iter().enumerate() {
-                label { input type="checkbox" data-layer=(key) checked[*on]; kbd { (i + 1) } " " (label) }
+            @for (i, (key, label, on)) in layers.enumerate() {
+                label { input type="checkbox" data-layer=(key) checked[*on]; kbd { ((i + 1) % 10) } " " (label) }
             }
             label { "Order " select id="order" {
                 option value="page" { "as on the page" }
                 option value="worst" { "worst first" }
+                @if !memory.is_empty() { option value="changed" { "most changed first" } }
                 option value="name" { "by name" }
             } }
             label { "Size " input type="range" id="size" min="120" max="900" value="240"; }
@@ -161,18 +183,20 @@ fn left_out(pieces: &[LeftOut]) -> Markup {
     }
 }
 
-fn cell(entry: &Entry, info: &Info) -> Markup {
+fn cell(entry: &Entry, info: &Info, memory: &Memory) -> Markup {
     let drawn = Drawn::new(entry, info);
-    let worst = entry.edge.iter().flatten().map(|(_, d)| *d);
-    let worst = worst.filter(|d| d.is_finite()).fold(0.0, f64::max);
-    let worst = format!("{worst:.2}");
+    let worst = budget::worst(entry);
     let name = entry.glyph.name.as_str();
+    let change = memory.change(name);
+    // a new glyph has changed more than any other
+    let changed = change.as_ref().map(|c| c.moved.unwrap_or(99_999.0));
     html! {
-        figure id=(format!("glyph-{name}")) data-name=(name) data-worst=(worst) {
+        figure id=(format!("glyph-{name}")) data-name=(name) data-worst=(format!("{worst:.2}")) data-changed=(changed.unwrap_or(-1.0)) {
             svg viewBox=(drawn.view_box) role="img" aria-label=(name) {
-                g.scan { image href=(picture(&entry.gray)) transform=(drawn.picture) width=(entry.gray.width()) height=(entry.gray.height()) {} }
+                g.scan { image href=(picture(&entry.picture)) transform=(drawn.picture) width=(entry.picture.width()) height=(entry.picture.height()) {} }
                 path.guides d=(drawn.guides) {}
                 path.fill d=(drawn.path) {}
+                @if let Some(change) = change.as_ref().filter(|c| !c.path.is_empty()) { path.before d=(change.path) {} }
                 path.outline d=(drawn.path) {}
                 path.comb d=(shapes::comb(&entry.glyph.outline, info)) {}
                 @for (class, d) in shapes::heat(&entry.edge, info) { path class={ "heat " (class) } d=(d) {} }
@@ -186,7 +210,8 @@ fn cell(entry: &Entry, info: &Info) -> Markup {
                 b { (name) } " "
                 span.sample lang=(text::language(&entry.text)) { (entry.text) }
                 br;
-                small { (entry.sheet) ", cell " (entry.index + 1) " · " (drawn.count) " nodes · advance " (drawn.advance) " · worst " (worst) " units" }
+                small { (entry.sheet) ", cell " (entry.index + 1) " · " (drawn.count) " nodes · advance " (drawn.advance) " · worst " (budget::length(worst, entry.mm_per_unit)) " units" }
+                @if let Some(change) = &change { p.changed { "since the build before: " (change.distance()) } }
                 @for remark in &entry.remarks { p.remark { (remark) } }
             }
         }

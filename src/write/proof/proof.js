@@ -6,7 +6,7 @@ document.getElementById("size").addEventListener("input", (event) =>
   document.documentElement.style.setProperty("--size", event.target.value + "px"));
 document.addEventListener("keydown", (event) => {
   if (event.target.isContentEditable || event.ctrlKey || event.metaKey || event.altKey) return;
-  const box = layers[Number(event.key) - 1];
+  const box = /^[0-9]$/.test(event.key) ? layers[(Number(event.key) + 9) % 10] : undefined;
   if (box) { box.checked = !box.checked; show(box); }
 });
 const typed = document.getElementById("typed");
@@ -23,6 +23,7 @@ const onPage = [...main.children];
 const orders = {
   page: () => 0,
   worst: (a, b) => b.dataset.worst - a.dataset.worst,
+  changed: (a, b) => b.dataset.changed - a.dataset.changed,
   name: (a, b) => a.dataset.name.localeCompare(b.dataset.name, "en"),
 };
 document.getElementById("order").addEventListener("change", (event) =>

@@ -1,5 +1,5 @@
 use super::*;
-use crate::types::{Name, Outline};
+use crate::types::{Gray, Name, Outline};
 use kurbo::BezPath;
 
 fn entry(name: &str, text: &str) -> Entry {
@@ -9,7 +9,7 @@ fn entry(name: &str, text: &str) -> Entry {
     Entry {
         sheet: "<b>page & \"more\".png".to_owned(),
         index: 3,
-        gray: Gray::from_fn(4, 4, |x, y| if x == y { 1.0 } else { 0.0 }),
+        picture: Png::of(&Gray::from_fn(4, 4, |x, y| if x == y { 1.0 } else { 0.0 })),
         frame: Frame {
             units_per_px: 25.0,
             baseline_px: 0.0,
@@ -23,10 +23,21 @@ fn entry(name: &str, text: &str) -> Entry {
         glyph,
         text: text.to_owned(),
         remarks: vec!["it looks <odd>".to_owned()],
+        steps: [
+            ("fit", 0.5),
+            ("joining", 0.0),
+            ("quadratics", 0.25),
+            ("whole units", 0.7),
+        ],
+        mm_per_unit: Some(0.02),
     }
 }
 
 fn proof(entries: &[Entry]) -> String {
+    since(None, entries)
+}
+
+fn since(last: Option<&str>, entries: &[Entry]) -> String {
     let info = Info {
         family: "A<script>alert(1)</script>".to_owned(),
         ..Info::default()
@@ -42,6 +53,7 @@ fn proof(entries: &[Entry]) -> String {
         entries,
         left_out: &left_out,
         woff2: b"wOF2",
+        last,
     })
 }
 
@@ -93,5 +105,54 @@ fn layers_show_corners_comb_and_deviation() {
         assert!(page.contains(&format!("class=\"{class}\"")), "{class}");
     }
     assert!(page.contains("data-worst=\"3.00\""));
-    assert_eq!(page.matches("data-layer=").count(), LAYERS.len());
+    assert_eq!(
+        page.matches("data-layer=").count(),
+        LAYERS.len() - 1,
+        "nothing was before"
+    );
+}
+
+#[test]
+fn the_page_remembers_what_was_before() {
+    let moved = |name: &str| {
+        let mut entry = entry(name, "a");
+        let outline = &entry.glyph.outline;
+        entry.glyph.outline = outline.transformed(kurbo::Affine::translate((7.0, 0.0)));
+        entry.glyph.advance = 130.0;
+        entry
+    };
+    let first = proof(&[entry("a", "a"), entry("b", "b"), entry("c", "c")]);
+    assert!(!first.contains("Changed since"));
+    let same = since(
+        Some(&first),
+        &[entry("a", "a"), entry("b", "b"), entry("c", "c")],
+    );
+    assert_eq!(same, first, "the same build gives the same page");
+    let now = [entry("a", "a"), moved("b"), entry("d", "d")];
+    let second = since(Some(&first), &now);
+    assert!(second.contains("Changed since the build before: 3"));
+    for (name, what) in [("b", "7.00"), ("c", "gone"), ("d", "new")] {
+        let row = format!("<a href=\"#glyph-{name}\">{name}</a></td><td>{what}</td>");
+        assert!(second.contains(&row), "{name}");
+    }
+    assert!(second.contains("120 → 130"));
+    assert_eq!(second.matches("class=\"before\"").count(), 1);
+    assert_eq!(
+        since(Some(&second), &now),
+        second,
+        "it stays until something changes"
+    );
+    let spoilt = second.replace("M0.0", "M0.0 <script>");
+    assert_eq!(
+        since(Some(&spoilt), &now),
+        proof(&now),
+        "what no build wrote counts as none"
+    );
+}
+
+#[test]
+fn the_budget_is_in_units_and_on_paper() {
+    let page = proof(&[entry("a", "a")]);
+    assert!(page.contains("3.00 (0.060 mm)") && page.contains("0.25 (0.005 mm)"));
+    assert!(page.contains("whole units"));
 }

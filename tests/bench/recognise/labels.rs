@@ -30,7 +30,7 @@ pub(super) fn run(references: &[&str]) -> Outcome {
     let project = Project::parse(&fs::read_to_string(folder.join("latin.toml"))?)?;
     let read = |path: &Path| fs::read(folder.join(path)).map_err(|e| e.to_string());
     let world = World {
-        read: &read,
+        inputs: &read,
         watch: &Unwatched,
         created: 0,
         store: &Nothing,

@@ -1,0 +1,103 @@
+//! Where the distance between a scan and the font's file comes from.
+
+use super::build::Built;
+use super::letter::Letter;
+use crate::assemble::names;
+use crate::finish::{place, round};
+use crate::numeric::distance::{Polyline, distances};
+use crate::types::{Contour, Font, Outline};
+use kurbo::{BezPath, Point, flatten};
+use rayon::prelude::*;
+use schemars::JsonSchema;
+use serde::Serialize;
+
+/// Chords of the measured outline leave its curves by no more than this, font units.
+const CHORD: f64 = 0.01;
+/// The same of an outline whose points are looked at.
+const PROBE: f64 = 0.1;
+
+/// A scanned edge, contour by contour: points and their distances to an outline, font units.
+pub(super) type Edge = Vec<Vec<(Point, f64)>>;
+
+/// The largest distance that each step from the scan to the font's file adds, font units. Steps can
+/// undo each other: the whole is at most their sum.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, JsonSchema)]
+pub struct Budget {
+    /// From the scanned edge to the curves fitted to it.
+    pub fit: f64,
+    /// From these to the glyph as it stands in the font: joining strokes are moved.
+    pub joining: f64,
+    /// From the cubics to TrueType's quadratics.
+    pub quadratic: f64,
+    /// From there to whole units.
+    pub rounding: f64,
+}
+
+/// A letter beside the outline that is compiled.
+#[derive(Debug, Clone)]
+pub(super) struct Measured {
+    /// The scanned edge where the glyph stands, with each point its distance to the outline as compiled and rounded.
+    pub(super) edge: Edge,
+    /// The steps of the way.
+    pub(super) budget: Budget,
+}
+
+/// Every letter of a font measured; none where the font has no such glyph.
+pub(super) fn measured(built: &Built, compiled: &Font) -> Vec<Option<Measured>> {
+    let letters = built.letters.par_iter();
+    letters.map(|l| letter(&built.font, compiled, l)).collect()
+}
+
+fn letter(font: &Font, compiled: &Font, letter: &Letter) -> Option<Measured> {
+    let name = names::identify(&letter.label).ok()?.name;
+    let frame = letter.frame_in(font)?;
+    let map = frame.to_units();
+    let fitted = place::outline(&letter.paths, frame).ok()?;
+    let cubic = &font.glyph(name.as_str())?.outline;
+    let quadratic = &compiled.glyph(name.as_str())?.outline;
+    let rounded = round::outline(quadratic);
+    let edge = |outline: &Outline| -> Edge {
+        let lines = lines(outline);
+        let ring = |c: &Contour| distances(c.points().iter().map(|&p| map * p), &lines);
+        letter.edge.iter().map(ring).collect()
+    };
+    let budget = Budget {
+        fit: largest(&edge(&fitted)),
+        joining: apart(&fitted, cubic),
+        quadratic: apart(cubic, quadratic),
+        rounding: apart(quadratic, &rounded),
+    };
+    Some(Measured {
+        edge: edge(&rounded),
+        budget,
+    })
+}
+
+/// The largest finite distance.
+pub(super) fn largest(edge: &[Vec<(Point, f64)>]) -> f64 {
+    let all = edge.iter().flatten().map(|(_, d)| *d);
+    all.filter(|d| d.is_finite()).fold(0.0, f64::max)
+}
+
+/// The largest distance of a point of one outline to the other.
+fn apart(a: &Outline, b: &Outline) -> f64 {
+    let lines = lines(b);
+    let rings = a
+        .contours()
+        .iter()
+        .map(|c| distances(points(c, PROBE), &lines));
+    largest(&rings.collect::<Vec<_>>())
+}
+
+fn lines(outline: &Outline) -> Vec<Polyline> {
+    let rings = outline.contours().iter().map(|c| points(c, CHORD));
+    rings.filter_map(Polyline::new).collect()
+}
+
+/// The ends of the chords of a closed path, which they leave by no more than `tolerance`.
+fn points(contour: &BezPath, tolerance: f64) -> Vec<Point> {
+    let mut points = Vec::new();
+    flatten(contour, tolerance, |el| points.extend(el.end_point()));
+    points.extend(points.first().copied());
+    points
+}
