@@ -18,7 +18,8 @@ pub(super) fn welded(joint: &Joint, spans: &Spans, tolerance_px: f64) -> Option<
         .iter()
         .map(|s| (!s.is_ring()).then_some(s.points()))
         .collect::<Option<_>>()?;
-    let samples: Vec<Samples> = spans.iter().map(|p| Samples::new(Span::Open(p))).collect();
+    let open: Vec<Span<'_>> = spans.iter().map(|p| Span::Open(p)).collect();
+    let samples = Samples::together(&open);
     let mut found = joint.search(&samples, tolerance_px, weld)?;
     let corners = corners(&found.chain, *spans.first()?.first()?);
     let chain = &found.chain;
@@ -61,6 +62,7 @@ fn weld(drafts: Vec<Draft>) -> Option<Draft> {
         all.chain.nodes.append(&mut nodes);
         all.chain.kinds.extend(draft.chain.kinds);
         all.few.extend(draft.few);
+        all.spans.extend(draft.spans);
         all.all.extend(draft.all);
         all.near.extend(draft.near.iter().map(|k| k + few));
         all.feet.extend(draft.feet.iter().map(|f| Foot {

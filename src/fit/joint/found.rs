@@ -22,6 +22,8 @@ pub(super) struct Draft {
     pub(super) all: Vec<Sample>,
     /// Which of the few is beside each of all.
     pub(super) near: Vec<usize>,
+    /// How many of all each span has.
+    pub(super) spans: Vec<usize>,
 }
 
 /// What a search ends with.
@@ -34,25 +36,26 @@ pub(super) struct Found {
     /// The points that it follows, and their feet on it.
     pub(super) samples: Vec<Sample>,
     pub(super) feet: Vec<Foot>,
-    /// Deviation of the points, px.
+    /// How many of them each span has.
+    pub(super) spans: Vec<usize>,
+    /// Least deviation of the points, px.
     pub(super) sigma: f64,
     pub(super) refit: Refit,
 }
 
 impl Draft {
-    /// The structure of least description length of a span whose points deviate by `sigma` px at least.
+    /// The structure of least description length of a span whose points deviate by `sigma` px.
     pub(super) fn choose(s: &Samples, marks: &[Candidate], sigma: f64) -> Option<Self> {
-        let own = s.sigma.max(sigma);
-        let (mut chain, feet) = choose::choose(s, marks, own);
+        let (mut chain, feet) = choose::choose(s, marks, sigma);
         if chain.nodes.len() < 2 {
             return None;
         }
         upright(&mut chain);
         loosen(&mut chain);
-        let unit = (sigma / own).powi(2) / cost::CORRELATION;
         let weighed = |at, steps| Sample {
             at,
-            weight: steps * unit,
+            weight: steps / cost::CORRELATION,
+            sigma,
         };
         let (indices, points) = s.thinned();
         let all = s.at.iter().zip(&s.weight);
@@ -64,6 +67,7 @@ impl Draft {
             feet: indices.iter().map(|&k| feet[k]).collect(),
             all: all.map(|(&at, &w)| weighed(at, w)).collect(),
             near: (0..s.len()).map(near).collect(),
+            spans: vec![s.len()],
         })
     }
 
@@ -88,6 +92,7 @@ impl Draft {
             chosen,
             feet: self.near.iter().map(|&k| work.feet[k]).collect(),
             samples: self.all,
+            spans: self.spans,
             sigma,
             refit: work.refit,
         };
@@ -112,13 +117,16 @@ impl Found {
         self.refit.run(&mut self.chain, data, scale, stop);
     }
 
-    /// The largest distance of a measured point, px.
-    pub(super) fn worst(&self) -> f64 {
+    /// The largest distance of a measured point of each span, px.
+    pub(super) fn worst(&self) -> Vec<f64> {
         let most = self.samples.iter().map(|s| s.weight).fold(0.0, f64::max);
-        let pairs = self.samples.iter().zip(&self.feet);
-        let told = pairs.filter(|(s, _)| s.weight > 0.5 * most);
-        let off = |(s, f): (&Sample, &Foot)| s.at.distance(self.chain.cubic(f.segment).eval(f.t));
-        told.map(off).fold(0.0, f64::max)
+        let mut pairs = self.samples.iter().zip(&self.feet);
+        let off = |(s, f): (&Sample, &Foot)| {
+            let told = s.weight > 0.5 * most;
+            told.then(|| s.at.distance(self.chain.cubic(f.segment).eval(f.t)))
+        };
+        let of = |n: &usize| pairs.by_ref().take(*n).filter_map(off).fold(0.0, f64::max);
+        self.spans.iter().map(of).collect()
     }
 }
 

@@ -39,12 +39,14 @@ impl Default for Joint {
     }
 }
 
-/// Searches with half the noise each, when the tolerance is missed.
+/// Searches with half the noise each in the spans that miss the tolerance.
 const TIGHTER: usize = 2;
 /// With so few points their own polygon is better than curves that miss the tolerance.
-const FEW: usize = 16;
+const FEW: usize = 6;
+/// And with so many halves are, which curves may meet.
+const SHORT: usize = 16;
 /// A curve further than this from its span, in tolerances, has lost its way.
-const STRAY: f64 = 8.0;
+const STRAY: f64 = 3.0;
 
 impl Fitter for Joint {
     fn fit(&self, span: Span<'_>, tolerance_px: f64) -> Result<Fitted, FitError> {
@@ -76,18 +78,19 @@ impl Joint {
         if points.len() < 3 || length <= 0.0 {
             return Ok(polygon(span));
         }
-        let Some((path, parameters)) = self.pinned(span, tolerance_px) else {
-            return if points.len() > 2 * FEW {
+        let pinned = self.pinned(span, tolerance_px).map(|(path, parameters)| {
+            let worst = points_to_curve(points, &path).max_px;
+            (path, parameters, worst)
+        });
+        let short = points.len() <= SHORT;
+        let near = |worst: f64| worst.is_finite() && !(short && worst > tolerance_px);
+        let Some((path, parameters, worst)) = pinned.filter(|(_, _, worst)| near(*worst)) else {
+            return if points.len() > FEW {
                 self.halves(span, tolerance_px)
             } else {
                 Ok(polygon(span))
             };
         };
-        let worst = points_to_curve(points, &path).max_px;
-        let hopeless = worst > tolerance_px && points.len() <= FEW;
-        if !worst.is_finite() || hopeless {
-            return Ok(polygon(span));
-        }
         Ok(Fitted {
             path,
             verdict: if worst <= tolerance_px {
@@ -153,20 +156,23 @@ impl Joint {
         tolerance_px: f64,
         weld: impl Fn(Vec<Draft>) -> Option<Draft>,
     ) -> Option<Found> {
-        let least = spans.iter().map(|s| s.sigma).fold(f64::INFINITY, f64::min);
-        let mut sigma = self.least_noise * tolerance_px;
+        let least = self.least_noise * tolerance_px;
+        let mut sigma: Vec<f64> = spans.iter().map(|s| s.sigma.max(least)).collect();
         let marks: Vec<Vec<Candidate>> = spans.iter().map(candidate::candidates).collect();
         let mut tighter = 0;
         loop {
-            let pairs = spans.iter().zip(&marks);
+            let each = spans.iter().zip(&marks).zip(&sigma);
             let drafts: Option<Vec<Draft>> =
-                pairs.map(|(s, m)| Draft::choose(s, m, sigma)).collect();
-            let found = weld(drafts?)?.refine(sigma);
-            if tighter == TIGHTER || sigma <= least || found.worst() <= tolerance_px {
+                each.map(|((s, m), &d)| Draft::choose(s, m, d)).collect();
+            let found = weld(drafts?)?.refine(least);
+            let worst = found.worst();
+            let missed = |&k: &usize| worst[k] > tolerance_px;
+            let missed: Vec<usize> = (0..spans.len()).filter(missed).collect();
+            if tighter == TIGHTER || missed.is_empty() {
                 return Some(found);
             }
             tighter += 1;
-            sigma *= 0.5;
+            missed.into_iter().for_each(|k| sigma[k] *= 0.5);
         }
     }
 }

@@ -27,6 +27,8 @@ pub(super) struct Samples {
     pub(super) step: f64,
     /// Standard deviation of the points along their normals, px.
     pub(super) sigma: f64,
+    /// Distances of its points from parabolas through their neighbours, px: what `sigma` is told by.
+    off: Vec<f64>,
     /// Samples on each side of a local parabola.
     pub(super) reach: usize,
     /// Unit direction at each.
@@ -46,11 +48,33 @@ impl Samples {
             ring: span.is_ring(),
             step,
             sigma: 0.0,
+            off: Vec::new(),
             reach: REACH,
             heading: Vec::new(),
             bend: Vec::new(),
         };
-        s.sigma = s.noise();
+        s.off = s.scatter();
+        s.sigma = deviation(s.off.clone());
+        s.lean();
+        s
+    }
+
+    /// Spans of one contour: their noise is one, for a short one tells little of its own.
+    pub(super) fn together(spans: &[Span<'_>]) -> Vec<Self> {
+        let mut all: Vec<Self> = spans.iter().map(|s| Self::new(*s)).collect();
+        let sigma = deviation(all.iter().flat_map(|s| s.off.iter().copied()).collect());
+        for s in &mut all {
+            s.sigma = sigma;
+            s.lean();
+        }
+        all
+    }
+
+    /// Directions and bends by parabolas that reach as far as the noise asks.
+    fn lean(&mut self) {
+        let s = self;
+        s.heading.clear();
+        s.bend.clear();
         // The variance of a parabola's bend falls with the fifth power of its reach.
         let wider = (s.sigma / (0.02 * s.step)).max(1.0).powf(0.4) * REACH as f64;
         s.reach = (REACH..=REACH_MOST)
@@ -62,7 +86,6 @@ impl Samples {
             s.heading.push(d / speed);
             s.bend.push(d.cross(dd) / (speed * speed * speed));
         }
-        s
     }
 
     /// Number of samples.
@@ -136,30 +159,39 @@ impl Samples {
         (indices, points)
     }
 
-    /// Robust deviation of the points from parabolas through their neighbours, along the normal.
-    fn noise(&self) -> f64 {
-        let r = REACH + 1;
+    /// Distances of the points from parabolas through their neighbours, along the normal, px; made larger by what
+    /// a parabola follows its middle point.
+    fn scatter(&self) -> Vec<f64> {
         let n = self.at.len();
-        let inner = if self.ring {
-            0..n
+        let (r, inner) = if self.ring {
+            // a parabola is no part of a ring that turns by more than some 60° within it
+            let r = (n / 12).clamp(2, REACH + 1);
+            (r, 0..n)
         } else {
-            r..n.saturating_sub(r)
+            let r = REACH + 1;
+            (r, r..n.saturating_sub(r))
         };
-        let mut off: Vec<f64> = inner
-            .map(|k| {
-                let [p, d, _] = self.parabola(k, r, r);
-                let normal = Vec2::new(-d.y, d.x) / d.hypot().max(1e-12);
-                (p - self.at[k].to_vec2()).dot(normal).abs()
-            })
-            .collect();
-        if off.is_empty() {
-            return 0.0;
-        }
-        let mid = off.len() / 2;
-        let median = *off.select_nth_unstable_by(mid, f64::total_cmp).1;
-        // 1.4826: median to standard deviation; 1.13: a parabola through 11 points follows its middle one.
-        median * 1.4826 * 1.13
+        let m = r as f64;
+        let leverage = 3.0 * (3.0 * m * m + 3.0 * m - 1.0)
+            / ((2.0 * m - 1.0) * (2.0 * m + 1.0) * (2.0 * m + 3.0));
+        let off = |k: usize| {
+            let [p, d, _] = self.parabola(k, r, r);
+            let normal = Vec2::new(-d.y, d.x) / d.hypot().max(1e-12);
+            (p - self.at[k].to_vec2()).dot(normal).abs() / (1.0 - leverage).sqrt()
+        };
+        inner.map(off).collect()
     }
+}
+
+/// Robust standard deviation of points that lie `off` from parabolas through their neighbours, px.
+fn deviation(mut off: Vec<f64>) -> f64 {
+    if off.is_empty() {
+        return 0.0;
+    }
+    let mid = off.len() / 2;
+    let median = *off.select_nth_unstable_by(mid, f64::total_cmp).1;
+    // median to standard deviation
+    1.4826 * median
 }
 
 /// A parabola's coefficients from the power sums `s` and moments `m`.

@@ -176,3 +176,49 @@ fn a_rough_edge_is_not_its_own_polygon() {
         }
     }
 }
+
+/// A half disk whose arc strays by up to `stray` px, cut at its two corners.
+fn half_disk(stray: f64) -> Spans {
+    let arc = Arc::new((50.0, 50.0), (30.0, 30.0), 0.0, std::f64::consts::PI, 0.0);
+    let arc = points(&arc.path_elements(1e-6).collect());
+    let wave = |i: usize| stray * ((i * 7 % 11) as f64 / 5.0 - 1.0);
+    let out = arc.iter().enumerate().map(|(i, p)| {
+        let away = *p - Point::new(50.0, 50.0);
+        if i == 0 || i + 1 == arc.len() {
+            *p
+        } else {
+            *p + away / 30.0 * wave(i)
+        }
+    });
+    let mut ring: Vec<Point> = out.collect();
+    let end = ring.len() - 1;
+    ring.extend((1..86).map(|i| Point::new(20.0 + 0.7 * f64::from(i), 50.0)));
+    crate::types::Contour::new(ring).unwrap().cut(&[0, end])
+}
+
+#[test]
+fn noise_of_one_side_is_no_reason_to_leave_it() {
+    for stray in [0.0, 0.15, 0.3] {
+        let path = Joint::default().contour(&half_disk(stray), 0.5).unwrap();
+        let centre = Point::new(50.0, 50.0);
+        let upper = path.segments().filter(|s| s.eval(0.5).y > 51.0);
+        let mut off = 0.0_f64;
+        for seg in upper {
+            for k in 0..=8 {
+                off = off.max((seg.eval(f64::from(k) / 8.0).distance(centre) - 30.0).abs());
+            }
+        }
+        assert!(off < 0.02 + 0.5 * stray, "{stray}: {off}");
+        assert!(path.segments().count() <= 4, "{stray}: {path:?}");
+    }
+}
+
+#[test]
+fn a_span_that_misses_is_followed_more_closely() {
+    // two waves of 0.8 px: too regular for noise, too flat to be seen at first
+    let p: Vec<Point> = (0..120)
+        .map(|i| Point::new(f64::from(i), 0.8 * (f64::from(i) * 0.105).sin()))
+        .collect();
+    let got = fit(Span::Open(&p));
+    assert_eq!(got.verdict, Verdict::Met, "{:?}", got.path);
+}

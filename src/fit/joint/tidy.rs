@@ -24,8 +24,17 @@ pub(super) fn smooth(found: &mut Found) {
     if soft.is_empty() {
         return;
     }
+    if !smoothed(found, &soft) && soft.len() > 1 {
+        for i in soft {
+            smoothed(found, &[i]);
+        }
+    }
+}
+
+/// Makes the joins of some nodes smooth; leaves all as it was, and says so, where a span's points do not allow it.
+fn smoothed(found: &mut Found, soft: &[usize]) -> bool {
     let (chain, feet, worst) = (found.chain.clone(), found.feet.clone(), found.worst());
-    for i in soft {
+    for &i in soft {
         let node = &mut found.chain.nodes[i];
         let along = node.arrive + node.leave;
         let along = along / along.hypot();
@@ -39,10 +48,16 @@ pub(super) fn smooth(found: &mut Found) {
         (node.arrive, node.leave) = (along, along);
     }
     found.settle(20, 1e-3);
-    let better = found.worst() <= worst + GIVE_PX;
-    if !better || !found.chain.to_path().is_finite() {
+    let better = found.chain.to_path().is_finite()
+        && found
+            .worst()
+            .iter()
+            .zip(worst)
+            .all(|(now, was)| *now <= was + GIVE_PX);
+    if !better {
         (found.chain, found.feet) = (chain, feet);
     }
+    better
 }
 
 /// Whether a corner of which one side at least is curved turns too little to be one.

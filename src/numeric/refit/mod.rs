@@ -1,6 +1,6 @@
 //! Least squares of all nodes, directions and handles of a chain at once.
 //!
-//! Solves   min Σ wᵢ ρ(dᵢ / σ) + ½ Σ ((handle / chord − ⅓) / spread)², dᵢ the distance of sample i to the chain
+//! Solves   min Σ wᵢ ρ(dᵢ / σᵢ) + ½ Σ ((handle / chord − ⅓) / spread)², dᵢ the distance of sample i to the chain
 //! along its normal, ρ Huber's. Gauss–Newton with Levenberg's damping; the feet of the samples slide
 //! along the chain between steps (variable projection), over nodes where they must.
 //!
@@ -20,6 +20,8 @@ pub struct Sample {
     pub at: Point,
     /// How many independent measurements it stands for.
     pub weight: f64,
+    /// Their standard deviation along the normal.
+    pub sigma: f64,
 }
 
 /// Where on a chain a sample's foot lies.
@@ -34,9 +36,9 @@ pub struct Foot {
 /// What the distances are measured by.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Scale {
-    /// Standard deviation of a sample along the normal, in units of the samples.
+    /// Least standard deviation of the samples, in their units.
     pub sigma: f64,
-    /// Distance, in sigmas, from which the cost grows linearly only.
+    /// Distance, in deviations of a sample, from which the cost grows linearly only.
     pub robust: f64,
 }
 
@@ -280,14 +282,14 @@ impl Refit {
         for (sample, foot) in samples.iter().zip(feet) {
             let (offset, normal) = self.slide(sample.at, foot);
             let distance = offset.dot(normal);
-            let u = distance.abs() / scale.sigma;
+            let u = distance.abs() / sample.sigma;
             let (rho, pull) = if u < scale.robust {
                 (0.5 * u * u, 1.0)
             } else {
                 (scale.robust * (u - 0.5 * scale.robust), scale.robust / u)
             };
             cost += sample.weight * rho;
-            let weight = sample.weight * pull / (scale.sigma * scale.sigma);
+            let weight = sample.weight * pull / (sample.sigma * sample.sigma);
             let row = row(chain, *foot, normal);
             let block = &mut self.blocks[foot.segment];
             for (k, rk) in row.iter().enumerate() {

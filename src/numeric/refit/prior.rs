@@ -13,6 +13,10 @@ const HANDLE_SPREAD: f64 = 0.4;
 const LONGEST: f64 = 1.0;
 /// How soon that is felt, in chords.
 const LONGEST_SPREAD: f64 = 0.05;
+/// A handle shorter than this, in chords, leaves its direction to the other one: the join is no longer smooth.
+const SHORTEST: f64 = 0.06;
+/// How soon that is felt, in chords.
+const SHORTEST_SPREAD: f64 = 0.02;
 /// A handle passes the level of the extremum that its curve ends in by this part of a sample's deviation.
 const OVERSHOOT: f64 = 0.25;
 
@@ -41,12 +45,16 @@ pub(super) fn handles(chain: &Chain, segment: usize, block: &mut Block) -> f64 {
         cost += 0.5 * off * off;
         block.gradient[k] += off * slope;
         block.hessian[k][k] += slope * slope;
-        let over = (handle / chord - LONGEST) / LONGEST_SPREAD;
-        if over > 0.0 {
-            let slope = 1.0 / (chord * LONGEST_SPREAD);
-            cost += 0.5 * over * over;
-            block.gradient[k] += over * slope;
-            block.hessian[k][k] += slope * slope;
+        for (over, spread) in [
+            ((handle / chord - LONGEST).max(0.0), LONGEST_SPREAD),
+            ((handle / chord - SHORTEST).min(0.0), SHORTEST_SPREAD),
+        ] {
+            if over.abs() > 0.0 {
+                let (over, slope) = (over / spread, 1.0 / (chord * spread));
+                cost += 0.5 * over * over;
+                block.gradient[k] += over * slope;
+                block.hessian[k][k] += slope * slope;
+            }
         }
     }
     cost
