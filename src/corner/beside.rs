@@ -1,19 +1,30 @@
 //! The clear stretches of contour beside a corner, and the corner as the crossing of its two sides.
 
+use super::calm::calm;
 use crate::{
-    numeric::side::{Meeting, Place, Side},
+    numeric::side::{FLOOR_PX, Meeting, Place, Side},
     types::Contour,
 };
 use kurbo::Point;
 use std::f64::consts::SQRT_2;
 
-/// Longest stretch that a side is taken from, px.
+/// Longest stretch that a side of smooth ink is taken from, px.
 const REACH_PX: f64 = 16.0;
+/// And how much longer it may be for each px along which ink is ragged.
+const RAGGED: f64 = 4.0;
+/// How far ragged ink's edge strays, in the length along which it does.
+const SCATTER: f64 = 0.1;
 
 /// How far from a corner its rounding by the picture's blur is felt, px: the bilinear surface reaches
-/// 1 px, and a Gaussian's edge is straight again to 1 % of a pixel after one and a half deviations.
+/// 1 px, and a Gaussian's edge is straight again to 1 % of a pixel after one and a half deviations. Ragged ink is
+/// averaged by one more.
 pub(super) fn clearance_px(contour: &Contour) -> f64 {
-    1.05 + 1.5 * contour.blur_px()
+    1.05 + 1.5 * contour.blur_px().hypot(contour.ragged_px())
+}
+
+/// Least scatter of a side's points, px.
+pub(crate) fn scatter_px(contour: &Contour) -> f64 {
+    FLOOR_PX.hypot(SCATTER * contour.ragged_px())
 }
 
 /// Clearance of a needle, in those of a right angle, at most: further out its sides are seen apart.
@@ -27,6 +38,10 @@ pub(super) struct Corners<'a> {
     points: &'a [Point],
     /// clearance of a right angle, px
     clear: f64,
+    /// least scatter of a side's points, px
+    floor: f64,
+    /// longest stretch that a side is taken from, px
+    reach: f64,
     /// strictly increasing
     at: &'a [usize],
 }
@@ -44,6 +59,8 @@ impl<'a> Corners<'a> {
         Self {
             points: contour.points(),
             clear: clearance_px(contour),
+            floor: scatter_px(contour),
+            reach: REACH_PX + RAGGED * contour.ragged_px(),
             at,
         }
     }
@@ -67,8 +84,8 @@ impl<'a> Corners<'a> {
         let mut before = self.stretch((i, clear), self.at[(k + n - 1) % n], Place::Before);
         before.reverse();
         let after = self.stretch((i, clear), self.at[(k + 1) % n], Place::After);
-        let before = Side::beside(&before, Place::Before)?;
-        let after = Side::beside(&after, Place::After)?;
+        let before = Side::beside(&before, Place::Before, self.floor)?;
+        let after = Side::beside(&after, Place::After, self.floor)?;
         before.meet(&after, self.points[i], 3.0 * clear)
     }
 
@@ -79,7 +96,7 @@ impl<'a> Corners<'a> {
         let step = if place == Place::After { 1 } else { n - 1 };
         let (mut d, mut j) = (0.0, i);
         let mut walk = Vec::new();
-        while d <= REACH_PX + clear + self.clear && walk.len() < n {
+        while d <= self.reach + clear + self.clear && walk.len() < n {
             let next = (j + step) % n;
             d += self.points[j].distance(self.points[next]);
             walk.push((d, self.points[next]));
@@ -93,7 +110,7 @@ impl<'a> Corners<'a> {
             let inside = walk.iter().filter(|(d, _)| (from..=to).contains(d));
             inside.map(|(_, p)| *p).collect()
         };
-        let out = within(clear, (end - self.clear).min(clear + REACH_PX));
+        let out = within(clear, (end - self.clear).min(clear + self.reach));
         if out.len() >= 2 || walk.is_empty() {
             return out;
         }
@@ -115,15 +132,17 @@ impl<'a> Corners<'a> {
 /// A corner whose sides do not meet near it stays where it is.
 #[must_use]
 pub fn sharpen(contour: &Contour, corners: &[usize]) -> (Contour, Vec<usize>) {
-    let all = Corners::new(contour, corners);
-    let n = all.points.len();
+    let calm = calm(contour);
+    let all = Corners::new(&calm, corners);
+    let traced = contour.points();
+    let n = traced.len();
     let mut points = Vec::with_capacity(n);
     let mut indices = Vec::with_capacity(corners.len());
     let found: Vec<Option<Corner>> = (0..corners.len()).map(|k| all.corner(k)).collect();
     for (k, &i) in corners.iter().enumerate() {
         let next = corners[(k + 1) % corners.len()];
         let count = (next + n - i - 1) % n + 1;
-        let place = |j: usize| all.points[(i + j) % n];
+        let place = |j: usize| traced[(i + j) % n];
         let lengths: Vec<f64> = (0..count)
             .scan(0.0, |d, j| {
                 *d += place(j).distance(place(j + 1));
@@ -143,10 +162,8 @@ pub fn sharpen(contour: &Contour, corners: &[usize]) -> (Contour, Vec<usize>) {
             }
         }
     }
-    match Contour::new(points) {
-        Ok(c) if c.points().len() > 2 && !indices.is_empty() => {
-            (c.with_blur(contour.blur_px()), indices)
-        }
+    match contour.through(points) {
+        Ok(c) if c.points().len() > 2 && !indices.is_empty() => (c, indices),
         _ => (contour.clone(), corners.to_vec()),
     }
 }

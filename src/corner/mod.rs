@@ -8,9 +8,13 @@
 
 pub mod angle;
 mod beside;
+mod calm;
 pub mod sides;
 pub mod srm05;
+#[cfg(test)]
+mod tests;
 
+pub(crate) use beside::scatter_px;
 pub use beside::sharpen;
 
 use crate::types::Contour;

@@ -15,6 +15,8 @@ pub struct Side {
     covariance: Matrix3<f64>,
     /// scatter of the points about it, px, degrees of freedom taken into account
     scatter: f64,
+    /// least scatter that is believed, px
+    floor: f64,
 }
 
 /// Where two sides meet.
@@ -30,16 +32,17 @@ pub struct Meeting {
 
 /// What tracing itself scatters on a straight edge without noise, px: the bilinear surface follows the
 /// pixels' steps.
-const FLOOR_PX: f64 = 0.02;
+pub const FLOOR_PX: f64 = 0.02;
 /// A longer side is taken as long as its points scatter no more than this many times the shorter's.
 const GROWTH: f64 = 1.3;
 /// Points of the shortest and the longest side that is tried.
 const REACH: (usize, usize) = (5, 20);
 
 impl Side {
-    /// The side through `points`, in their order along the contour; nothing from fewer than two.
+    /// The side through `points`, in their order along the contour, which scatter by `floor` px at least; nothing
+    /// from fewer than two.
     #[must_use]
-    pub fn through(points: &[Point]) -> Option<Self> {
+    pub fn through(points: &[Point], floor: f64) -> Option<Self> {
         let (first, last) = (points.first()?, points.last()?);
         let along = *last - *first;
         if along.hypot() < 1e-9 {
@@ -78,9 +81,9 @@ impl Side {
         };
         let line = solved(2)?;
         let curve = if points.len() > 4 { solved(3) } else { None };
-        let floor = |s: f64| s * s + FLOOR_PX * FLOOR_PX;
+        let least = |s: f64| s * s + floor * floor;
         // a parabola where it explains more than two standard deviations of chance would
-        let bent = curve.filter(|c| floor(line.2) > floor(c.2) * (1.0 + 4.0 / (n - 3.0)));
+        let bent = curve.filter(|c| least(line.2) > least(c.2) * (1.0 + 4.0 / (n - 3.0)));
         let (c, covariance, scatter) = bent.unwrap_or(line);
         Some(Self {
             origin,
@@ -88,24 +91,25 @@ impl Side {
             height: [c[0], c[1], c[2]],
             covariance,
             scatter,
+            floor,
         })
     }
 
     /// The side through as many of `points` as one parabola explains, the ones next to the corner last
     /// (`before` it) or first (after it).
     #[must_use]
-    pub fn beside(points: &[Point], place: Place) -> Option<Self> {
+    pub fn beside(points: &[Point], place: Place, floor: f64) -> Option<Self> {
         let part = |n: usize| match place {
             Place::Before => &points[points.len() - n..],
             Place::After => &points[..n],
         };
         let most = points.len().min(REACH.1);
         let mut n = most.min(REACH.0);
-        let mut best = Self::through(part(n))?;
-        let limit = (best.scatter * GROWTH).hypot(FLOOR_PX);
+        let mut best = Self::through(part(n), floor)?;
+        let limit = (best.scatter * GROWTH).hypot(floor);
         while n < most {
             n = (n + n.div_ceil(3)).min(most);
-            match Self::through(part(n)) {
+            match Self::through(part(n), floor) {
                 Some(s) if s.scatter <= limit => best = s,
                 _ => break,
             }
@@ -128,7 +132,7 @@ impl Side {
     fn noise(&self, x: f64) -> f64 {
         let v = Vector3::new(1.0, x, x * x);
         let lever = (v.transpose() * self.covariance * v)[0];
-        lever.max(0.0).sqrt() * self.scatter.max(FLOOR_PX)
+        lever.max(0.0).sqrt() * self.scatter.max(self.floor)
     }
 
     /// Where this side and the one after it meet, found from `near`; nothing if they do not within
@@ -167,4 +171,84 @@ pub enum Place {
     Before,
     /// on the way from it
     After,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Points of a circle about `centre` between two angles, half a pixel apart.
+    fn arc(centre: Point, radius: f64, from: f64, to: f64) -> Vec<Point> {
+        let n = ((to - from).abs() * radius / 0.5).round();
+        let at = |i: f64| centre + radius * Vec2::from_angle(from + (to - from) * i / n);
+        (0..=n as usize).map(|i| at(i as f64)).collect()
+    }
+
+    #[test]
+    fn lines_meet_where_they_cross_and_say_which_way_they_turn() {
+        let before: Vec<Point> = (0..12).map(|i| Point::new(f64::from(i), 0.0)).collect();
+        for (dy, turn) in [(1.0, 45.0_f64), (-1.0, -45.0)] {
+            let after: Vec<Point> = (2..14)
+                .map(|i| Point::new(14.0 + f64::from(i), dy * f64::from(i)))
+                .collect();
+            let (a, b) = (
+                Side::through(&before, FLOOR_PX).unwrap(),
+                Side::through(&after, FLOOR_PX).unwrap(),
+            );
+            let met = a.meet(&b, Point::new(13.0, 0.5), 5.0).unwrap();
+            assert!(met.apex.distance(Point::new(14.0, 0.0)) < 1e-9, "{met:?}");
+            assert!((met.turn - turn.to_radians()).abs() < 1e-9, "{met:?}");
+            assert!(
+                a.meet(&b, Point::new(3.0, 0.0), 5.0).is_none(),
+                "out of reach"
+            );
+            assert!(a.meet(&a, Point::new(13.0, 0.0), 5.0).is_none(), "parallel");
+        }
+    }
+
+    #[test]
+    fn arcs_meet_at_the_tip_of_the_lens_between_them() {
+        // two circles of radius 40 whose centres are 48 apart cross 32 above the middle
+        let before = arc(Point::new(-24.0, 0.0), 40.0, 0.5, 0.85);
+        let after = arc(Point::new(24.0, 0.0), 40.0, 2.29, 2.64);
+        let (a, b) = (
+            Side::through(&before, FLOOR_PX).unwrap(),
+            Side::through(&after, FLOOR_PX).unwrap(),
+        );
+        let met = a.meet(&b, Point::new(0.0, 31.0), 8.0).unwrap();
+        assert!(met.apex.distance(Point::new(0.0, 32.0)) < 0.15, "{met:?}");
+    }
+
+    #[test]
+    fn a_side_knows_how_well_it_is_known() {
+        let noisy = |n: i32| -> Vec<Point> {
+            (0..n)
+                .map(|i| Point::new(f64::from(i), 0.1 * f64::from(i * i % 3)))
+                .collect()
+        };
+        let up: Vec<Point> = (2..14).map(|i| Point::new(-2.0, f64::from(i))).collect();
+        let up = Side::through(&up, FLOOR_PX).unwrap();
+        let noise = |n: i32| {
+            let side = Side::through(&noisy(n), FLOOR_PX).unwrap();
+            up.meet(&side, Point::ORIGIN, 9.0).unwrap().noise
+        };
+        assert!(noise(20) < 0.5 * noise(6), "{} {}", noise(20), noise(6));
+    }
+
+    #[test]
+    fn few_points_make_no_side_or_a_line() {
+        assert!(Side::through(&[], FLOOR_PX).is_none());
+        assert!(Side::through(&[Point::ORIGIN], FLOOR_PX).is_none());
+        assert!(Side::through(&[Point::ORIGIN, Point::ORIGIN], FLOOR_PX).is_none());
+        assert!(Side::through(&[Point::ORIGIN, Point::new(1.0, 0.0)], FLOOR_PX).is_some());
+    }
+
+    #[test]
+    fn a_side_ends_where_another_curve_begins() {
+        // ten points of a line, then a sharp bend away from it
+        let mut points: Vec<Point> = (0..10).map(|i| Point::new(f64::from(i), 0.0)).collect();
+        points.extend((1..11).map(|i| Point::new(9.0 + 0.3 * f64::from(i), f64::from(i))));
+        let side = Side::beside(&points, Place::After, FLOOR_PX).unwrap();
+        assert!(side.tangent(0.0).cross(Vec2::new(1.0, 0.0)).abs() < 1e-9);
+    }
 }

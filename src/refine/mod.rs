@@ -17,6 +17,7 @@ mod tests;
 pub use corners::{confirmed, undrawn};
 
 use crate::{
+    corner::scatter_px,
     numeric::side::{Place, Side},
     types::{Contour, Gray},
 };
@@ -116,9 +117,10 @@ impl<'a> Ring<'a> {
         let n = corners.len();
         let before = self.between(corners[(k + n - 1) % n], corners[k]);
         let after = self.between(corners[k], corners[(k + 1) % n]);
+        let floor = scatter_px(&self.from.0);
         let sides = (
-            Side::beside(&before, Place::Before)?,
-            Side::beside(&after, Place::After)?,
+            Side::beside(&before, Place::Before, floor)?,
+            Side::beside(&after, Place::After, floor)?,
         );
         let meeting = sides
             .0
@@ -136,10 +138,8 @@ impl<'a> Ring<'a> {
     /// The contour that the points make; the one it came from if they make none.
     fn finish(self) -> Cornered {
         let (from, corners) = self.from;
-        match Contour::new(self.points) {
-            Ok(c) if c.points().len() == from.points().len() => {
-                (c.with_blur(from.blur_px()), corners.clone())
-            }
+        match from.through(self.points) {
+            Ok(c) if c.points().len() == from.points().len() => (c, corners.clone()),
             _ => self.from.clone(),
         }
     }

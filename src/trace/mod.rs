@@ -12,6 +12,7 @@ mod chain;
 mod edge;
 mod iso;
 mod levels;
+mod ragged;
 #[cfg(test)]
 mod tests;
 
@@ -79,7 +80,9 @@ pub fn trace(gray: &Gray, options: &Options) -> Vec<Contour> {
         .filter_map(|c| Contour::new(even(c.points())).ok())
         .collect();
     let blur = edge::blur_px(gray, &even);
-    even.into_iter().map(|c| c.with_blur(blur)).collect()
+    let ragged = ragged::ragged_px(&even);
+    let told = |c: Contour| c.with_blur(blur).with_ragged(ragged);
+    even.into_iter().map(told).collect()
 }
 
 /// The same ring with points [`SPACING_PX`] apart.

@@ -32,6 +32,7 @@ pub enum ContourError {
 pub struct Contour {
     points: Vec<Point>,
     blur_px: f64,
+    ragged_px: f64,
 }
 
 impl Contour {
@@ -56,6 +57,7 @@ impl Contour {
             Ok(Self {
                 points,
                 blur_px: Self::PIXEL_BLUR_PX,
+                ragged_px: 0.0,
             })
         }
     }
@@ -64,6 +66,18 @@ impl Contour {
     #[must_use]
     pub fn points(&self) -> &[Point] {
         &self.points
+    }
+
+    /// A ring through other points, of the same picture.
+    ///
+    /// # Errors
+    /// As [`Contour::new`].
+    pub fn through(&self, points: Vec<Point>) -> Result<Self, ContourError> {
+        let ring = Self::new(points)?;
+        Ok(Self {
+            points: ring.points,
+            ..*self
+        })
     }
 
     /// The same ring, from a picture whose edges are blurred by a Gaussian of standard deviation
@@ -78,6 +92,26 @@ impl Contour {
     #[must_use]
     pub const fn blur_px(&self) -> f64 {
         self.blur_px
+    }
+
+    /// The same ring, of ink whose edge strays by a standard deviation of `rough_px` within a few pixels.
+    #[must_use]
+    pub const fn with_ragged(mut self, ragged_px: f64) -> Self {
+        self.ragged_px = ragged_px;
+        self
+    }
+
+    /// Length along the edge, px, below which raggedness hides what is drawn; 0 for smooth edges.
+    #[must_use]
+    pub const fn ragged_px(&self) -> f64 {
+        self.ragged_px
+    }
+
+    /// Length once around, px.
+    #[must_use]
+    pub fn length(&self) -> f64 {
+        let ends = self.points.iter().zip(self.points.iter().cycle().skip(1));
+        ends.map(|(a, b)| a.distance(*b)).sum()
     }
 
     /// Signed area, px²: positive for an outer ring, negative for a hole.

@@ -16,6 +16,7 @@
 use super::{
     Detector,
     beside::{Corners, clearance_px},
+    calm::calm,
 };
 use crate::{numeric::side::Meeting, types::Contour};
 use kurbo::{Line, ParamCurveNearest, Point};
@@ -48,17 +49,20 @@ const CANDIDATE: f64 = 0.6;
 
 /// Standard deviation of the interpolation between pixels, px: a tent of ±1 px.
 const TENT_PX: f64 = 0.408;
+/// A ring shorter than this many clearances has no room for sides between its corners.
+const SMALL: f64 = 10.0;
 /// A sharp corner may keep off this many times what blur explains: the estimate is good for 90°.
 const NEEDLE: f64 = 1.2;
 
 impl Detector for Sides {
     fn corners(&self, contour: &Contour) -> Vec<usize> {
-        self.kept(contour, |i, m| self.is_corner(contour, i, m))
+        let contour = calm(contour);
+        self.kept(&contour, |i, m| self.is_corner(&contour, i, m))
     }
 
     fn possible(&self, contour: &Contour) -> Option<Vec<usize>> {
         let turn = self.turn_deg.to_radians();
-        Some(self.kept(contour, |_, m| m.turn.abs() >= turn))
+        Some(self.kept(&calm(contour), |_, m| m.turn.abs() >= turn))
     }
 }
 
@@ -86,7 +90,10 @@ impl Sides {
         let p = contour.points();
         let n = p.len();
         let length: f64 = (0..n).map(|i| p[i].distance(p[(i + 1) % n])).sum();
-        let reach = (clearance_px(contour) + 0.5).min(length / 8.0);
+        let reach = clearance_px(contour) + 0.5;
+        if length < SMALL * reach {
+            return Vec::new();
+        }
         let turn: Vec<f64> = (0..n)
             .map(|i| {
                 let (a, b) = (
@@ -115,8 +122,9 @@ impl Sides {
             return false;
         }
         let half = (turn / 2.0).min(1.5);
-        let corner =
-            contour.blur_px().hypot(TENT_PX) * std::f64::consts::FRAC_2_PI.sqrt() * half.tan();
+        let corner = contour.blur_px().hypot(TENT_PX).hypot(contour.ragged_px())
+            * std::f64::consts::FRAC_2_PI.sqrt()
+            * half.tan();
         let radius = clearance_px(contour) / half.tan();
         let arc = radius * (1.0 / half.cos() - 1.0);
         let seen = gap(contour.points(), i, m.apex);
