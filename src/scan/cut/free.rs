@@ -28,6 +28,9 @@ const SMALL: f64 = 0.35;
 const TORN: f64 = 0.35;
 /// Joins that cost more are never made: about this share of a usual letter lies between the two.
 const DEAREST: f64 = 0.75;
+/// Two dots of one letter differ in size and height by less than this share of their size, and less than one of
+/// them would fit between them.
+const PAIRED: f64 = 0.4;
 /// Groups of less ink than this share of a usual letter's may be dirt.
 const DIRT: f64 = 0.06;
 
@@ -182,19 +185,28 @@ fn letters(
     pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
     let mut group: Vec<usize> = (0..ink.len()).collect();
     let mut left = ink.len();
-    let mut dearest = 0.0;
-    for (cost, i, j) in pairs {
+    let mut dearest: f64 = 0.0;
+    let small: Vec<bool> = ink
+        .iter()
+        .map(|&i| all[i].upright.height() < SMALL * scale.0)
+        .collect();
+    // a dot between two letters belongs to one of them; only if too many pieces are left then, to both
+    let between = pairs.iter().map(|p| (true, p));
+    let joining = pairs.iter().map(|p| (false, p));
+    for (parting, &(cost, i, j)) in between.chain(joining) {
         if left <= wanted {
             break;
         }
         let (from, to) = (group[i].max(group[j]), group[i].min(group[j]));
-        if from != to {
+        let full = |id: usize| (0..ink.len()).any(|k| group[k] == id && !small[k]);
+        let dot = parting && (small[i] || small[j]) && cost > 0.0;
+        if from != to && !(dot && full(from) && full(to)) {
             group
                 .iter_mut()
                 .filter(|g| **g == from)
                 .for_each(|g| *g = to);
             left -= 1;
-            dearest = cost;
+            dearest = dearest.max(cost);
         }
     }
     let of = |id: usize| {
@@ -222,7 +234,8 @@ fn usual_height(all: &[Component]) -> f64 {
 
 /// How far two pieces are from being one letter: the gap between them as a share of a usual height, more
 /// where they stand beside rather than above each other. Two full letters one above the other never are, unless
-/// hardly anything is between them: a pen that ran dry, a stroke parted by a cut.
+/// hardly anything is between them: a pen that ran dry, a stroke parted by a cut. Two dots beside each other are
+/// likelier one letter's than a dot beside a letter is.
 fn cost(one: &Component, other: &Component, (height, stroke): (f64, f64)) -> f64 {
     let (a, b) = (one.upright, other.upright);
     let dx = (a.x0 - b.x1).max(b.x0 - a.x1);
@@ -234,7 +247,12 @@ fn cost(one: &Component, other: &Component, (height, stroke): (f64, f64)) -> f64
     if -dx > narrow / 2.0 && dy < torn && one.is_near(other, torn) {
         return 0.0;
     }
+    let alike = |p: f64, q: f64| (p - q).abs() < PAIRED * p.min(q);
+    let size = b.width();
+    let level = (a.center().y - b.center().y).abs() < PAIRED * size;
+    let dots = alike(a.width(), size) && alike(a.height(), b.height()) && alike(a.height(), size);
     match (dx < 0.0, dy < 0.0) {
+        (false, true) if small && dots && level && dx < size => 0.3 + 0.1 * dx / size,
         (true, true) => {
             0.8 * (1.0 - dx * dy / (narrow * low.max(1.0))).max(0.0) + if small { 0.0 } else { 0.2 }
         }
