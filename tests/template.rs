@@ -10,7 +10,7 @@ use crate::common::camera::Camera;
 use crate::common::moments::Moments;
 use khatt::pipeline::{self, Nothing, Project, Unwatched, World};
 use khatt::scan::{self, Polarity};
-use khatt::template::{self, Direction, Layout, Page, Paper, Place, TemplateError};
+use khatt::template::{self, Direction, Field, Layout, Page, Paper, Place, TemplateError};
 use khatt::types::Sheet;
 use kurbo::{Affine, BezPath, Circle, Rect, Shape};
 use std::fs;
@@ -89,6 +89,8 @@ fn check(layout: &Layout, page: &Page, camera: Camera) {
         let off = found.view.at(mark).distance(truth.at(mark));
         assert!(off < 0.06, "{camera:?}: a mark is {off:.3} px off");
     }
+    let stray = template::stray(&sheet, layout, &found, &page.places);
+    assert!(stray.is_empty(), "{camera:?}: {stray:?}");
     let gain = template::gain(&sheet, layout, &found);
     let drawings = template::drawings(&sheet, layout, &found, &page.places, gain.as_ref());
     assert_eq!(
@@ -298,6 +300,61 @@ fn a_sensor_that_makes_ink_bolder_is_seen_through() {
     let (raw, corrected) = (weight(None), weight(Some(&gain)));
     assert!(raw > 0.04, "without the margin's word letters weigh {raw}");
     assert!(corrected.abs() < 0.02, "letters weigh {corrected} more");
+}
+
+#[test]
+fn fields_stand_where_the_layout_says() {
+    let field = |field: [f64; 4], baseline: Option<f64>| Field { field, baseline };
+    let layout = Layout {
+        cells: vec![
+            field([70.0, 90.0, 110.0, 130.0], Some(122.0)),
+            field([15.0, 32.0, 55.0, 72.0], None),
+            field([20.5, 80.0, 60.0, 118.0], None),
+        ],
+        em_mm: Some(28.0),
+        ..small()
+    };
+    let pages = pages(&layout, 5);
+    assert_eq!(
+        pages.iter().map(|p| p.places.len()).collect::<Vec<_>>(),
+        [3, 2]
+    );
+    let held = Camera {
+        skew_deg: -4.0,
+        quarters: 3,
+        tilt: [0.05, -0.04],
+        ..FLATBED
+    };
+    pages.iter().for_each(|page| check(&layout, page, held));
+}
+
+#[test]
+fn ink_outside_the_fields_is_listed() {
+    let layout = small();
+    let page = &pages(&layout, 14)[0];
+    let full = &pages(&layout, 16)[0];
+    // something in a field without a name, and a dash that a pen left between rows of fields
+    let blot = Rect::from_center_size(full.places[15].field.center(), (4.0, 3.0));
+    let camera = Camera {
+        skew_deg: 3.0,
+        shade: 0.2,
+        ..FLATBED
+    };
+    let mut drawn: Vec<BezPath> = page
+        .places
+        .iter()
+        .map(|p| onto_page(&layout, p) * letter(p.index))
+        .collect();
+    drawn.push(blot.to_path(1e-3));
+    let (bytes, view) = camera.take(page, &drawn);
+    let sheet = load(&bytes);
+    let found = template::find(&sheet, &layout).expect("the page is recognised");
+    let stray = template::stray(&sheet, &layout, &found, &page.places);
+    assert_eq!(stray.len(), 1, "{stray:?}");
+    let (r, area) = stray[0];
+    assert!(r.center().distance(view.at(blot.center())) < 3.0, "{r:?}");
+    let px = view.scale(blot.center());
+    assert!((area / (blot.area() * px * px) - 1.0).abs() < 0.2, "{area}");
 }
 
 /// A project of twenty letters on two pages.

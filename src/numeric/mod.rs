@@ -16,3 +16,4 @@ pub mod side;
 pub mod skyline;
 pub mod tone;
 pub mod turns;
+pub mod view;

@@ -10,7 +10,7 @@ use super::problem::{Place, Problem};
 use super::project::{Cells, Layout, Project, SheetTable};
 use super::watch::Stage;
 use crate::assemble::names;
-use crate::scan::{self, Cut, Pin};
+use crate::scan::{self, Cut, Pin, Turn, Warning};
 use crate::template::Gain;
 use crate::types::{Cell, Label, Sheet};
 use std::collections::BTreeSet;
@@ -182,15 +182,72 @@ pub(super) fn cells(
 /// Millimetres an inch.
 const MM_PER_INCH: f64 = 25.4;
 
+/// Letters that stand no worse than this are the right way up.
+const STANDING: f64 = 0.33;
+/// A page is turned if its letters then stand better than this share of how they did.
+const FAR_BETTER: f64 = 0.6;
+
+/// The page as the table says that it lies; where it does not say, the way up in which the letters stand as their
+/// names say.
 fn read(
     table: &SheetTable,
-    (labels, pins): (&[Label], &[Pin]),
+    named: (&[Label], &[Pin]),
     units_per_em: u16,
     world: World<'_>,
 ) -> Result<Page, Vec<Problem>> {
+    let first = read_turned(
+        table,
+        table.turn.unwrap_or_default(),
+        named,
+        (units_per_em, world),
+    );
+    let badly = |page: &Page| page.cut.misfit.unwrap_or(0.0);
+    let limit = match &first {
+        Ok(page) => STANDING.min(FAR_BETTER * badly(page)),
+        Err(_) => STANDING,
+    };
+    let settled = match &first {
+        Ok(page) => badly(page) <= STANDING,
+        Err(problem) => !matches!(problem, Problem::Scan(_)),
+    };
+    if table.turn.is_some() || settled {
+        return first.map_err(|p| vec![p]);
+    }
+    let turns = [Turn::Quarter, Turn::Half, Turn::ThreeQuarters].into_iter();
+    let others = turns.filter_map(|turn| {
+        let page = read_turned(table, turn, named, (units_per_em, world)).ok()?;
+        Some((page.cut.misfit?, turn, page))
+    });
+    let best = others.min_by(|a, b| a.0.total_cmp(&b.0));
+    match best.filter(|b| b.0 < limit) {
+        Some((_, turn, mut page)) => {
+            let degrees = u16::from(turn);
+            page.cut.warnings.insert(
+                0,
+                Warning {
+                    index: None,
+                    label: None,
+                    message: format!(
+                        "the letters stand for their names once the picture is turned by {degrees}° clockwise, and \
+                         so it was; write turn = {degrees}, or turn = 0 if that is wrong"
+                    ),
+                },
+            );
+            Ok(page)
+        }
+        None => first.map_err(|p| vec![p]),
+    }
+}
+
+fn read_turned(
+    table: &SheetTable,
+    turn: Turn,
+    (labels, pins): (&[Label], &[Pin]),
+    (units_per_em, world): (u16, World<'_>),
+) -> Result<Page, Problem> {
     let wrong = |why| {
         let sheet = table.name();
-        vec![Problem::Sheet { sheet, why }]
+        Problem::Sheet { sheet, why }
     };
     let options = table.cut_options(units_per_em).map_err(wrong)?;
     let cut = |page: scan::Page| {
@@ -198,7 +255,7 @@ fn read(
         let cut = scan::cut_with(&page, labels, &options, pins).map_err(Problem::from)?;
         Ok((cut, page.sheet.dpi))
     };
-    let sheet = || load(table, world);
+    let sheet = || load(table, turn, world);
     let clean = |sheet: Sheet| {
         let _time = world.watch.enter(Stage::Clean);
         scan::clean(sheet).map_err(Problem::from)
@@ -211,6 +268,7 @@ fn read(
         page.and_then(|p| cut(p).ok()).ok_or(problem)
     });
     let (cut, dpi) = cut.map_err(|p| vec![p])?;
+    })?;
     Ok(Page {
         name: table.name(),
         table: 0,
@@ -236,7 +294,7 @@ fn gaps<'a>(page: &Page, wanted: impl Iterator<Item = &'a (usize, Label)>) -> Ve
 }
 
 /// The one picture that a table names.
-fn load(table: &SheetTable, world: World<'_>) -> Result<Sheet, Problem> {
+fn load(table: &SheetTable, turn: Turn, world: World<'_>) -> Result<Sheet, Problem> {
     let wrong = |why: String| Problem::Sheet {
         sheet: table.name(),
         why,
@@ -248,7 +306,7 @@ fn load(table: &SheetTable, world: World<'_>) -> Result<Sheet, Problem> {
     let _time = world.watch.enter(Stage::Load);
     let bytes = world.file(image)?;
     let name = image.display().to_string();
-    let mut pages = scan::load_turned(&bytes, &name, table.polarity, table.turn)?;
+    let mut pages = scan::load_turned(&bytes, &name, table.polarity, turn)?;
     let count = pages.len();
     match table.page {
         None if count == 1 => Ok(pages.swap_remove(0)),

@@ -8,7 +8,7 @@ use super::problem::Problem;
 use super::project::{Layout, Project, SheetTable};
 use super::watch::Stage;
 use crate::assemble::names;
-use crate::scan::{self, Cut, Direction, Order, Polarity, Warning};
+use crate::scan::{self, Cut, Direction, Order, Polarity, Reason, Rejected, Warning};
 use crate::template::{self, Drawing, Place, TemplateError};
 use crate::types::{Label, Sheet};
 use kurbo::Affine;
@@ -175,20 +175,28 @@ impl<'a> Printing<'a> {
         };
         let gain = template::gain(sheet, self.layout, &found);
         let drawings = template::drawings(sheet, self.layout, &found, places, gain.as_ref());
+        let beside = template::stray(sheet, self.layout, &found, places).into_iter();
+        let rejected = beside.map(|(in_sheet, area)| Rejected {
+            in_sheet,
+            area_px: index(area),
+            reason: Reason::Outside,
+        });
+        let rejected = rejected.collect();
         let down = found.view.near(self.layout.paper_mm().to_rect().center());
         let [a, b, ..] = down.as_coeffs();
         let scale = a.hypot(b);
         let cut = Cut {
-            warnings: drawings.iter().flat_map(warnings).collect(),
+            warnings: warnings(&drawings),
             specks: drawings.iter().map(|d| d.specks).sum(),
             cells: drawings
                 .into_iter()
                 .filter(|d| d.inked)
                 .map(|d| d.cell)
                 .collect(),
-            rejected: Vec::new(),
+            rejected,
             skew_deg: b.atan2(a).to_degrees(),
             upright: Affine::scale(scale) * down.inverse(),
+            misfit: None,
         };
         let page = Page {
             name: source,
@@ -220,11 +228,39 @@ impl<'a> Printing<'a> {
     }
 }
 
-fn warnings(drawing: &Drawing) -> Option<Warning> {
-    let (label, index) = (drawing.cell.label.clone(), drawing.cell.index);
-    drawing.cut_off.then(|| Warning {
-        index: Some(index),
-        label: Some(label),
-        message: "its ink reaches the frame of its field: what lies beyond is left out".to_owned(),
-    })
+/// Drawings that reach their field's edge, and letters far smaller than the page's others.
+fn warnings(drawings: &[Drawing]) -> Vec<Warning> {
+    let (mut out, mut sizes) = (Vec::new(), Vec::new());
+    for drawing in drawings {
+        let of = |message: String| Warning {
+            index: Some(drawing.cell.index),
+            label: Some(drawing.cell.label.clone()),
+            message,
+        };
+        if drawing.cut_off {
+            let message = "its ink reaches the frame of its field: what lies beyond is left out";
+            out.push(of(message.to_owned()));
+        }
+        let letter = names::identify(&drawing.cell.label)
+            .is_ok_and(|n| n.chars.iter().all(|c| scan::is_full(*c)));
+        if drawing.inked && letter {
+            sizes.push((drawing.size_em, of(scan::SMALL_LETTER.to_owned())));
+        }
+    }
+    let mut all: Vec<f64> = sizes.iter().map(|s| s.0).collect();
+    all.sort_by(f64::total_cmp);
+    let usual = all.get(all.len() / 2).copied().unwrap_or(0.0);
+    let small = sizes.into_iter().filter(|s| s.0 < scan::SMALL * usual);
+    out.extend(small.map(|s| s.1));
+    out.sort_by_key(|w| w.index);
+    out
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "an area is no larger than its picture"
+)]
+const fn index(area: f64) -> usize {
+    area as usize
 }

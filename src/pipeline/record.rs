@@ -122,6 +122,8 @@ impl PageRecord {
                 skew_deg: self.skew_deg,
                 upright: Affine::new(self.upright),
                 specks: self.specks,
+                // it has said what it had to when the page was cut
+                misfit: None,
             },
             gain: self.gain,
             px_per_mm: self.px_per_mm,

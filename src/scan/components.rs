@@ -1,6 +1,7 @@
 //! Connected ink: runs along rows, joined where they touch, also at their corners.
 
 use super::whole::floor;
+use crate::numeric::view::View;
 use crate::types::Gray;
 use kurbo::{Affine, Point, Rect};
 use rayon::prelude::*;
@@ -46,7 +47,7 @@ impl Component {
         let right = new.runs.iter().map(|r| r.end).max().unwrap_or(0);
         let ends = (top.unwrap_or(0.0), bottom.unwrap_or(0.0) + 1.0);
         new.bounds = Rect::new(left as f64, ends.0, right as f64, ends.1);
-        new.stand(Affine::IDENTITY);
+        new.stand(&Affine::IDENTITY.into());
         new
     }
 
@@ -56,13 +57,13 @@ impl Component {
     }
 
     /// Measures it on the upright page that `upright` maps the sheet's picture to.
-    pub(super) fn stand(&mut self, upright: Affine) {
+    pub(super) fn stand(&mut self, upright: &View) {
         // boxes around the pixels' centres, half a pixel wider: turned corners would widen every box
         let ends = self
             .runs
             .iter()
             .flat_map(|r| [(r.start, r.y), (r.end - 1, r.y)]);
-        let centres = ends.map(|(x, y)| upright * Point::new(x as f64 + 0.5, y as f64 + 0.5));
+        let centres = ends.map(|(x, y)| upright.at(Point::new(x as f64 + 0.5, y as f64 + 0.5)));
         let boxes = centres.map(|p| Rect::from_points(p, p).inflate(0.5, 0.5));
         let rim = self.rim();
         let ink = boxes.reduce(|a, b| a.union(b)).unwrap_or(Rect::ZERO);
@@ -77,7 +78,7 @@ impl Component {
             (sum + middle.to_vec2() * length, n + length)
         };
         let (sum, n) = self.runs.iter().fold((Point::ORIGIN, 0.0), weigh);
-        self.centre = upright * (sum.to_vec2() / n.max(1.0)).to_point();
+        self.centre = upright.at((sum.to_vec2() / n.max(1.0)).to_point());
     }
 
     /// Rough width of its stroke, px: twice the area over the length of its edge.
@@ -137,11 +138,11 @@ impl Component {
     }
 
     /// The pieces of it whose runs' middles lie inside a rectangle of the upright page.
-    pub(super) fn within(&self, upright: Affine, area: Rect) -> Vec<Self> {
-        let back = upright.inverse().transform_rect_bbox(area);
+    pub(super) fn within(&self, upright: &View, area: Rect) -> Vec<Self> {
+        let back = upright.inverse().bounds(area);
         let clip = |r: &Run| {
             let (start, end) = (r.start.max(floor(back.x0)), r.end.min(floor(back.x1)));
-            let middle = upright * Point::new((start + end) as f64 / 2.0, r.y as f64 + 0.5);
+            let middle = upright.at(Point::new((start + end) as f64 / 2.0, r.y as f64 + 0.5));
             (start < end && area.contains(middle)).then_some(Run { y: r.y, start, end })
         };
         let runs: Vec<Run> = self.runs.iter().filter_map(clip).collect();

@@ -5,7 +5,7 @@
 
 use super::components::{Component, Run};
 use super::whole::floor;
-use kurbo::Point;
+use kurbo::{Point, Vec2};
 use rayon::prelude::*;
 
 /// Largest angle looked at, degrees.
@@ -67,13 +67,13 @@ fn climb(energy: impl Fn(f64) -> f64 + Sync, angle: f64, step: f64) -> f64 {
 }
 
 /// Points on the ink's lower and upper edges, px.
-struct Edges {
+pub(super) struct Edges {
     lower: Vec<Point>,
     upper: Vec<Point>,
 }
 
 impl Edges {
-    fn new(components: &[&Component]) -> Self {
+    pub(super) fn new(components: &[&Component]) -> Self {
         let edge: f64 = components.iter().map(|c| c.bounds.width()).sum();
         let step = floor(edge / POINTS as f64).max(1);
         let mut new = Self {
@@ -98,6 +98,11 @@ impl Edges {
         new
     }
 
+    /// Lower and upper ones from a middle.
+    pub(super) fn about(&self, middle: Point) -> [Vec<Vec2>; 2] {
+        [&self.lower, &self.upper].map(|set| set.iter().map(|p| *p - middle).collect())
+    }
+
     /// Length of the page's ink along its rows, px.
     fn extent(&self) -> Option<f64> {
         let xs = || self.lower.iter().map(|p| p.x);
@@ -113,11 +118,15 @@ impl Edges {
 
 fn energy(points: &[Point], angle: f64, bin: f64) -> f64 {
     let (s, c) = angle.to_radians().sin_cos();
-    let down = |p: &Point| (p.y * c - p.x * s) / bin;
-    let low = points.iter().map(down).fold(f64::INFINITY, f64::min);
+    energy_of(points.iter().map(|p| (p.y * c - p.x * s) / bin)) / bin
+}
+
+/// Sum of squares of how many places fall into each bin of length 1 and the next one.
+pub(super) fn energy_of(places: impl Iterator<Item = f64> + Clone) -> f64 {
+    let low = places.clone().fold(f64::INFINITY, f64::min);
     let mut bins: Vec<f64> = Vec::new();
-    for p in points {
-        let place = down(p) - low;
+    for place in places {
+        let place = place - low;
         let (i, t) = (floor(place), place.fract());
         if bins.len() < i + 2 {
             bins.resize(i + 2, 0.0);
@@ -126,7 +135,7 @@ fn energy(points: &[Point], angle: f64, bin: f64) -> f64 {
         bins[i + 1] += t;
     }
     let pairs = bins.windows(2).map(|w| (w[0] + w[1]).powi(2));
-    pairs.sum::<f64>() / bin
+    pairs.sum()
 }
 
 /// Whether one of the runs, in order of rows and columns, has the pixel.

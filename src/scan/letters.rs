@@ -21,6 +21,35 @@ const ARABIC_STANDING: &str = "اأإآٱدذڈبتثپٹفكکگهةطظ";
 /// Arabic letters that do not stand on the line though something follows.
 const ARABIC_HANGING: &str = "جحخچم";
 
+/// Letters that a pen draws in one piece.
+const ONE_PIECE: &str = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghklmnopqrstuvwxyz0123456789\
+    ΑΒΓΔΕΗΙΚΛΜΝΟΠΡΤΥΦΧΨΩАБВГДЕЖЗИКЛМНОПРСТУФХЦЧШЭЮЯабвгдежзиклмнопрстуфхцчшэюяاحدرسصطعلمهوى";
+/// Letters with a dot above or dots.
+const DOT_ABOVE: &str = "ijتثخذزژشضظغفقن";
+/// Letters with a dot or dots below.
+const DOT_BELOW: &str = "بجچپي";
+
+/// Letters that hang below the baseline.
+const TAILED: &str = "gjpqyрф";
+/// Letters with most of their ink on the left, the right, above and below the middle.
+const LEFT: &str = "BDEFKLPRbhkpГЕБВКРЬ";
+const RIGHT: &str = "Jdq";
+const TOP: &str = "FPTVYpqy79ТРГУр";
+const BOTTOM: &str = "ALbdh6ЬЛД";
+
+/// The pieces that a letter is drawn in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Pieces {
+    /// One.
+    One,
+    /// A body and dots above it.
+    DotAbove,
+    /// A body and dots below it.
+    DotBelow,
+    /// Nobody knows.
+    Unknown,
+}
+
 /// How a letter meets the baseline.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Foot {
@@ -28,6 +57,8 @@ pub(super) enum Foot {
     Flat,
     /// Passes it by an overshoot.
     Round,
+    /// Hangs far below it.
+    Tail,
     /// Ends somewhere else.
     None,
 }
@@ -50,6 +81,11 @@ pub(super) struct Shape {
     pub(super) head: Head,
     /// Dots and marks stand off the body and may lie below it.
     pub(super) dotted: bool,
+    pub(super) pieces: Pieces,
+    /// It is as large as most letters are.
+    pub(super) full: bool,
+    /// Where most of its ink is: 1 to the right and 1 down, −1 the other way, 0 where hands differ.
+    pub(super) heavy: [i8; 2],
 }
 
 impl Shape {
@@ -58,6 +94,19 @@ impl Shape {
         let letter = character(base, names).or_else(|| character(&label.0, names));
         let base = letter.and_then(|c| c.nfd().next());
         let any = |c: Option<char>, set: &str| c.is_some_and(|c| set.contains(c));
+        let plain = base == letter;
+        let pieces = match () {
+            () if !plain => Pieces::Unknown,
+            () if any(base, ONE_PIECE) => Pieces::One,
+            () if any(base, DOT_ABOVE) => Pieces::DotAbove,
+            () if any(base, DOT_BELOW) => Pieces::DotBelow,
+            () => Pieces::Unknown,
+        };
+        let full = letter.is_some_and(super::is_full);
+        let side = |less: &str, more: &str| {
+            i8::from(plain && any(base, more)) - i8::from(plain && any(base, less))
+        };
+        let heavy = [side(LEFT, RIGHT), side(TOP, BOTTOM)];
         let arabic = letter.is_some_and(|c| ('\u{600}'..'\u{700}').contains(&c));
         if arabic {
             let joined = matches!(form, "init" | "medi");
@@ -71,14 +120,17 @@ impl Shape {
                 foot: if stands { Foot::Flat } else { Foot::None },
                 head: if alef { Head::Alef } else { Head::None },
                 dotted: true,
+                pieces,
+                full,
+                heavy,
             };
         }
-        let foot = match (any(base, FLAT), any(base, ROUND)) {
-            (true, _) => Foot::Flat,
-            (_, true) => Foot::Round,
-            _ => Foot::None,
+        let foot = match () {
+            () if any(base, FLAT) => Foot::Flat,
+            () if any(base, ROUND) => Foot::Round,
+            () if plain && any(base, TAILED) => Foot::Tail,
+            () => Foot::None,
         };
-        let plain = base == letter;
         let heads = [
             (CAP_HEADS, Head::Cap),
             (CAP_BOWS, Head::CapBow),
@@ -90,6 +142,9 @@ impl Shape {
             foot,
             head: head.map_or(Head::None, |h| h.1),
             dotted: false,
+            pieces,
+            full,
+            heavy,
         }
     }
 }
@@ -118,7 +173,7 @@ mod tests {
             ("H", Foot::Flat, Head::Cap),
             ("É", Foot::Flat, Head::None),
             ("one", Foot::None, Head::None),
-            ("g", Foot::None, Head::None),
+            ("g", Foot::Tail, Head::None),
             ("x", Foot::Flat, Head::X),
             ("uni0041", Foot::Flat, Head::None),
             ("beh-ar.init", Foot::Flat, Head::None),

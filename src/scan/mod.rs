@@ -21,10 +21,12 @@ mod letters;
 mod load;
 mod options;
 mod paper;
+mod perspective;
 mod whole;
 
 pub use clean::{Page, clean, clean_paper};
 pub use cut::{Cut, Pin, Reason, Region, Rejected, Warning, cut, cut_with};
+pub use cut::{SMALL, SMALL_LETTER, is_full};
 pub use error::ScanError;
 pub use ink::Ink;
 pub use load::{Polarity, Turn, load, load_turned};

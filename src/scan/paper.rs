@@ -47,11 +47,58 @@ impl Paper {
         })
     }
 
+    /// The left and right edges of the page where the picture shows them and they are straight: where each meets the
+    /// picture's upper edge, px, and how far it runs to the right for each px down.
+    pub(super) fn sides(&self) -> Option<[(f64, f64); 2]> {
+        let block = self.block as f64;
+        let rows = self.inside.chunks(self.columns.max(1)).enumerate();
+        let ends = rows.filter_map(|(y, row)| {
+            let (first, last) = (row.iter().position(|i| *i)?, row.iter().rposition(|i| *i)?);
+            let seen = first > 0 && last + 1 < row.len();
+            let middle = (y as f64 + 0.5) * block;
+            Some(seen.then_some((middle, first as f64 * block, (last + 1) as f64 * block)))
+        });
+        let ends: Option<Vec<(f64, f64, f64)>> = ends.collect();
+        let ends = ends?;
+        let of = |x: fn(&(f64, f64, f64)) -> f64| -> Vec<(f64, f64)> {
+            ends.iter().map(|e| (e.0, x(e))).collect()
+        };
+        Some([line(&of(|e| e.1), block)?, line(&of(|e| e.2), block)?])
+    }
+
     /// Whether the pixel in column `x` of row `y` is on the page.
     pub(super) fn holds(&self, x: usize, y: usize) -> bool {
         let i = y / self.block * self.columns + x / self.block;
         self.inside.get(i).copied().unwrap_or(false)
     }
+}
+
+/// Share of the rows of blocks in which an edge must lie on its line, and how far off it may, blocks.
+const STRAIGHT: (f64, f64) = (0.8, 0.8);
+
+/// The straight line x = a + b y through most of the points (y, x).
+fn line(points: &[(f64, f64)], block: f64) -> Option<(f64, f64)> {
+    let fit = |part: &[(f64, f64)]| {
+        let n = part.len() as f64;
+        let mean = |of: fn(&(f64, f64)) -> f64| part.iter().map(of).sum::<f64>() / n;
+        let (y, x) = (mean(|p| p.0), mean(|p| p.1));
+        let (xy, yy) = part.iter().fold((0.0, 0.0), |(xy, yy), p| {
+            (xy + (p.0 - y) * (p.1 - x), yy + (p.0 - y).powi(2))
+        });
+        (x - xy / yy * y, xy / yy)
+    };
+    let near = |(a, b): (f64, f64), reach: f64| -> Vec<(f64, f64)> {
+        let off = |p: &&(f64, f64)| (p.1 - a - b * p.0).abs() < reach * block;
+        points.iter().filter(off).copied().collect()
+    };
+    if points.len() < 8 {
+        return None;
+    }
+    let part = near(fit(points), 3.0);
+    let line = fit(if part.len() < 8 { points } else { &part });
+    let on = near(line, STRAIGHT.1);
+    let fine = on.len() as f64 >= STRAIGHT.0 * points.len() as f64;
+    fine.then(|| fit(&on)).filter(|l| l.1.is_finite())
 }
 
 /// Regions of the blocks that are out, by a number that one of each region's blocks has.

@@ -5,8 +5,8 @@ use super::find::{Found, as_f64, floor};
 use super::gain::Gain;
 use super::layout::{Layout, Place};
 use super::tile::Tile;
-use super::view::View;
 use crate::numeric::tone;
+use crate::numeric::view::View;
 use crate::types::{Cell, Gray, Guides, Label, Sheet};
 use kurbo::{Affine, Line, Point, Rect, Vec2};
 use rayon::prelude::*;
@@ -29,6 +29,8 @@ pub struct Drawing {
     pub cut_off: bool,
     /// Pieces of dust that were taken out.
     pub specks: usize,
+    /// The longer side of its ink, em; 0 without ink.
+    pub size_em: f64,
 }
 
 /// What was drawn on a page, each field resampled once so that it stands upright at its own scan's resolution,
@@ -77,7 +79,7 @@ fn drawing(
     let cell = Cell {
         label: Label(place.label.clone()),
         index: place.index,
-        in_sheet: bounds(&found.view, seen),
+        in_sheet: found.view.bounds(seen),
         to_sheet: found.view.near(field.center()) * to_mm,
         guides: Guides {
             baseline_px: (place.baseline - field.y0) * px_per_mm - window.y0,
@@ -92,6 +94,7 @@ fn drawing(
         inked: ink.is_some(),
         cut_off: ink.is_some_and(|r| touches(r, whole, &joins)),
         specks,
+        size_em: ink.map_or(0.0, |r| r.width().max(r.height()) / px_per_mm / layout.em()),
     }
 }
 
@@ -130,14 +133,6 @@ fn crop(tile: &Tile, window: Rect, level: f64) -> Gray {
         tone::at_half(tile.samples[(y + top) * tile.w + x + left] as f32, level)
     };
     Gray::from_fn(floor(window.width()), floor(window.height()), at)
-}
-
-/// The upright rectangle around a page rectangle's picture, px.
-fn bounds(view: &View, r: Rect) -> Rect {
-    let corners = [(r.x0, r.y0), (r.x1, r.y0), (r.x1, r.y1), (r.x0, r.y1)];
-    let seen = corners.map(|c| view.at(c.into()));
-    seen.iter()
-        .fold(Rect::from_points(seen[0], seen[2]), |b, &p| b.union_pt(p))
 }
 
 /// Coverage at a point by Catmull-Rom's cubic through 4 × 4 pixels; the border's pixels go on beyond it.

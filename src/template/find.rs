@@ -3,7 +3,7 @@
 use super::TemplateError;
 use super::draw::RING;
 use super::layout::{Code, Layout};
-use super::view::View;
+use crate::numeric::view::View;
 use crate::types::{Gray, Sheet};
 use image::{GrayImage, Luma};
 use imageproc::region_labelling::{Connectivity, connected_components};

@@ -33,6 +33,9 @@ pub struct Layout {
     pub rows: Option<usize>,
     /// Least width and height of a cell with its caption, mm, where `columns` or `rows` is left out.
     pub cell_mm: Option<[f64; 2]>,
+    /// Fields in places of their own instead of rows and columns, in the order of the glyphs; every page has them.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub cells: Vec<Field>,
     /// Size of the em on paper, mm; left out, the largest that fits the cell.
     pub em_mm: Option<f64>,
     /// Guide above the baseline, em.
@@ -47,6 +50,24 @@ pub struct Layout {
     pub joining: [f64; 2],
 }
 
+/// A field to draw in.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Field {
+    /// Left, top, right and bottom from the paper's top left corner, mm; the caption stands above it.
+    pub field: [f64; 4],
+    /// The baseline's distance from the paper's upper edge, mm; left out, where the em stands in the field's middle.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub baseline: Option<f64>,
+}
+
+impl Field {
+    const fn rect(&self) -> Rect {
+        let [x0, y0, x1, y1] = self.field;
+        Rect { x0, y0, x1, y1 }
+    }
+}
+
 impl Default for Layout {
     fn default() -> Self {
         Self {
@@ -54,6 +75,7 @@ impl Default for Layout {
             columns: None,
             rows: None,
             cell_mm: None,
+            cells: Vec::new(),
             em_mm: None,
             ascender: 0.80,
             cap_height: 0.70,
@@ -151,6 +173,7 @@ impl Layout {
             let range = "a cell must be at least 3 × 3 mm";
             return bad("cell_mm", format!("{cell:?}"), range);
         }
+        self.check_cells()?;
         for (option, n) in [("columns", self.columns()), ("rows", self.rows())] {
             if !(1..=MOST).contains(&n) {
                 let range = "it must be 1 to 40, and a page must hold a cell of cell_mm";
@@ -186,6 +209,35 @@ impl Layout {
         Ok(())
     }
 
+    /// Checks the fields that stand in places of their own.
+    fn check_cells(&self) -> Result<(), TemplateError> {
+        let room = self.body_mm();
+        let taken = |c: &Field| {
+            let r = c.rect();
+            Rect::new(r.x0, r.y0 - CAPTION, r.x1, r.y1)
+        };
+        let bad = |(i, c): &(usize, &Field)| {
+            let (r, line) = (c.rect(), c.baseline.unwrap_or(c.field[3]));
+            let apart = |o: &Field| taken(o).intersect(taken(c)).area() <= 0.0;
+            let fine = r.width() >= LEAST
+                && r.height() >= LEAST
+                && room.contains_rect(taken(c))
+                && (r.y0..=r.y1).contains(&line)
+                && self.cells[..*i].iter().all(apart);
+            !fine
+        };
+        let first = self.cells.iter().enumerate().find(bad);
+        first.map_or(Ok(()), |(_, c)| {
+            Err(TemplateError::Option {
+                option: "cells",
+                value: format!("{:?}", c.field),
+                range: "a field is left, top, right, bottom in mm, at least 3 × 3 mm, its baseline inside, 3.6 mm free above \
+                        it for the caption, 10 mm from the paper's sides, 25 mm from its top, 21 mm from its foot, and \
+                        meets no other",
+            })
+        })
+    }
+
     fn height(&self, option: &str) -> f64 {
         match option {
             "descender" => self.descender,
@@ -206,9 +258,14 @@ impl Layout {
     }
 
     /// The part of the page that is divided into cells.
-    fn body(&self) -> Size {
+    #[must_use]
+    pub fn body_mm(&self) -> Rect {
         let paper = self.paper_mm();
-        Size::new(paper.width - 2.0 * SIDE, paper.height - HEAD - FOOT)
+        Rect::new(SIDE, HEAD, paper.width - SIDE, paper.height - FOOT)
+    }
+
+    fn body(&self) -> Size {
+        self.body_mm().size()
     }
 
     /// Cells in a row.
@@ -237,7 +294,9 @@ impl Layout {
     }
 
     fn largest_em(&self) -> f64 {
-        self.field().height * (1.0 - 2.0 * AIR) / (self.ascender - self.descender)
+        let own = self.cells.iter().map(|c| c.rect().height());
+        let height = own.reduce(f64::min).unwrap_or(self.field().height);
+        height * (1.0 - 2.0 * AIR) / (self.ascender - self.descender)
     }
 
     /// Size of the em on paper, mm.
@@ -249,7 +308,11 @@ impl Layout {
     /// Cells a page.
     #[must_use]
     pub fn per_page(&self) -> usize {
-        self.columns() * self.rows()
+        if self.cells.is_empty() {
+            self.columns() * self.rows()
+        } else {
+            self.cells.len()
+        }
     }
 
     /// Centres of the four ring marks: top left, top right, bottom right, bottom left.
@@ -300,6 +363,16 @@ impl Layout {
     }
 
     fn place(&self, page: usize, i: usize, label: &str, direction: Direction) -> Place {
+        if let Some(cell) = self.cells.get(i) {
+            let field = cell.rect();
+            return Place {
+                label: label.to_owned(),
+                index: page * self.per_page() + i,
+                field,
+                caption: Point::new(field.x0, field.y0 - CAPTION + 0.2),
+                baseline: cell.baseline.unwrap_or_else(|| self.line(field)),
+            };
+        }
         let columns = self.columns();
         let (row, column) = (i / columns, i % columns);
         let column = match direction {
@@ -313,16 +386,19 @@ impl Layout {
             HEAD + row as f64 * pitch.height,
         );
         let field = Rect::from_origin_size(corner + (GAP / 2.0, CAPTION + GAP / 2.0), size);
-        // what the em leaves of the field lies half above and half below
-        let spare = size.height - (self.ascender - self.descender) * self.em();
-        let baseline = field.y0 + spare / 2.0 + self.ascender * self.em();
         Place {
             label: label.to_owned(),
             index: page * self.per_page() + i,
             field,
             caption: corner + (GAP / 2.0, 0.6),
-            baseline,
+            baseline: self.line(field),
         }
+    }
+
+    /// The baseline of a field: what the em leaves of it lies half above and half below.
+    fn line(&self, field: Rect) -> f64 {
+        let spare = field.height() - (self.ascender - self.descender) * self.em();
+        field.y0 + spare / 2.0 + self.ascender * self.em()
     }
 
     /// The identity that every page of a printing carries: from its name and from what stands where, so that
@@ -352,6 +428,8 @@ impl Layout {
 
 /// Cells a page may have in a row or column.
 const MOST: usize = 40;
+/// Sides of a field at least. mm
+const LEAST: f64 = 3.0;
 
 /// How many cells of at least `cell` mm fit a length.
 #[expect(
@@ -437,6 +515,47 @@ mod tests {
         layout.check().unwrap();
         // 190 × 251 mm of an A4 page
         assert_eq!((layout.columns(), layout.rows()), (7, 8));
+    }
+
+    #[test]
+    fn fields_may_stand_anywhere() {
+        let cell = |field: [f64; 4], baseline: Option<f64>| Field { field, baseline };
+        let with = |cells: Vec<Field>| Layout {
+            cells,
+            ..Layout::default()
+        };
+        let layout = with(vec![
+            cell([20.0, 40.0, 90.0, 120.0], None),
+            cell([110.0, 60.0, 180.0, 140.0], Some(100.0)),
+        ]);
+        layout.check().unwrap();
+        let labels: Vec<String> = ["a", "b", "c"].map(str::to_owned).to_vec();
+        let pages = layout.places(&labels, Direction::LeftToRight);
+        assert_eq!(pages.iter().map(Vec::len).collect::<Vec<_>>(), [2, 1]);
+        assert_eq!(pages[1][0].index, 2);
+        assert_eq!(pages[0][1].field, Rect::new(110.0, 60.0, 180.0, 140.0));
+        assert!((pages[0][1].baseline - 100.0).abs() < 1e-12);
+        let middle = pages[0][0].baseline - 0.8 * layout.em() - 40.0;
+        assert!((middle - (120.0 - pages[0][0].baseline - 0.35 * layout.em())).abs() < 1e-9);
+        for wrong in [
+            vec![cell([20.0, 20.0, 90.0, 120.0], None)],
+            vec![cell([20.0, 40.0, 21.0, 120.0], None)],
+            vec![cell([20.0, 40.0, 90.0, 120.0], Some(130.0))],
+            vec![cell([20.0, 40.0, 90.0, 120.0], None); 2],
+            vec![cell([f64::NAN, 40.0, 90.0, 120.0], None)],
+        ] {
+            let told = with(wrong.clone()).check();
+            assert!(
+                matches!(
+                    told,
+                    Err(TemplateError::Option {
+                        option: "cells",
+                        ..
+                    })
+                ),
+                "{wrong:?}"
+            );
+        }
     }
 
     #[test]

@@ -17,14 +17,15 @@ mod gain;
 mod layout;
 mod lettering;
 mod output;
+mod stray;
 mod tile;
-mod view;
 
+pub use crate::numeric::view::View;
 pub use cells::{Drawing, drawings};
 pub use draw::{Ink, Page, Paint, pages};
 pub use error::TemplateError;
 pub use find::{Found, find};
 pub use gain::{Gain, gain};
-pub use layout::{Code, Direction, Layout, Paper, Place};
+pub use layout::{Code, Direction, Field, Layout, Paper, Place};
 pub use output::{pdf, png, svg};
-pub use view::View;
+pub use stray::stray;

@@ -24,6 +24,10 @@ pub struct CellTable {
     /// Corners in the page's picture, px: the ink inside is the letter's, cut at its edge.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub polygon: Vec<[f64; 2]>,
+    /// Corners of what upright is a rectangle in the page's picture, px: top left, top right, bottom right, bottom
+    /// left. The ink inside is the letter's, and is seen straight.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub quad: Option<[[f64; 2]; 4]>,
     /// Turns the letter clockwise about the middle of its baseline, degrees.
     #[serde(
         skip_serializing_if = "Option::is_none",
@@ -48,24 +52,38 @@ impl CellTable {
     /// Where the letter's ink lies, if that is said.
     ///
     /// # Errors
-    /// Both a box and a polygon are given, or one that holds nothing.
+    /// More than one place is given, or one that holds nothing.
     pub fn region(&self) -> Result<Option<Region>, String> {
-        let polygon: Vec<Point> = self
-            .polygon
-            .iter()
-            .map(|&[x, y]| Point::new(x, y))
-            .collect();
-        match (self.bounds, polygon.len()) {
-            (Some(_), 1..) => {
-                Err("box and polygon both say where the ink lies; give one".to_owned())
-            }
-            (None, 0) => Ok(None),
-            (None, 3..) => Ok(Some(Region::Polygon(polygon))),
-            (None, _) => Err("a polygon needs three corners".to_owned()),
-            (Some([x0, y0, x1, y1]), 0) if x0 < x1 && y0 < y1 => {
+        let point = |&[x, y]: &[f64; 2]| Point::new(x, y);
+        let polygon: Vec<Point> = self.polygon.iter().map(point).collect();
+        let given = [
+            self.bounds.is_some(),
+            !polygon.is_empty(),
+            self.quad.is_some(),
+        ];
+        if given.iter().filter(|g| **g).count() > 1 {
+            return Err("box, polygon and quad all say where the ink lies; give one".to_owned());
+        }
+        match (self.bounds, polygon.len(), self.quad) {
+            (Some([x0, y0, x1, y1]), ..) if x0 < x1 && y0 < y1 => {
                 Ok(Some(Region::Box(Rect::new(x0, y0, x1, y1))))
             }
-            (Some(_), 0) => Err("box is left, top, right, bottom".to_owned()),
+            (Some(_), ..) => Err("box is left, top, right, bottom".to_owned()),
+            (_, 3.., _) => Ok(Some(Region::Polygon(polygon))),
+            (_, 1.., _) => Err("a polygon needs three corners".to_owned()),
+            (.., Some(corners)) => {
+                let corners = corners.map(|c| point(&c));
+                let turns = (0..4).map(|i| {
+                    let [a, b, c] = [i, i + 1, i + 2].map(|k| corners[k % 4]);
+                    (b - a).cross(c - b)
+                });
+                if turns.into_iter().all(|t| t > 0.0) {
+                    Ok(Some(Region::Quad(corners)))
+                } else {
+                    Err("quad is top left, top right, bottom right, bottom left of a shape without dents".to_owned())
+                }
+            }
+            (None, 0, None) => Ok(None),
         }
     }
 }

@@ -24,9 +24,10 @@ pub struct SheetTable {
     /// Whether rows or columns come first.
     #[serde(default)]
     pub order: Order,
-    /// Degrees by which the picture must be turned clockwise to stand upright: 0, 90, 180 or 270.
-    #[serde(default)]
-    pub turn: Turn,
+    /// Degrees by which the picture must be turned clockwise to stand upright: 0, 90, 180 or 270; left out, 0 unless
+    /// the letters stand far better for their names another way up.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub turn: Option<Turn>,
     /// Which of dark and light is the ink.
     #[serde(default)]
     pub polarity: Polarity,

@@ -5,6 +5,7 @@
 
 use super::rows::rows;
 use super::{Layer, Reason, Slot};
+use crate::numeric::view::View;
 use crate::scan::components::{Component, Run, enclosed};
 use crate::scan::error::ScanError;
 use crate::scan::options::{Direction, Options};
@@ -29,7 +30,7 @@ pub(super) struct Plan<'a> {
     pub(super) gray: &'a Gray,
     /// Coverage from which pixels are ink.
     pub(super) low: f32,
-    pub(super) upright: Affine,
+    pub(super) upright: View,
     pub(super) options: &'a Options,
     pub(super) source: &'a str,
 }
@@ -71,7 +72,7 @@ pub(super) fn place(
                 freed.extend(
                     touched
                         .into_iter()
-                        .map(|f| (f, c.within(plan.upright, free(frames[f])))),
+                        .map(|f| (f, c.within(&plan.upright, free(frames[f])))),
                 );
             }
         }
@@ -107,9 +108,9 @@ fn frames(plan: &Plan<'_>) -> Vec<Rect> {
     let step = w.max(h).div_ceil(REDUCED).max(1);
     let least = LEAST_SIDE * w.min(h) as f64;
     let middle = |c: &Component| {
-        let scaled = plan.upright * Affine::scale(step as f64);
+        let scaled = plan.upright * View::from(Affine::scale(step as f64));
         let mut turned = c.clone();
-        turned.stand(scaled);
+        turned.stand(&scaled);
         turned.upright
     };
     let papers = enclosed(&paper_runs(plan, step), w / step, h / step);

@@ -1,12 +1,14 @@
 //! Equal cells in rows and columns.
 
-use super::{Layer, Reason, Slot, position};
+use super::{Layer, Reason, Slot, furniture, position};
 use crate::scan::clean::Page;
 use crate::scan::components::Component;
 use crate::scan::error::ScanError;
 use crate::scan::grid::Axis;
+use crate::scan::letters::{Pieces, Shape};
 use crate::scan::options::Options;
 use crate::types::Label;
+use glyphs_reader::glyphdata::GlyphData;
 use std::ops::Range;
 
 /// A piece longer than this many cells is no letter if it is thin or hollow.
@@ -84,21 +86,77 @@ pub(super) fn place(
     let lines = lines(all, plan);
     let letters: Vec<usize> = (0..all.len()).filter(|i| !lines.contains(i)).collect();
     let mut rejected: Vec<(usize, Reason)> = lines.iter().map(|&i| (i, Reason::Line)).collect();
-    let Some((x, y)) = axes(all, &letters, labels, plan) else {
-        return Err(ScanError::Blank {
-            source_name: plan.source.to_owned(),
-        });
+    let blank = || ScanError::Blank {
+        source_name: plan.source.to_owned(),
     };
+    let mut shared = share(all, &letters, labels, plan).ok_or_else(blank)?;
+    let names = GlyphData::default();
+    let one_piece = |cell: &usize| {
+        let label = plan.index((cell / plan.columns, cell % plan.columns));
+        let label = label.and_then(|i| labels.get(i));
+        label.is_some_and(|l| Shape::of(l, &names).pieces == Pieces::One)
+    };
+    let asked: Vec<usize> = (0..shared.cells.len()).filter(one_piece).collect();
+    let printed = furniture::find(all, &shared, &asked);
+    if !printed.is_empty() {
+        let rest: Vec<usize> = letters
+            .into_iter()
+            .filter(|i| !printed.contains(i))
+            .collect();
+        shared = share(all, &rest, labels, plan).ok_or_else(blank)?;
+        rejected.extend(printed.into_iter().map(|i| (i, Reason::Furniture)));
+    }
+    let Shared {
+        x,
+        y,
+        mut cells,
+        outside,
+    } = shared;
+    rejected.extend(outside.into_iter().map(|i| (i, Reason::Outside)));
+    settle_small_parts(all, &mut cells, &x, &y);
+    let mut slots = name(all, cells, labels, plan, &mut rejected)?;
+    slots.iter_mut().for_each(|s| s.level = y.begin(s.row));
+    Ok(Layer {
+        slots,
+        rows: plan.rows,
+        rejected,
+    })
+}
+
+/// Ink shared out to equal cells.
+pub(super) struct Shared {
+    pub(super) x: Axis,
+    pub(super) y: Axis,
+    /// The pieces of each cell, row by row.
+    pub(super) cells: Vec<Vec<usize>>,
+    outside: Vec<usize>,
+}
+
+impl Shared {
+    /// A cell and those around it.
+    pub(super) fn around(&self, cell: usize) -> impl Iterator<Item = usize> {
+        neighbours(cell, self.x.count, self.y.count)
+    }
+}
+
+/// Each piece to the cell in which its centre lies.
+fn share(
+    all: &[Component],
+    letters: &[usize],
+    labels: &[Label],
+    plan: &Plan<'_>,
+) -> Option<Shared> {
+    let (x, y) = axes(all, letters, labels, plan)?;
     let mut cells: Vec<Vec<usize>> = vec![Vec::new(); plan.rows * plan.columns];
-    let mut beyond = Vec::new();
-    for &i in &letters {
+    let (mut beyond, mut outside) = (Vec::new(), Vec::new());
+    for &i in letters {
         let centre = all[i].centre;
         match y.cell(centre.y).zip(x.cell(centre.x)) {
             Some((r, c)) if x.holds(centre.x) && y.holds(centre.y) => {
                 cells[r * plan.columns + c].push(i)
             }
             Some((r, c)) => beyond.push((i, r * plan.columns + c)),
-            None => rejected.push((i, Reason::Outside)),
+            None => outside.push(i),
         }
     }
     // ink beside the grid belongs to the next cell if that holds nothing else or it stands close
@@ -108,16 +166,14 @@ pub(super) fn place(
         if empty[cell] || cells[cell].iter().any(near) {
             cells[cell].push(i);
         } else {
-            rejected.push((i, Reason::Outside));
+            outside.push(i);
         }
     }
-    settle_small_parts(all, &mut cells, &x, &y);
-    let mut slots = name(all, cells, labels, plan, &mut rejected)?;
-    slots.iter_mut().for_each(|s| s.level = y.begin(s.row));
-    Ok(Layer {
-        slots,
-        rows: plan.rows,
-        rejected,
+    Some(Shared {
+        x,
+        y,
+        cells,
+        outside,
     })
 }
 

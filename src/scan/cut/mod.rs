@@ -4,11 +4,13 @@
 
 mod boxes;
 mod free;
+mod furniture;
 mod grid;
 mod guides;
 mod odd;
 mod pins;
 mod rows;
+mod stance;
 mod window;
 
 use super::clean::Page;
@@ -16,12 +18,14 @@ use super::components::{Component, Run, components};
 use super::deskew::skew_deg;
 use super::error::ScanError;
 use super::options::{Direction, Layout, Options, Order};
+use super::perspective::Scene;
 use crate::types::{Cell, Label};
 use kurbo::{Affine, Point, Rect};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
+pub use odd::{SMALL, SMALL_LETTER, is_full};
 pub use pins::{Pin, Region};
 
 /// Coverage from which connected ink counts: below the half level, so that thin strokes hold together,
@@ -50,10 +54,14 @@ pub struct Cut {
     pub warnings: Vec<Warning>,
     /// Degrees by which the page lay turned clockwise.
     pub skew_deg: f64,
-    /// From px of the sheet's picture to px of the upright page.
+    /// From px of the sheet's picture to px of the upright page; at the picture's middle, where it was seen in
+    /// perspective.
     pub upright: Affine,
     /// Pieces of ink below the speckle limit, which are in no list.
     pub specks: usize,
+    /// How badly the letters stand for what their names say, 0 to 1; above a third the page may lie on its side or
+    /// head. `None` where the names say too little.
+    pub misfit: Option<f64>,
 }
 
 /// A piece of ink that is in no cell.
@@ -89,6 +97,8 @@ pub enum Reason {
     Overridden,
     /// A label or a guide: its strokes are far thinner than the letters'.
     Thin,
+    /// A mark or a label: nearly every cell has one at this place.
+    Furniture,
 }
 
 /// Something a user should look at.
@@ -112,6 +122,7 @@ impl fmt::Display for Reason {
             Self::OtherInk => "other ink",
             Self::OffPage => "off the page",
             Self::Thin => "thin",
+            Self::Furniture => "in every cell",
             Self::Overridden => "overridden",
             Self::Border => "border",
         })
@@ -195,9 +206,17 @@ pub fn cut_with(
         skew_deg
     };
     let middle = Point::new(gray.width() as f64 / 2.0, gray.height() as f64 / 2.0);
-    let upright = Affine::rotate_about(-skew_deg.to_radians(), middle);
+    let upright = Scene {
+        ink: &all.iter().collect::<Vec<_>>(),
+        middle,
+        skew_deg,
+        layout: options.layout,
+        paper: page.paper.as_ref(),
+    }
+    .view();
     let claims = pins::claim(&mut all, pins);
-    all.par_iter_mut().for_each(|c| c.stand(upright));
+    all.par_iter_mut().for_each(|c| c.stand(&upright));
+    pins::stand(&mut all, &claims, pins, &upright);
 
     let (source, whole) = (page.sheet.source.as_str(), all.len());
     let mut layer = match options.layout {
@@ -220,6 +239,7 @@ pub fn cut_with(
     };
     pins::settle(&mut layer, &claims);
     let guides = guides::measure(&layer, &all, page, options)?;
+    let misfit = stance::misfit(&layer, &all, &guides.drop);
     let mut warnings = guides.warnings;
     let inked: Vec<&Slot> = layer.slots.iter().filter(|s| !s.parts.is_empty()).collect();
     let picture = Rect::new(0.0, 0.0, gray.width() as f64, gray.height() as f64);
@@ -227,14 +247,14 @@ pub fn cut_with(
     let empty = layer.slots.iter().filter(|s| s.parts.is_empty());
     warnings
         .extend(empty.map(|s| Warning::of(s, "the cell is empty: draw the letter or name it _")));
-    let shutter = window::Shutter { page, low, upright };
+    let shutter = window::Shutter { page, low };
     let cells = inked.par_iter().map(|slot| {
         let parts: Vec<&Component> = slot.parts.iter().map(|&i| &all[i]).collect();
         shutter.cell(
             slot,
             &parts,
             (slot.level + guides.drop[slot.row], guides.px_per_em),
-            pins::rotation(slot, pins),
+            pins::stance(slot.index, pins, &upright),
         )
     });
     let cells: Vec<Cell> = cells.collect();
@@ -249,8 +269,9 @@ pub fn cut_with(
         rejected,
         warnings,
         skew_deg,
-        upright,
+        upright: upright.affine().unwrap_or_else(|| upright.near(middle)),
         specks,
+        misfit,
     })
 }
 

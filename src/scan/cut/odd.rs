@@ -2,10 +2,24 @@
 
 use super::{Slot, Warning};
 use crate::scan::components::Component;
+use crate::scan::letters::Shape;
+use glyphs_reader::glyphdata::GlyphData;
 use kurbo::Rect;
 
 /// A letter larger than this many usual letters may be two, or hold a line.
 const LARGE: f64 = 2.5;
+
+/// A letter smaller than this share of the usual one may be a blot, or a part of one.
+pub const SMALL: f64 = 0.3;
+/// What is said of it.
+pub const SMALL_LETTER: &str =
+    "it is far smaller than the usual letter: is the rest of it missing, or is this a blot?";
+
+/// Whether a character is as large as most are: letters and figures; no marks, no hamza, no punctuation.
+#[must_use]
+pub fn is_full(c: char) -> bool {
+    c.is_alphanumeric() && c != 'ء'
+}
 
 /// Warns of the cells whose ink is odd; pieces from `freed` on were cut off a printed box.
 pub(super) fn warnings(
@@ -25,6 +39,11 @@ pub(super) fn warnings(
     let mut sizes: Vec<f64> = slots.iter().map(|s| size(s)).collect();
     sizes.sort_by(f64::total_cmp);
     let usual = sizes.get(sizes.len() / 2).copied().unwrap_or(0.0);
+    let names = GlyphData::default();
+    let letters = slots.iter().filter(|s| Shape::of(&s.label, &names).full);
+    let mut full: Vec<f64> = letters.map(|s| size(s)).collect();
+    full.sort_by(f64::total_cmp);
+    let full = full.get(full.len() / 2).copied().unwrap_or(0.0);
     let mut out = Vec::new();
     for slot in slots {
         let b = bounds(slot, |c| c.bounds);
@@ -39,6 +58,9 @@ pub(super) fn warnings(
                 slot,
                 "its ink touches the printed box: what lies along the line is left out",
             ));
+        }
+        if size(slot) < SMALL * full && Shape::of(&slot.label, &names).full {
+            out.push(Warning::of(slot, SMALL_LETTER));
         }
         if size(slot) > LARGE * usual {
             let times = size(slot) / usual;

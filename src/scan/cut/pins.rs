@@ -1,8 +1,9 @@
 //! Letters whose place on the page a user says.
 
-use super::{Layer, Reason, Slot};
+use super::{Layer, Reason};
+use crate::numeric::view::View;
 use crate::scan::components::{Component, Run};
-use kurbo::{BezPath, Point, Rect, Shape};
+use kurbo::{BezPath, Point, Rect, Shape, Vec2};
 
 /// Share of a piece of ink that a box must hold to take it.
 const MOST: f64 = 0.5;
@@ -14,6 +15,9 @@ pub enum Region {
     Box(Rect),
     /// All ink inside it, cut at its edge.
     Polygon(Vec<Point>),
+    /// All ink inside four corners, cut at the edges, which upright were a rectangle: top left, top right, bottom
+    /// right, bottom left.
+    Quad([Point; 4]),
 }
 
 /// What a user says about one cell.
@@ -30,8 +34,10 @@ pub struct Pin {
 /// The pieces of ink that regions take, by the cell's index. Pieces that a polygon's edge cuts become two.
 pub(super) fn claim(all: &mut Vec<Component>, pins: &[Pin]) -> Vec<(usize, Vec<usize>)> {
     for pin in pins {
-        if let Some(Region::Polygon(points)) = &pin.region {
-            split(all, points);
+        match &pin.region {
+            Some(Region::Polygon(points)) => split(all, points),
+            Some(Region::Quad(points)) => split(all, points),
+            Some(Region::Box(_)) | None => {}
         }
     }
     let regions = pins
@@ -61,17 +67,21 @@ impl Region {
                 };
                 c.runs.iter().filter(|r| middle(r)).map(across).sum::<f64>()
             }
-            Self::Polygon(points) => {
-                let path = path(points);
-                let pixels = c
-                    .runs
-                    .iter()
-                    .flat_map(|r| (r.start..r.end).map(|x| (x, r.y)));
-                pixels.filter(|&(x, y)| holds(&path, x, y)).count() as f64
-            }
+            Self::Polygon(points) => held(points, c),
+            Self::Quad(points) => held(points, c),
         };
         inside / c.area.max(1) as f64
     }
+}
+
+/// Pixels of a piece of ink inside a polygon.
+fn held(points: &[Point], c: &Component) -> f64 {
+    let path = path(points);
+    let pixels = c
+        .runs
+        .iter()
+        .flat_map(|r| (r.start..r.end).map(|x| (x, r.y)));
+    pixels.filter(|&(x, y)| holds(&path, x, y)).count() as f64
 }
 
 /// Cuts the pieces of ink that lie across the edge of a polygon.
@@ -128,8 +138,44 @@ pub(super) fn settle(layer: &mut Layer, claims: &[(usize, Vec<usize>)]) {
     layer.rejected.retain(|(i, _)| !claimed(i));
 }
 
-/// How far a slot's letter is turned, degrees clockwise.
-pub(super) fn rotation(slot: &Slot, pins: &[Pin]) -> f64 {
-    let pin = pins.iter().find(|p| p.index == slot.index);
-    pin.map_or(0.0, |p| p.rotation_deg)
+/// How a cell is seen upright, and how far its letter is turned then, degrees clockwise; `upright` is the page's own
+/// view.
+pub(super) fn stance(index: usize, pins: &[Pin], upright: &View) -> (View, f64) {
+    let pin = pins.iter().find(|p| p.index == index);
+    let quad = pin.and_then(|p| match &p.region {
+        Some(Region::Quad(corners)) => straight(*corners, upright),
+        _ => None,
+    });
+    (
+        quad.unwrap_or(*upright),
+        pin.map_or(0.0, |p| p.rotation_deg),
+    )
+}
+
+/// Measures claimed pieces as their cells are seen.
+pub(super) fn stand(
+    all: &mut [Component],
+    claims: &[(usize, Vec<usize>)],
+    pins: &[Pin],
+    upright: &View,
+) {
+    for (index, parts) in claims {
+        let (view, _) = stance(*index, pins, upright);
+        parts.iter().for_each(|&i| all[i].stand(&view));
+    }
+}
+
+/// The view that makes four corners a rectangle: its middle and the mean lengths of its sides stay what they are on
+/// the upright page.
+fn straight(corners: [Point; 4], upright: &View) -> Option<View> {
+    let seen = corners.map(|p| upright.at(p));
+    let middle = seen.iter().fold(Vec2::ZERO, |s, p| s + p.to_vec2()) / 4.0;
+    let side = |a: usize, b: usize| seen[a].distance(seen[b]);
+    let size = (
+        f64::midpoint(side(0, 1), side(3, 2)),
+        f64::midpoint(side(0, 3), side(1, 2)),
+    );
+    let r = Rect::from_center_size(middle.to_point(), size);
+    let upright = [(r.x0, r.y0), (r.x1, r.y0), (r.x1, r.y1), (r.x0, r.y1)];
+    View::through(corners, upright.map(Point::from))
 }

@@ -2,13 +2,17 @@ use super::super::clean::clean;
 use super::super::options::Scale;
 use super::super::whole::floor;
 use super::*;
+use crate::numeric::view::View;
 use crate::types::{Gray, Sheet};
+use kurbo::Vec2;
 
 /// Paper on which letters are drawn as bars, turned, unevenly lit and noisy.
 struct Paper {
     width: usize,
     height: usize,
     skew_deg: f64,
+    /// How much nearer the right and the lower side are than the middle.
+    tilt: [f64; 2],
     bars: Vec<(Rect, f32)>,
 }
 
@@ -18,6 +22,7 @@ impl Paper {
             width,
             height,
             skew_deg,
+            tilt: [0.0; 2],
             bars: Vec::new(),
         }
     }
@@ -48,21 +53,25 @@ impl Paper {
         }
     }
 
-    fn turn(&self) -> Affine {
-        let middle = Point::new(self.width as f64 / 2.0, self.height as f64 / 2.0);
-        Affine::rotate_about(self.skew_deg.to_radians(), middle)
+    /// From the page to its picture.
+    fn view(&self) -> View {
+        let middle = Vec2::new(self.width as f64 / 2.0, self.height as f64 / 2.0);
+        let [g, k] = self.tilt;
+        let tilt = View::of_pencils([1.0, 0.0, 0.0, 1.0, g / middle.x, k / middle.y]);
+        let turn = Affine::translate(middle) * Affine::rotate(self.skew_deg.to_radians());
+        View::from(turn) * tilt * View::from(Affine::translate(-middle))
     }
 
     /// The picture: light falls off to the right, and every pixel has its own noise.
     fn scan(&self) -> Sheet {
-        let back = self.turn().inverse();
+        let back = self.view().inverse();
         let mut seed = 1u32;
         let gray = Gray::from_fn(self.width, self.height, |x, y| {
             seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
             let noise = (seed >> 16) as f32 / 65_536.0 - 0.5;
             let samples = [(0.25, 0.25), (0.75, 0.25), (0.25, 0.75), (0.75, 0.75)];
             let ink = samples.iter().map(|(dx, dy)| {
-                let p = back * Point::new(x as f64 + dx, y as f64 + dy);
+                let p = back.at(Point::new(x as f64 + dx, y as f64 + dy));
                 let here = self.bars.iter().filter(|b| b.0.contains(p)).map(|b| b.1);
                 here.fold(0.0, f32::max)
             });
@@ -133,7 +142,7 @@ fn a_grid_is_cut_into_its_letters() {
                 90.0 + 120.0 * (i % 5) as f64,
                 120.0 + 100.0 * (i / 5) as f64,
             );
-            let foot = paper.turn() * Point::new(x + 3.0, y);
+            let foot = paper.view().at(Point::new(x + 3.0, y));
             let at = cell.to_sheet.inverse() * foot;
             assert_eq!(cell.index, i);
             assert!(
@@ -320,6 +329,197 @@ fn letters_of_a_bare_page_keep_their_dots_and_rows() {
         ),
         "{wrong}"
     );
+}
+
+/// Columns of a picture in which more than so many pixels are inked.
+fn tall_columns(gray: &Gray, least: usize) -> usize {
+    let inked = |x: &usize| (0..gray.height()).filter(|&y| gray.at(*x, y) > 0.5).count();
+    (0..gray.width()).filter(|x| inked(x) > least).count()
+}
+
+#[test]
+fn a_grid_seen_in_perspective_comes_out_straight() {
+    for (skew, tilt) in [
+        (0.0, [0.07, 0.0]),
+        (2.0, [-0.05, 0.06]),
+        (-3.0, [0.0, -0.07]),
+    ] {
+        let mut paper = grid_page(skew);
+        paper.tilt = tilt;
+        let cut = cut_page(&paper, NAMES, &options(Layout::Grid(4, 5))).unwrap();
+        assert_eq!(cut.cells.len(), 20, "{tilt:?}");
+        assert!(cut.rejected.is_empty(), "{:?}", cut.rejected);
+        let area = |c: &Cell| c.gray.samples().iter().sum::<f32>();
+        let of = |name: &str| {
+            cut.cells
+                .iter()
+                .filter(|c| c.label.0 == name)
+                .map(area)
+                .collect::<Vec<_>>()
+        };
+        let (all, mean) = (of("n"), of("n").iter().sum::<f32>() / 11.0);
+        assert_eq!(all.len(), 11);
+        assert!(
+            all.iter().all(|a| (a / mean - 1.0).abs() < 0.05),
+            "{tilt:?}: {all:?}"
+        );
+        for (i, cell) in cut.cells.iter().enumerate() {
+            let (x, y) = (
+                90.0 + 120.0 * (i % 5) as f64,
+                120.0 + 100.0 * (i / 5) as f64,
+            );
+            let at = cell.to_sheet.inverse() * paper.view().at(Point::new(x + 3.0, y));
+            let off = (at.y - cell.guides.baseline_px).abs();
+            assert!(off < 1.5, "{tilt:?}, cell {i}: {off} px off the baseline");
+        }
+    }
+}
+
+#[test]
+fn a_letter_far_smaller_than_the_others_is_warned_of() {
+    let mut paper = grid_page(0.0);
+    // the third letter is a blot, and so small is the full stop that is the last one
+    paper.bars.retain(|b| {
+        let place = b.0.center();
+        let third = (310.0..410.0).contains(&place.x) && place.y < 150.0;
+        let last = place.x > 550.0 && place.y > 370.0;
+        !(third || last)
+    });
+    paper.bar(340.0, 112.0, 8.0, 8.0);
+    paper.bar(580.0, 412.0, 8.0, 8.0);
+    let names = NAMES.replacen("n i p", "n i z", 1);
+    let names = format!("{}.", &names[..names.len() - 1]);
+    let cut = cut_page(&paper, &names, &options(Layout::Grid(4, 5))).unwrap();
+    let warned: Vec<_> = cut
+        .warnings
+        .iter()
+        .map(|w| (w.index, w.message.as_str()))
+        .collect();
+    assert_eq!(warned, [(Some(2), SMALL_LETTER)]);
+}
+
+#[test]
+fn a_flat_page_is_left_as_it_is() {
+    for layout in [Layout::Grid(4, 5), Layout::Free] {
+        let cut = cut_page(&grid_page(1.0), NAMES, &options(layout)).unwrap();
+        let map = cut.upright.as_coeffs();
+        assert!((cut.upright.determinant() - 1.0).abs() < 1e-9 && (map[0] - map[3]).abs() < 1e-9);
+    }
+}
+
+#[test]
+fn rows_of_a_bare_page_in_perspective_come_out_level() {
+    let mut paper = grid_page(1.0);
+    paper.tilt = [0.08, 0.0];
+    let cut = cut_page(&paper, NAMES, &options(Layout::Free)).unwrap();
+    for (i, cell) in cut.cells.iter().enumerate() {
+        let (x, y) = (
+            90.0 + 120.0 * (i % 5) as f64,
+            120.0 + 100.0 * (i / 5) as f64,
+        );
+        let at = cell.to_sheet.inverse() * paper.view().at(Point::new(x + 3.0, y));
+        let off = (at.y - cell.guides.baseline_px).abs();
+        assert!(off < 1.5, "cell {i}: {off} px off the baseline");
+    }
+}
+
+#[test]
+fn corner_pins_straighten_a_letter() {
+    let mut paper = grid_page(0.0);
+    paper.tilt = [0.0, 0.3];
+    // the first letter of the second row, an n of 28 × 30 px
+    let corners = [(80.0, 184.0), (128.0, 184.0), (128.0, 226.0), (80.0, 226.0)];
+    let quad = corners.map(|p| paper.view().at(p.into()));
+    let pin = |region| Pin {
+        index: 5,
+        region: Some(region),
+        rotation_deg: 0.0,
+    };
+    let page = clean(paper.scan()).unwrap();
+    let cut = |pin: Pin| cut_with(&page, &labels(NAMES), &options(Layout::Free), &[pin]).unwrap();
+    let columns = |region: Region| tall_columns(&cut(pin(region)).cells[5].gray, 24);
+    let straight = columns(Region::Quad(quad));
+    assert!(
+        (11..=15).contains(&straight),
+        "two stems of 6 px stand upright: {straight}"
+    );
+    assert!(
+        columns(Region::Polygon(quad.to_vec())) < straight,
+        "seen as they lie, they lean"
+    );
+}
+
+#[test]
+fn two_dots_stay_together_and_leave_their_neighbours_alone() {
+    let mut paper = Paper::new(600, 300, 0.0);
+    let dot = |paper: &mut Paper, x: f64, y: f64| paper.bar(x, y, 8.0, 8.0);
+    for x in [60.0, 180.0, 300.0, 420.0] {
+        paper.letter('n', x, 100.0);
+        paper.letter('p', x, 200.0);
+    }
+    // one of the two dots stands beside its letter rather than over it
+    dot(&mut paper, 410.0, 54.0);
+    dot(&mut paper, 422.0, 54.0);
+    // a small letter reaches into its neighbour's box
+    paper.bar(443.0, 218.0, 9.0, 9.0);
+    // dots at equal distances under two letters that stand side by side
+    paper.letter('n', 500.0, 100.0);
+    paper.letter('n', 532.0, 100.0);
+    (0..4).for_each(|i| dot(&mut paper, 501.0 + 16.0 * f64::from(i), 106.0));
+    let cut = cut_page(&paper, "a b c t y y p q r s h", &options(Layout::Free)).unwrap();
+    let size = |i: usize| {
+        (
+            cut.cells[i].in_sheet.width().round(),
+            cut.cells[i].in_sheet.height().round(),
+        )
+    };
+    assert_eq!(size(3), (38.0, 46.0), "both dots are the letter's");
+    let pairs = (size(4), size(5));
+    assert_eq!(pairs, ((28.0, 44.0), (28.0, 44.0)), "two dots each");
+    assert_eq!(size(10), (9.0, 9.0), "a letter of its own");
+}
+
+#[test]
+fn what_every_cell_has_at_the_same_place_is_printed() {
+    // marks of the letters' own ink: a bar in a corner of each cell and a cross where cells meet
+    let mut paper = grid_page(1.0);
+    for i in 0..20 {
+        let (x, y) = (
+            60.0 + 120.0 * f64::from(i % 5),
+            50.0 + 100.0 * f64::from(i / 5),
+        );
+        paper.bar(x + 4.0, y + 10.0, 5.0 + f64::from(i % 3), 12.0);
+        paper.bar(x - 6.0, y - 2.0, 12.0, 4.0);
+    }
+    let single = "n h p n l n n p h n h n l n n n p n h n";
+    let cut = cut_page(&paper, single, &options(Layout::Grid(4, 5))).unwrap();
+    assert_eq!(cut.cells.len(), 20);
+    for cell in &cut.cells {
+        assert!(
+            cell.in_sheet.width() < 34.0,
+            "{}: {:?}",
+            cell.label.0,
+            cell.in_sheet
+        );
+    }
+    let printed = cut
+        .rejected
+        .iter()
+        .filter(|r| r.reason == Reason::Furniture);
+    assert_eq!(printed.count(), 40, "{:?}", cut.rejected);
+
+    // accents that every letter has are theirs
+    let mut paper = grid_page(0.0);
+    for i in 0..20 {
+        let (x, y) = (
+            94.0 + 120.0 * f64::from(i % 5),
+            60.0 + 100.0 * f64::from(i / 5),
+        );
+        paper.bar(x, y, 20.0, 6.0);
+    }
+    let accented = ["ā"; 20].join(" ");
+    let cut = cut_page(&paper, &accented, &options(Layout::Grid(4, 5))).unwrap();
+    assert!(cut.rejected.is_empty(), "{:?}", cut.rejected);
 }
 
 #[test]

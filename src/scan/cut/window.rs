@@ -2,9 +2,10 @@
 //!
 //! What lies nearer to other ink than to its own, and what stands out of the noise far from its own, becomes
 //! paper. On an upright page the pixels are the scan's own; else they are interpolated once, by a kernel that
-//! keeps what the scanner could resolve (Lanczos of three lobes).
+//! keeps what the scanner could resolve (Lanczos of three lobes). Perspective is undone in the same step.
 
 use super::Slot;
+use crate::numeric::view::View;
 use crate::scan::clean::Page;
 use crate::scan::components::{Component, Run};
 use crate::scan::whole::{floor, narrow};
@@ -28,8 +29,6 @@ pub(super) struct Shutter<'a> {
     pub(super) page: &'a Page,
     /// Coverage from which pixels are ink.
     pub(super) low: f32,
-    /// From the sheet's picture to the upright page.
-    pub(super) upright: Affine,
 }
 
 impl Shutter<'_> {
@@ -38,30 +37,34 @@ impl Shutter<'_> {
         slot: &Slot,
         parts: &[&Component],
         (baseline, px_per_em): (f64, f64),
-        rotation_deg: f64,
+        (mut upright, rotation_deg): (View, f64),
     ) -> Cell {
         let union =
             |of: fn(&Component) -> Rect| parts.iter().map(|c| of(c)).reduce(|a, b| a.union(b));
         let mut ink = union(|c| c.upright).unwrap_or(Rect::ZERO);
-        let mut upright = self.upright;
         if rotation_deg.abs() > 0.0 {
             let foot = Point::new(ink.center().x, baseline);
-            upright = Affine::rotate_about(rotation_deg.to_radians(), foot) * upright;
+            upright = View::from(Affine::rotate_about(rotation_deg.to_radians(), foot)) * upright;
             let turned = parts.iter().map(|&c| {
                 let mut c = c.clone();
-                c.stand(upright);
+                c.stand(&upright);
                 c.upright
             });
             ink = turned.reduce(|a, b| a.union(b)).unwrap_or(ink);
         }
         let window = ink.inflate(MARGIN, MARGIN).expand();
-        let to_sheet = upright.inverse() * Affine::translate(window.origin().to_vec2());
+        let corner = Affine::translate(window.origin().to_vec2());
+        let to_sheet = upright.affine().map_or_else(
+            || upright.inverse() * View::from(corner),
+            |map| View::from(map.inverse() * corner),
+        );
+        let middle = (window.center() - window.origin()).to_point();
         Cell {
             label: slot.label.clone(),
             index: slot.index,
-            gray: self.picture(parts, window, to_sheet),
+            gray: self.picture(parts, window, &to_sheet),
             in_sheet: union(|c| c.bounds).unwrap_or(Rect::ZERO),
-            to_sheet,
+            to_sheet: to_sheet.affine().unwrap_or_else(|| to_sheet.near(middle)),
             guides: Guides {
                 baseline_px: baseline - window.y0,
                 px_per_em,
@@ -70,29 +73,34 @@ impl Shutter<'_> {
         }
     }
 
-    fn picture(&self, parts: &[&Component], window: Rect, to_sheet: Affine) -> Gray {
+    fn picture(&self, parts: &[&Component], window: Rect, to_sheet: &View) -> Gray {
         let (w, h) = (floor(window.width()), floor(window.height()));
-        let needed = to_sheet.transform_rect_bbox(Rect::new(0.0, 0.0, w as f64, h as f64));
+        let needed = to_sheet.bounds(Rect::new(0.0, 0.0, w as f64, h as f64));
         let patch = Patch::new(
             self,
             parts,
             needed.inflate(LOBES as f64 + 1.0, LOBES as f64 + 1.0),
         );
-        let [a, b, c, d, e, f] = to_sheet.as_coeffs();
-        let whole = |v: f64| (v - v.round()).abs() < 1e-9;
-        let upright = [a, d].iter().all(|v| (v - 1.0).abs() < 1e-12) && b.abs() + c.abs() < 1e-12;
-        if upright && whole(e) && whole(f) {
-            let shift = Vec2::new(e.round(), f.round()) - patch.origin.to_vec2();
+        if let Some(shift) = to_sheet.affine().and_then(whole_shift) {
+            let shift = shift - patch.origin.to_vec2();
             let at = |x: usize, y: usize| patch.at(x as f64 + shift.x, y as f64 + shift.y);
             return Gray::from_fn(w, h, at);
         }
         let kernel = Kernel::new();
-        let to_patch = Affine::translate(-patch.origin.to_vec2()) * to_sheet;
+        let to_patch = View::from(Affine::translate(-patch.origin.to_vec2())) * *to_sheet;
         Gray::from_fn(w, h, |x, y| {
-            let p = to_patch * Point::new(x as f64 + 0.5, y as f64 + 0.5);
+            let p = to_patch.at(Point::new(x as f64 + 0.5, y as f64 + 0.5));
             kernel.sample(&patch, p.x - 0.5, p.y - 0.5)
         })
     }
+}
+
+/// The whole pixels by which a map moves all, where it does nothing else.
+fn whole_shift(map: Affine) -> Option<Vec2> {
+    let [a, b, c, d, e, f] = map.as_coeffs();
+    let whole = |v: f64| (v - v.round()).abs() < 1e-9;
+    let upright = [a, d].iter().all(|v| (v - 1.0).abs() < 1e-12) && b.abs() + c.abs() < 1e-12;
+    (upright && whole(e) && whole(f)).then(|| Vec2::new(e.round(), f.round()))
 }
 
 /// A piece of the sheet in which only one cell's ink is left.

@@ -1,0 +1,105 @@
+//! Ink that lies outside all fields of a recognised page.
+
+use super::find::{Found, as_f64, floor, sample};
+use super::layout::{Layout, Place};
+use crate::types::Sheet;
+use image::{GrayImage, Luma};
+use imageproc::region_labelling::{Connectivity, connected_components};
+use kurbo::{Point, Rect};
+use rayon::prelude::*;
+
+/// Samples a millimetre: a pen's line is two wide.
+const PER_MM: f64 = 5.0;
+/// Side of the blocks in which the paper's level is taken. mm
+const BLOCK: f64 = 8.0;
+/// Percentile of a block's samples that is paper.
+const PAPER: f64 = 0.3;
+/// Ink is darker than its paper by this share of the contrast that the page's marks have; captions lie in no asked
+/// place, the guides' colour is lighter.
+const DARK: f64 = 0.45;
+/// Around a field, and above it for its caption, ink is asked for inside. mm
+const RIM: f64 = 0.45;
+/// Smaller pieces are dust. mm²
+const DUST: f64 = 0.4;
+
+/// Pieces of ink between and beside the fields: rectangles in the picture and areas, px and px².
+#[must_use]
+pub fn stray(sheet: &Sheet, layout: &Layout, found: &Found, places: &[Place]) -> Vec<(Rect, f64)> {
+    let area = layout.body_mm();
+    let (w, h) = (floor(area.width() * PER_MM), floor(area.height() * PER_MM));
+    let page = |x: f64, y: f64| area.origin() + Point::new(x, y).to_vec2() / PER_MM;
+    let row = |y: usize| {
+        let at = |x: usize| {
+            sample(
+                &sheet.gray,
+                found.view.at(page(as_f64(x) + 0.5, as_f64(y) + 0.5)),
+            )
+        };
+        (0..w).map(at).collect::<Vec<f64>>()
+    };
+    let samples: Vec<Vec<f64>> = (0..h).into_par_iter().map(row).collect();
+    let block = floor(BLOCK * PER_MM);
+    let paper = |bx: usize, by: usize| {
+        let rows = samples.iter().skip(by * block).take(block);
+        let mut all: Vec<f64> = rows
+            .flat_map(|r| r.iter().skip(bx * block).take(block))
+            .copied()
+            .collect();
+        let k = floor(PAPER * as_f64(all.len().saturating_sub(1)));
+        if all.is_empty() {
+            0.0
+        } else {
+            *all.select_nth_unstable_by(k, f64::total_cmp).1
+        }
+    };
+    let (columns, rows) = (w.div_ceil(block), h.div_ceil(block));
+    let levels: Vec<Vec<f64>> = (0..rows)
+        .map(|by| (0..columns).map(|bx| paper(bx, by)).collect())
+        .collect();
+    let fields: Vec<Rect> = places
+        .iter()
+        .map(|p| Rect::new(p.field.x0, p.caption.y, p.field.x1, p.field.y1).inflate(RIM, RIM))
+        .collect();
+    let inked = |x: usize, y: usize| {
+        let level = levels[y / block][x / block];
+        let p = page(as_f64(x) + 0.5, as_f64(y) + 0.5);
+        samples[y][x] > level + DARK * found.contrast && !fields.iter().any(|f| f.contains(p))
+    };
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "paper is at most some metres wide"
+    )]
+    let bits = GrayImage::from_fn(w as u32, h as u32, |x, y| {
+        Luma([u8::from(inked(x as usize, y as usize))])
+    });
+    pieces(&bits)
+        .into_iter()
+        .filter(|(_, count)| count / (PER_MM * PER_MM) > DUST)
+        .map(|(r, count)| {
+            let there = Rect::from_points(page(r.x0, r.y0), page(r.x1, r.y1));
+            let scale = found.view.scale(there.center()) / PER_MM;
+            (found.view.bounds(there), count * scale * scale)
+        })
+        .collect()
+}
+
+/// Connected pieces: rectangle and count of pixels.
+fn pieces(bits: &GrayImage) -> Vec<(Rect, f64)> {
+    let labels = connected_components(bits, Connectivity::Eight, Luma([0]));
+    let mut out: Vec<(Rect, f64)> = Vec::new();
+    for (x, y, Luma([label])) in labels.enumerate_pixels() {
+        let Some(i) = (*label as usize).checked_sub(1) else {
+            continue;
+        };
+        let pixel = Rect::from_origin_size((f64::from(x), f64::from(y)), (1.0, 1.0));
+        out.resize(out.len().max(i + 1), (Rect::ZERO, 0.0));
+        let (bounds, count) = &mut out[i];
+        *bounds = if *count > 0.0 {
+            bounds.union(pixel)
+        } else {
+            pixel
+        };
+        *count += 1.0;
+    }
+    out
+}
