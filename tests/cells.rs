@@ -7,6 +7,7 @@
 use crate::cli::{khatt, png, transcript};
 use crate::common::approved;
 use crate::sheets::{LETTERS, edge, page, project};
+use image::imageops;
 use khatt::scan::{self, Layout, Options, Polarity, Scale};
 use khatt::types::{Cell, Label};
 use kurbo::{Point, Rect};
@@ -177,6 +178,27 @@ fn several_drawings_of_a_glyph_are_settled() {
     let both = ttf_parser::Face::parse(&both, 0).expect("a font");
     assert_eq!(both.number_of_glyphs(), best.number_of_glyphs() + 1);
     assert!(both.glyph_index_by_name("H.ss01").is_some());
+    let bytes = font(dir.path());
+    assert_eq!(shaped(&bytes, "HHHoHoH"), "H H.ss01 H o H.ss01 o H");
+    let (dir, out) = built("repeated = \"median\"");
+    let stderr = String::from_utf8_lossy(&out.stderr);
+    assert!(
+        stderr.contains("H: drawn 2 times; the one in the middle"),
+        "{stderr}"
+    );
+    let middle = font(dir.path());
+    let middle = ttf_parser::Face::parse(&middle, 0).expect("a font");
+    let width = |face: &ttf_parser::Face<'_>| {
+        face.glyph_index('H')
+            .and_then(|h| face.glyph_bounding_box(h))
+            .map(|b| b.width())
+    };
+    // 80 px of 150 an em; both drawings are alike
+    assert!(
+        width(&middle)
+            .zip(width(&best))
+            .is_some_and(|(a, b)| a.abs_diff(b) <= 4)
+    );
     let (_dir, out) = built("repeated = \"error\"");
     assert_eq!(out.status.code(), Some(1));
     approved::check(
@@ -190,6 +212,98 @@ fn several_drawings_of_a_glyph_are_settled() {
             .any(|f| f.tag == ttf_parser::Tag::from_bytes(b"ss01"))
     });
     assert_eq!(sets, Some(true));
+}
+
+/// The names of the glyphs that a text is set with.
+fn shaped(bytes: &[u8], text: &str) -> String {
+    let font = harfrust::FontRef::new(bytes).expect("a font");
+    let data = harfrust::ShaperData::new(&font);
+    let mut buffer = harfrust::UnicodeBuffer::new();
+    buffer.push_str(text);
+    buffer.guess_segment_properties();
+    let set = data
+        .shaper(&font)
+        .build()
+        .shape(buffer, harfrust::ShapeOptions::default());
+    let face = ttf_parser::Face::parse(bytes, 0).expect("a font");
+    let name = |id: u32| {
+        let id = u16::try_from(id).expect("a glyph of the font");
+        face.glyph_name(ttf_parser::GlyphId(id))
+            .unwrap_or_default()
+            .to_owned()
+    };
+    let names: Vec<String> = set.glyph_infos().iter().map(|g| name(g.glyph_id)).collect();
+    names.join(" ")
+}
+
+/// Letters n, i, p and l by turns in 4 × 5 cells of 150 px, as named in NIPL.
+fn nipl(x: u32, y: u32) -> u8 {
+    let kind = b"nipl"[((y / 150 * 5 + x / 150) % 4) as usize];
+    let (x, y) = (f64::from(x % 150) + 0.5, f64::from(y % 150) + 0.5);
+    let bar =
+        |x0: f64, y0: f64, x1: f64, y1: f64| edge((x0 - x).max(x - x1).max((y0 - y).max(y - y1)));
+    let stem = |top: f64, bottom: f64| bar(50.0, top, 60.0, bottom);
+    match kind {
+        b'n' => stem(60.0, 110.0)
+            .max(bar(80.0, 60.0, 90.0, 110.0))
+            .max(bar(55.0, 60.0, 85.0, 70.0)),
+        b'i' => stem(60.0, 110.0).max(bar(49.0, 38.0, 61.0, 50.0)),
+        b'p' => stem(60.0, 140.0)
+            .max(bar(80.0, 60.0, 90.0, 110.0))
+            .max(bar(55.0, 60.0, 85.0, 70.0))
+            .max(bar(55.0, 100.0, 85.0, 110.0)),
+        _ => stem(30.0, 110.0),
+    }
+}
+
+#[test]
+fn a_page_on_its_side_or_head_is_turned() {
+    let upright = image::GrayImage::from_fn(750, 600, |x, y| image::Luma([255 - nipl(x, y)]));
+    let names = ["n i p l"; 5].join(" ");
+    for layout in ["{ grid = [4, 5] }", "\"free\""] {
+        for turn in [0, 90, 180, 270] {
+            // the picture that must be turned by so much
+            let lying = match turn {
+                90 => imageops::rotate270(&upright),
+                180 => imageops::rotate180(&upright),
+                270 => imageops::rotate90(&upright),
+                _ => upright.clone(),
+            };
+            let mut bytes = std::io::Cursor::new(Vec::new());
+            lying
+                .write_to(&mut bytes, image::ImageFormat::Png)
+                .expect("a PNG");
+            let dir = tempfile::tempdir().expect("a folder");
+            fs::write(dir.path().join("page.png"), bytes.into_inner()).expect("a picture");
+            let text = format!(
+                "repeated = \"best\"\n[font]\nfamily = \"T\"\n[[sheet]]\nimage = \"page.png\"\nlayout = {layout}\nglyphs = \"{names}\"\npixels_per_em = 100\n"
+            );
+            fs::write(dir.path().join("font.toml"), text).expect("a project");
+            let out = khatt(dir.path(), &["cut", "font.toml", "-o", "cells"]);
+            assert_eq!(
+                out.status.code(),
+                Some(0),
+                "{layout}, {turn}: {}",
+                String::from_utf8_lossy(&out.stderr)
+            );
+            let list = fs::read(dir.path().join("cells/cells.json")).expect("the list");
+            let list: serde_json::Value = serde_json::from_slice(&list).expect("JSON");
+            let cells = list[0]["cells"].as_array().expect("cells");
+            assert_eq!(cells.len(), 20);
+            for (i, cell) in cells.iter().enumerate() {
+                let at = |k: usize| cell["box_px"][k].as_f64().expect("a number");
+                let (x, y) = (150.0 * (i % 5) as f64, 150.0 * (i / 5) as f64);
+                let fine = at(0) >= x && at(2) <= x + 150.0 && at(1) >= y && at(3) <= y + 150.0;
+                assert!(fine, "{layout}, {turn}, cell {i}: {cell}");
+            }
+            let said = list[0]["warnings"].to_string();
+            assert_eq!(
+                said.contains(&format!("turn = {turn},")),
+                turn != 0,
+                "{said}"
+            );
+        }
+    }
 }
 
 #[test]

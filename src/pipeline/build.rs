@@ -12,7 +12,7 @@ use super::letters;
 use super::page::{Page, Source};
 use super::problem::Problem;
 use super::project::Project;
-use super::repeats;
+use super::repeats::{self, Settled};
 use super::watch::{Stage, Watch};
 use crate::assemble::{self, Note};
 use crate::types::{Cell, Font, Label};
@@ -98,7 +98,16 @@ pub fn build(project: &Project, world: World<'_>) -> Result<Built, Vec<Problem>>
     let project = &project;
     let (letters, pages) = letters(project, world)?;
     doubts.extend(letters::doubts(project, &letters, world).map_err(|p| vec![p])?);
-    let (letters, repeats) = repeats::settle(letters, project.repeated);
+    let corrections = Corrections::of(project)?;
+    let draw = |sheet: &str, cell: Cell| {
+        let options = corrections.trace(&cell.label, &project.trace);
+        Letter::new(sheet, cell, options, world.watch)
+    };
+    let Settled {
+        letters,
+        notes: repeats,
+        features,
+    } = repeats::settle(letters, project.repeated, draw).map_err(|p| vec![p])?;
     let _time = world.watch.enter(Stage::Assemble);
     let drawn = letters.par_iter();
     let drawn = all(drawn
@@ -111,7 +120,8 @@ pub fn build(project: &Project, world: World<'_>) -> Result<Built, Vec<Problem>>
         anchors: project.anchors.clone(),
         ..project.spacing.clone()
     };
-    let assembled = assemble::font(drawn, info, &options).map_err(|e| vec![e.into()])?;
+    let mut assembled = assemble::font(drawn, info, &options).map_err(|e| vec![e.into()])?;
+    assembled.font.features.push_str(&features);
     Ok(Built {
         font: by_hand::set(assembled.font, project, world)?,
         letters,

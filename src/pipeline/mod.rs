@@ -1,6 +1,7 @@
 //! The order of the stages: a page to cells, cells to outlines, outlines to a font.
 
 mod alike;
+mod average;
 mod batch;
 mod budget;
 mod build;

@@ -267,8 +267,7 @@ fn read_turned(
             .and_then(|s| scan::clean_paper(s).ok().flatten());
         page.and_then(|p| cut(p).ok()).ok_or(problem)
     });
-    let (cut, dpi) = cut.map_err(|p| vec![p])?;
-    })?;
+    let (cut, dpi) = cut?;
     Ok(Page {
         name: table.name(),
         table: 0,

@@ -1,9 +1,11 @@
 //! Several drawings of one glyph.
 
+use super::average;
 use super::letter::Letter;
+use super::problem::Problem;
 use crate::assemble::{Note, names};
 use crate::numeric::distance::Polyline;
-use crate::types::{Label, Name};
+use crate::types::{Cell, Label, Name};
 use kurbo::{BezPath, flatten};
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
@@ -15,7 +17,10 @@ pub enum Repeated {
     /// The drawing whose edge strays least from its smooth outline is taken.
     #[default]
     Best,
-    /// The first is the glyph, the others are its alternates in the stylistic sets `ss01`, `ss02` …
+    /// The drawing in the middle of them: laid upon each other, the edge runs where the median of them does.
+    Median,
+    /// The first is the glyph, the others are its alternates in the stylistic sets `ss01`, `ss02` …; where the letter
+    /// repeats within three letters they follow each other (`calt`).
     Alternates,
     /// They are an error.
     Error,
@@ -26,8 +31,25 @@ const CHORD_PX: f64 = 0.05;
 /// Stylistic sets of OpenType.
 const SETS: usize = 20;
 
-/// The letters with each glyph drawn once, in the order of the first, and what was decided.
-pub(super) fn settle(letters: Vec<Letter>, repeated: Repeated) -> (Vec<Letter>, Vec<Note>) {
+/// Letters with each glyph drawn once.
+pub(super) struct Settled {
+    /// In the order of the first drawings.
+    pub(super) letters: Vec<Letter>,
+    /// What was decided.
+    pub(super) notes: Vec<Note>,
+    /// The feature by which alternates follow each other.
+    pub(super) features: String,
+}
+
+/// Settles what is drawn more than once; `draw` traces a cell.
+///
+/// # Errors
+/// What `draw` says.
+pub(super) fn settle(
+    mut letters: Vec<Letter>,
+    repeated: Repeated,
+    draw: impl Fn(&str, Cell) -> Result<Letter, Problem>,
+) -> Result<Settled, Problem> {
     let mut drawings: BTreeMap<Name, Vec<usize>> = BTreeMap::new();
     for (i, letter) in letters.iter().enumerate() {
         if let Ok(identity) = names::identify(&letter.label) {
@@ -35,39 +57,81 @@ pub(super) fn settle(letters: Vec<Letter>, repeated: Repeated) -> (Vec<Letter>, 
         }
     }
     drawings.retain(|_, all| all.len() > 1);
-    let (mut out, mut notes) = (BTreeSet::new(), Vec::new());
-    let mut letters = letters;
+    let (mut out, mut notes, mut rings) = (BTreeSet::new(), Vec::new(), Vec::new());
     for (name, all) in &drawings {
-        match repeated {
-            Repeated::Alternates => {
-                for (set, &i) in all.iter().skip(1).take(SETS).enumerate() {
-                    letters[i].label = Label(format!("{name}.ss{:02}", set + 1));
-                }
-                out.extend(all.iter().skip(SETS + 1).copied());
+        let note = |message: String| Note {
+            glyph: name.to_string(),
+            message: format!("drawn {} times; {message}", all.len()),
+        };
+        if repeated == Repeated::Alternates {
+            let mut ring = vec![name.to_string()];
+            for (set, &i) in all.iter().skip(1).take(SETS).enumerate() {
+                ring.push(format!("{name}.ss{:02}", set + 1));
+                letters[i].label = Label(format!("{name}.ss{:02}", set + 1));
             }
-            Repeated::Best | Repeated::Error => {
-                let noise = |&&i: &&usize| noise(&letters[i]);
-                let best = all
-                    .iter()
-                    .min_by(|a, b| noise(a).total_cmp(&noise(b)))
-                    .copied();
-                out.extend(all.iter().copied().filter(|&i| Some(i) != best));
-                notes.extend(best.map(|i| Note {
-                    glyph: name.to_string(),
-                    message: format!(
-                        "drawn {} times; the drawing with the calmest edge is taken, {}",
-                        all.len(),
-                        letters[i].spot()
-                    ),
-                }));
-            }
+            out.extend(all.iter().skip(SETS + 1).copied());
+            rings.push(ring);
+            continue;
         }
+        let cell = (repeated == Repeated::Median)
+            .then(|| average::middle(&all.iter().map(|&i| &letters[i]).collect::<Vec<_>>()));
+        if let Some(cell) = cell.flatten() {
+            let first = all[0];
+            letters[first] = draw(&letters[first].sheet, cell)?;
+            out.extend(all.iter().skip(1).copied());
+            notes.push(note("the one in the middle of them is taken".to_owned()));
+            continue;
+        }
+        let noise = |&&i: &&usize| noise(&letters[i]);
+        let best = all
+            .iter()
+            .min_by(|a, b| noise(a).total_cmp(&noise(b)))
+            .copied();
+        out.extend(all.iter().copied().filter(|&i| Some(i) != best));
+        notes.extend(best.map(|i| {
+            let place = letters[i].spot();
+            note(format!(
+                "the drawing with the calmest edge is taken, {place}"
+            ))
+        }));
     }
     let kept = letters
         .into_iter()
         .enumerate()
         .filter(|(i, _)| !out.contains(i));
-    (kept.map(|(_, letter)| letter).collect(), notes)
+    let letters: Vec<Letter> = kept.map(|(_, letter)| letter).collect();
+    let features = rotation(&rings, &letters);
+    Ok(Settled {
+        letters,
+        notes,
+        features,
+    })
+}
+
+/// The feature that puts the next drawing of a letter where the same one stands shortly before; empty for none.
+fn rotation(rings: &[Vec<String>], letters: &[Letter]) -> String {
+    if rings.is_empty() {
+        return String::new();
+    }
+    let names = letters
+        .iter()
+        .filter_map(|l| names::identify(&l.label).ok());
+    let names: BTreeSet<String> = names.map(|n| n.name.to_string()).collect();
+    let names: Vec<String> = names.into_iter().collect();
+    let mut out = format!("\n@drawn = [{}];\nfeature calt {{\n", names.join(" "));
+    for ring in rings {
+        let base = &ring[0];
+        for between in ["", "@drawn ", "@drawn @drawn "] {
+            for pair in ring.windows(2) {
+                out += &format!("    sub {} {between}{base}' by {};\n", pair[0], pair[1]);
+            }
+            // after the last one comes the first again
+            if let Some(last) = ring.last() {
+                out += &format!("    ignore sub {last} {between}{base}';\n");
+            }
+        }
+    }
+    out + "} calt;\n"
 }
 
 /// Root mean square distance of the scanned edge from the outline, as a share of the em.
