@@ -541,6 +541,7 @@ fn a_build_reports_lists_its_inputs_and_can_be_locked() {
         "out/font.d",
         "--keep",
         "out/keep",
+        "--timings",
     ];
     let out = khatt(dir.path(), &args);
     assert_eq!(
@@ -575,6 +576,15 @@ fn a_build_reports_lists_its_inputs_and_can_be_locked() {
         assert!(error > 0.0 && error < 15.0, "{row}");
     }
     assert!(report["stage_seconds"]["cut"].is_number());
+    assert!(report["pages_per_decoding"].is_number());
+    let plain = || {
+        let out = khatt(dir.path(), &["build", "font.toml", "--no-cache", "--quiet"]);
+        assert_eq!(out.status.code(), Some(0));
+        fs::read(dir.path().join("out/report.json")).expect("the report")
+    };
+    let first = plain();
+    assert!(!String::from_utf8_lossy(&first).contains("seconds"));
+    assert_eq!(first, plain(), "without times the report is the same");
 }
 
 #[test]

@@ -8,10 +8,10 @@ use super::project::{Opened, created};
 use super::staged::{self, Staged};
 use super::{Common, Outcome, files, keep, sarif};
 use clap::Args;
-use khatt::pipeline::{self, Built, Outputs, Report, Store, digest};
+use khatt::pipeline::{self, Built, Outputs, Report, Stage, Store, digest};
 use khatt::types::Files;
 use khatt::write::handwork;
-use serde_json::json;
+use serde_json::{Value, json};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -38,7 +38,17 @@ pub(crate) struct Build {
     #[arg(long)]
     overwrite: bool,
     #[command(flatten)]
+    report: ReportArgs,
+    #[command(flatten)]
     cache: CacheArgs,
+}
+
+/// What the report tells besides the result.
+#[derive(Debug, Clone, Copy, Default, Args)]
+struct ReportArgs {
+    /// Also write into the report how long each stage took
+    #[arg(long)]
+    timings: bool,
 }
 
 impl Build {
@@ -51,6 +61,7 @@ impl Build {
             sarif: None,
             locked: false,
             overwrite: false,
+            report: ReportArgs::default(),
             cache: CacheArgs::default(),
         }
     }
@@ -151,6 +162,7 @@ impl Build {
             self.sarif,
             self.locked,
             self.overwrite,
+            self.report.timings,
             created()?
         ]);
         Ok(digest(asked.to_string().as_bytes()))
@@ -171,7 +183,13 @@ impl Build {
             return files;
         }
         if let Some((path, made)) = opened.report().zip(outputs.report.as_ref()) {
-            files.push((path, report(made, total, times)));
+            let report = if self.report.timings {
+                timed(made, total, times)
+            } else {
+                json!(made)
+            };
+            let text = format!("{report:#}\n");
+            files.push((path, Files::single(text.into_bytes())));
         }
         if let Some(path) = &self.depfile {
             let targets = files.iter().map(|(path, _)| path.as_path());
@@ -214,8 +232,9 @@ fn keep_handwork(opened: &Opened, outputs: &mut [(PathBuf, Files)]) -> Result<St
     Ok(said)
 }
 
-/// The report with the time of each stage.
-fn report(report: &Report, total: Duration, times: &Times) -> Files {
+/// The report with the time of each stage, and how many times as long as decoding the pages their cleaning and cutting
+/// took.
+fn timed(report: &Report, total: Duration, times: &Times) -> Value {
     let stages = times.iter();
     let stages: serde_json::Map<_, _> = stages
         .map(|(stage, time)| (stage.to_string(), json!(time.as_secs_f64())))
@@ -224,8 +243,16 @@ fn report(report: &Report, total: Duration, times: &Times) -> Files {
     if let Some(table) = report.as_object_mut() {
         table.insert("seconds".to_owned(), json!(total.as_secs_f64()));
         table.insert("stage_seconds".to_owned(), stages.into());
+        table.insert("pages_per_decoding".to_owned(), json!(per_decoding(times)));
     }
-    Files::single(format!("{report:#}\n").into_bytes())
+    report
+}
+
+/// Cleaning and cutting in times of decoding; nothing where no page was decoded.
+fn per_decoding(times: &Times) -> Option<f64> {
+    let of = |stage: Stage| times.get(&stage).map(Duration::as_secs_f64);
+    let rest = of(Stage::Clean).unwrap_or(0.0) + of(Stage::Cut)?;
+    of(Stage::Load).map(|decoding| rest / decoding)
 }
 
 /// A rule for Make: its words have their spaces, `#` and `$` escaped.
@@ -271,4 +298,7 @@ fn say(built: &Built, total: Duration, times: &Times) {
         .collect();
     let (glyphs, seconds) = (built.letters.len(), total.as_secs_f64());
     eprintln!("{glyphs} glyphs in {seconds:.2} s ({})", stages.join(", "));
+    if let Some(times) = per_decoding(times) {
+        eprintln!("cleaning and cutting took {times:.1} times as long as decoding");
+    }
 }
