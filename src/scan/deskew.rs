@@ -22,8 +22,7 @@ const POINTS: usize = 60_000;
 const CLEAR: f64 = 1.15;
 
 /// Degrees by which the page is turned clockwise on the picture (y down); 0 where nothing says so.
-pub(super) fn skew_deg(components: &[&Component]) -> f64 {
-    let edges = Edges::new(components);
+pub(super) fn skew_deg(edges: &Edges) -> f64 {
     let Some(bounds) = edges.extent() else {
         return 0.0;
     };

@@ -56,7 +56,8 @@ struct Pencil {
 
 /// What tells how a page was seen.
 pub(super) struct Scene<'a> {
-    pub(super) ink: &'a [&'a Component],
+    pub(super) ink: &'a [Component],
+    pub(super) edges: &'a Edges,
     /// The picture's middle, px, which is also half its size.
     pub(super) middle: Point,
     pub(super) skew_deg: f64,
@@ -68,7 +69,7 @@ impl Scene<'_> {
     /// From the picture to the upright page; turned only, where it was seen from straight above.
     pub(super) fn view(&self) -> View {
         let slope = self.skew_deg.to_radians().tan();
-        let rows = self.pencil(&Edges::new(self.ink).about(self.middle), slope);
+        let rows = self.pencil(&self.edges.about(self.middle), slope);
         let least = if self.layout == Layout::Free {
             DRIFT
         } else {
@@ -137,7 +138,7 @@ impl Scene<'_> {
     /// The columns of a grid, from the pieces of ink that stand in them; `None` where they stand too irregularly to
     /// say that columns meet.
     fn columns(&self, count: usize, rows: Pencil) -> Option<Pencil> {
-        let mut ink: Vec<&&Component> = self.ink.iter().collect();
+        let mut ink: Vec<&Component> = self.ink.iter().collect();
         ink.sort_by_key(|c| Reverse(c.area));
         ink.truncate(PIECES);
         let usual = ink.get(ink.len() / 2)?.area;
@@ -147,11 +148,7 @@ impl Scene<'_> {
             let at = |c: &&Component| {
                 Vec2::new(edge(&c.bounds), c.bounds.center().y) - self.middle.to_vec2()
             };
-            lattice(
-                &ink.iter().map(|c| at(c)).collect::<Vec<_>>(),
-                count,
-                -rows.slope,
-            )
+            lattice(&ink.iter().map(at).collect::<Vec<_>>(), count, -rows.slope)
         });
         let best = fits.min_by(|a, b| a.scatter.total_cmp(&b.scatter))?;
         (best.pencil.turn.abs() > SURE * best.doubt).then_some(best.pencil)
@@ -249,7 +246,7 @@ fn wave(points: &[Vec2], count: usize, lean: f64) -> (f64, f64, f64) {
 }
 
 /// Points on the ink's left and right edges, from the middle; the axes changed.
-fn flanks(ink: &[&Component], middle: Point) -> [Vec<Vec2>; 2] {
+fn flanks(ink: &[Component], middle: Point) -> [Vec<Vec2>; 2] {
     let runs = || ink.iter().flat_map(|c| &c.runs);
     let at = |x: usize, y: usize| Vec2::new(y as f64 + 0.5 - middle.y, x as f64 - middle.x);
     [

@@ -15,7 +15,7 @@ mod window;
 
 use super::clean::Page;
 use super::components::{Component, Run, components};
-use super::deskew::skew_deg;
+use super::deskew::{Edges, skew_deg};
 use super::error::ScanError;
 use super::options::{Direction, Layout, Options, Order};
 use super::perspective::Scene;
@@ -199,15 +199,13 @@ pub fn cut_with(
         rejected: beside,
         specks,
     } = sort(components(gray, low, SEED.max(low)), page, options);
-    let skew_deg = skew_deg(&all.iter().collect::<Vec<_>>());
-    let skew_deg = if skew_deg.abs() < LEAST_SKEW_DEG {
-        0.0
-    } else {
-        skew_deg
-    };
+    let edges = Edges::new(&all.iter().collect::<Vec<_>>());
+    let skew_deg = Some(skew_deg(&edges)).filter(|s| s.abs() >= LEAST_SKEW_DEG);
+    let skew_deg = skew_deg.unwrap_or(0.0);
     let middle = Point::new(gray.width() as f64 / 2.0, gray.height() as f64 / 2.0);
     let upright = Scene {
-        ink: &all.iter().collect::<Vec<_>>(),
+        ink: &all,
+        edges: &edges,
         middle,
         skew_deg,
         layout: options.layout,
