@@ -174,6 +174,26 @@ mod tests {
     }
 
     #[test]
+    fn the_sides_of_a_page_are_lines() {
+        let level = |i: usize| {
+            let (x, y) = (i % 60, i / 60);
+            // a page that grows wider towards its foot
+            let page = (20 - y / 5..35 + y / 4).contains(&x) && (2..38).contains(&y);
+            if page { 0.05 } else { 0.7 }
+        };
+        let levels: Vec<f32> = (0..2400).map(level).collect();
+        let [left, right] = Paper::find(&levels, 60, 10).unwrap().sides().unwrap();
+        assert!(
+            (left.1 + 0.2).abs() < 0.02 && (left.0 - 204.0).abs() < 8.0,
+            "{left:?}"
+        );
+        assert!(
+            (right.1 - 0.25).abs() < 0.02 && (right.0 - 346.0).abs() < 8.0,
+            "{right:?}"
+        );
+    }
+
+    #[test]
     fn a_page_that_fills_its_picture_needs_no_telling() {
         assert!(Paper::find(&table(0..30, 0..20), 30, 10).is_none());
         assert!(Paper::find(&[], 0, 10).is_none());
