@@ -166,6 +166,16 @@ fn two_hundred_words_join() {
 
 /// Pieces of ink of a shape drawn at that size that have ink at a height: letters' bodies. Dots may touch.
 fn bodies(shape: &BezPath, px_per_em: f64, height: f64) -> usize {
+    let line = (height - shape.bounding_box().y0) * px_per_em / 1000.0;
+    let is_there = |row: usize| (row as f64 - 1.0..row as f64).contains(&line);
+    let pieces = pieces(shape, px_per_em).into_iter();
+    pieces
+        .filter(|p| p.iter().any(|(_, row)| is_there(*row)))
+        .count()
+}
+
+/// Pieces of ink of a shape drawn at that size: columns and rows of their px, from 1.
+fn pieces(shape: &BezPath, px_per_em: f64) -> Vec<Vec<(usize, usize)>> {
     let shape = Affine::scale(px_per_em / 1000.0) * shape.clone();
     let (ink, mut edges) = (shape.bounding_box(), Vec::new());
     let (mut first, mut last) = (Point::ORIGIN, Point::ORIGIN);
@@ -205,19 +215,17 @@ fn bodies(shape: &BezPath, px_per_em: f64, height: f64) -> usize {
                 .map(move |x| (x + 1, y as usize + 1))
         })
         .collect();
-    let line = height * px_per_em / 1000.0 - ink.y0;
-    let is_there = |row: usize| (row as f64 - 1.0..row as f64).contains(&line);
-    let mut count = 0;
+    let mut pieces = Vec::new();
     while let Some(first) = left.pop_first() {
-        let (mut open, mut is_body) = (vec![first], false);
-        while let Some((x, y)) = open.pop() {
-            is_body |= is_there(y);
+        let (mut piece, mut at) = (vec![first], 0);
+        while let Some(&(x, y)) = piece.get(at) {
             let around = (x - 1..=x + 1).flat_map(|x| (y - 1..=y + 1).map(move |y| (x, y)));
-            open.extend(around.filter(|p| left.remove(p)));
+            piece.extend(around.filter(|p| left.remove(p)));
+            at += 1;
         }
-        count += usize::from(is_body);
+        pieces.push(piece);
     }
-    count
+    pieces
 }
 
 /// Checks that a word has one body less for each join than its glyphs by themselves.
@@ -315,6 +323,39 @@ fn cursive_strokes_meet_where_they_were_drawn() {
     }
     assert_eq!(heights[0], 0, "the last letter stands on the line");
     assert!(heights[4] < -150, "the first far from it: {heights:?}");
+}
+
+#[test]
+fn letters_that_do_not_join_are_kerned_from_the_right() {
+    let Demo { built, outputs, .. } = demo::built("arabic");
+    let font = &built.font;
+    let otf = output(outputs, "otf");
+    let mut kerned = 0;
+    for word in ["وح", "رد", "رس", "دا", "وع", "اك", "رر"] {
+        let [left, right] = placed(otf, word)[..] else {
+            panic!("two letters");
+        };
+        let (a, b) = (&font.glyphs()[left.0], &font.glyphs()[right.0]);
+        let pull = f64::from(right.1) - b.advance;
+        // the right one moves left by what its advance loses
+        assert!(
+            (f64::from(right.2) - pull).abs() < 1e-9 && left.2 == 0,
+            "{word}"
+        );
+        assert!(pull <= 0.0, "{word}: {pull}");
+        kerned += usize::from(pull < 0.0);
+        let both = Affine::translate((a.advance + pull, 0.0)) * font.shape(b).to_path();
+        let mut all = font.shape(a).to_path();
+        let count = |shape: &BezPath| pieces(shape, 96.0).len();
+        let single = count(&all) + count(&both);
+        all.extend(both);
+        assert_eq!(count(&all), single, "{word}: they touch");
+    }
+    assert!(kerned >= 2, "{kerned} pairs are kerned");
+    assert!(
+        !font.kerning.first.is_empty() || !font.kerning.second.is_empty(),
+        "groups"
+    );
 }
 
 #[test]

@@ -9,7 +9,7 @@ use crate::types::{Anchor, Font, Glyph};
 use fea_rs::compile::{Compilation, NopFeatureProvider, NopVariationInfo, error::CompilerError};
 use fea_rs::parse::SourceLoadError;
 use fea_rs::{Compiler, GlyphMap};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 use std::path::Path;
 use std::sync::Arc;
@@ -73,6 +73,7 @@ pub fn text(font: &Font) -> String {
 /// Pairs of glyphs first, then of groups: the first rule that fits counts.
 fn kern(font: &Font) -> String {
     let kerning = &font.kerning;
+    let leftward = leftward(font);
     let mut out = String::from("\n");
     for (number, groups) in [(1, &kerning.first), (2, &kerning.second)] {
         for (group, members) in groups {
@@ -83,7 +84,7 @@ fn kern(font: &Font) -> String {
             );
         }
     }
-    out += "feature kern {\n";
+    let mut rules = [String::new(), String::new()];
     let side = |side: &str, number: u8| match side.strip_prefix('@') {
         Some(group) => format!("@kern{number}.{group}"),
         None => side.to_owned(),
@@ -94,13 +95,59 @@ fn kern(font: &Font) -> String {
             let (first, second) = (side(&pair.0, 1), side(&pair.1, 2));
             let mixed = groups && pair.0.starts_with('@') != pair.1.starts_with('@');
             let keyword = if mixed { "enum pos" } else { "pos" };
-            push(
-                &mut out,
-                format_args!("    {keyword} {first} {second} {};\n", value.round()),
+            let value = value.round();
+            if leftward.contains(&pair.0) || leftward.contains(&pair.1) {
+                // the first letter stands right of the second: it moves, and what came before it follows
+                let rule =
+                    format_args!("        {keyword} {first} {second} <{value} 0 {value} 0>;\n");
+                push(&mut rules[1], rule);
+            } else {
+                push(
+                    &mut rules[0],
+                    format_args!("        {keyword} {first} {second} {value};\n"),
+                );
+            }
+        }
+    }
+    out += "feature kern {\n";
+    for (name, rules) in ["kern_rightward", "kern_leftward"].iter().zip(&rules) {
+        if !rules.is_empty() {
+            let body = format_args!(
+                "    lookup {name} {{\n        lookupflag IgnoreMarks;\n{rules}    }} {name};\n"
             );
+            push(&mut out, body);
         }
     }
     out + "} kern;\n"
+}
+
+/// The sides of pairs, as these name them, whose letters read from the right: encoded so, or forms of such.
+fn leftward(font: &Font) -> BTreeSet<String> {
+    let reads_so =
+        |c: &char| matches!(u32::from(*c), 0x590..=0x8FF | 0xFB1D..=0xFDFF | 0xFE70..=0xFEFF);
+    let encoded = font
+        .glyphs()
+        .iter()
+        .filter(|g| g.codepoints.iter().any(reads_so));
+    let encoded: BTreeSet<&str> = encoded.map(|g| base(g.name.as_str())).collect();
+    let is_one = |name: &str| encoded.contains(base(name));
+    let kerning = &font.kerning;
+    let groups = kerning.first.iter().chain(&kerning.second);
+    let groups = groups.filter(|(_, members)| members.iter().any(|m| is_one(m.as_str())));
+    let glyphs = font
+        .glyphs()
+        .iter()
+        .map(|g| g.name.to_string())
+        .filter(|n| is_one(n));
+    groups
+        .map(|(name, _)| format!("@{name}"))
+        .chain(glyphs)
+        .collect()
+}
+
+/// A name without its suffixes.
+fn base(name: &str) -> &str {
+    name.split('.').next().unwrap_or_default()
 }
 
 fn push(out: &mut String, text: std::fmt::Arguments<'_>) {
