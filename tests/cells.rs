@@ -439,6 +439,40 @@ fn marks_in_another_ink_are_no_letters() {
 }
 
 #[test]
+fn a_page_of_one_colour_is_told_from_one_of_many() {
+    let dir = project(LETTERS, &page(&[]));
+    let path = dir.path().join("font.toml");
+    let text = fs::read_to_string(&path).expect("the project");
+    let text = text.replace("layout =", "ink = \"red\"\nlayout =");
+    fs::write(&path, text).expect("a project");
+    let said = |status| {
+        let out = khatt(dir.path(), &["build", "font.toml", "--no-cache"]);
+        let said = String::from_utf8_lossy(&out.stderr).into_owned();
+        assert_eq!(out.status.code(), Some(status), "{said}");
+        said
+    };
+    let grey = said(0);
+    assert!(
+        grey.contains("the picture has no colours, so `ink` tells nothing apart"),
+        "{grey}"
+    );
+    fs::remove_dir_all(dir.path().join("out")).expect("outputs");
+    // the same page as a colour scanner gives it: all ink is black
+    let picture = image::load_from_memory(&page(&[]))
+        .expect("a picture")
+        .to_rgb8();
+    picture
+        .save(dir.path().join("page.png"))
+        .expect("a picture");
+    let black = said(1);
+    assert!(
+        black.contains("none of the colour that `ink` asks for (#"),
+        "{black}"
+    );
+    assert!(!dir.path().join("out").exists(), "nothing is written");
+}
+
+#[test]
 fn labels_and_guides_of_a_thin_pen_are_no_letters() {
     let mut page = Drawing {
         width: 900,

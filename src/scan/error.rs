@@ -49,6 +49,16 @@ pub enum ScanError {
         /// the file
         source_name: String,
     },
+    /// All ink is of another colour than the letters are said to be.
+    #[error(
+        "{source_name} has ink, but none of the colour that `ink` asks for ({ink}); correct `ink` or leave it out"
+    )]
+    OtherInk {
+        /// the file
+        source_name: String,
+        /// the ink that was asked for
+        ink: String,
+    },
     /// More names than cells.
     #[error(
         "{source_name} has {cells} cells, but {names} names are given, the first too many being “{extra}”; \

@@ -17,6 +17,7 @@ use super::clean::Page;
 use super::components::{Component, Run, components};
 use super::deskew::{Edges, skew_deg};
 use super::error::ScanError;
+use super::ink::Ink;
 use super::options::{Direction, Layout, Options, Order};
 use super::perspective::Scene;
 use crate::types::{Cell, Label};
@@ -199,6 +200,13 @@ pub fn cut_with(
         rejected: beside,
         specks,
     } = sort(components(gray, low, SEED.max(low)), page, options);
+    let colourless = colourless(page, options);
+    if all.is_empty() && beside.iter().any(|r| r.reason == Reason::OtherInk) {
+        return Err(ScanError::OtherInk {
+            source_name: page.sheet.source.clone(),
+            ink: options.ink.into(),
+        });
+    }
     let edges = Edges::new(&all.iter().collect::<Vec<_>>());
     let skew_deg = Some(skew_deg(&edges)).filter(|s| s.abs() >= LEAST_SKEW_DEG);
     let skew_deg = skew_deg.unwrap_or(0.0);
@@ -239,6 +247,7 @@ pub fn cut_with(
     let guides = guides::measure(&layer, &all, page, options)?;
     let misfit = stance::misfit(&layer, &all, &guides.drop);
     let mut warnings = guides.warnings;
+    warnings.extend(colourless);
     let inked: Vec<&Slot> = layer.slots.iter().filter(|s| !s.parts.is_empty()).collect();
     let picture = Rect::new(0.0, 0.0, gray.width() as f64, gray.height() as f64);
     warnings.extend(odd::warnings(&inked, &all, picture, whole));
@@ -312,6 +321,17 @@ fn sort(all: Vec<Component>, page: &Page, options: &Options) -> Inks {
         letters,
         specks,
     }
+}
+
+/// A remark where inks are to be told apart in a picture without colours.
+fn colourless(page: &Page, options: &Options) -> Option<Warning> {
+    let useless = options.ink != Ink::Any && page.sheet.colours.is_none();
+    useless.then(|| Warning {
+        index: None,
+        label: None,
+        message: "the picture has no colours, so `ink` tells nothing apart; scan it in colour, or leave `ink` out"
+            .to_owned(),
+    })
 }
 
 /// Whether most of a piece of ink lies on the paper.
