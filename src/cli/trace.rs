@@ -17,6 +17,9 @@ use std::path::PathBuf;
 /// Decimals of a coordinate, px.
 const DECIMALS: usize = 4;
 
+/// Pixels of a picture that is traced as a whole: more would take over two gigabytes.
+const LARGEST: usize = 100_000_000;
+
 /// Traces one picture into an SVG whose unit is the picture's pixel
 #[derive(Debug, Args)]
 pub(crate) struct Trace {
@@ -50,6 +53,12 @@ impl Trace {
             let several = format!("{name} holds {} pictures; give one at a time", pages.len());
             return Err(Failure::new(several));
         };
+        if page.gray.samples().len() > LARGEST {
+            let (w, h) = (page.gray.width(), page.gray.height());
+            let what = format!("{name} has {w} × {h} px, too many to be traced as one drawing");
+            let remedy = "cut it into letters, or scan it at a lower resolution: 100 million pixels are taken";
+            return Err(Failure::new(what).help(remedy));
+        }
         if self.centerline {
             return self.write_lines(&page.gray);
         }

@@ -5,7 +5,7 @@
 
 use crate::numeric::distance::Polyline;
 use crate::types::Span;
-use kurbo::{BezPath, ParamCurve, ParamCurveArclen, PathEl, Point};
+use kurbo::{BezPath, ParamCurve, ParamCurveArclen, PathEl, Point, Rect};
 
 /// The curve is measured by chords that leave it by no more than this, px: the error of every figure here.
 pub const PRECISION_PX: f64 = 1e-3;
@@ -45,7 +45,12 @@ impl Judgement {
     }
 }
 
-/// Measures `path` against `span`; all infinite when the path draws nothing or is not finite.
+/// A curve farther from its points than this many times their extent, and as much again in px, is astray: measuring it would take as
+/// many chords as it is large.
+const FAR: f64 = 100.0;
+
+/// Measures `path` against `span`; all infinite when the path draws nothing, is not finite or leaves its points for
+/// far away.
 #[must_use]
 pub fn judge(span: Span<'_>, path: &BezPath) -> Judgement {
     Judgement {
@@ -57,7 +62,25 @@ pub fn judge(span: Span<'_>, path: &BezPath) -> Judgement {
 /// The half of [`judge`] that tells what the curve misses.
 #[must_use]
 pub fn points_to_curve(points: &[Point], path: &BezPath) -> Deviation {
-    chords(path).map_or(ASTRAY, |line| deviation(points.iter().copied(), &line))
+    let line = (!strays(points, path)).then(|| chords(path)).flatten();
+    line.map_or(ASTRAY, |line| deviation(points.iter().copied(), &line))
+}
+
+/// Whether the path is not finite, or a control point lies [`FAR`] away from these points.
+fn strays(points: &[Point], path: &BezPath) -> bool {
+    let Some(&first) = points.first() else {
+        return true;
+    };
+    let around = points
+        .iter()
+        .fold(Rect::from_points(first, first), |r, p| r.union_pt(*p));
+    let far = FAR * (1.0 + around.width().max(around.height()));
+    let inside = around.inflate(far, far);
+    !path.is_finite()
+        || path.segments().any(|s| {
+            let c = s.to_cubic();
+            ![c.p0, c.p1, c.p2, c.p3].iter().all(|p| inside.contains(*p))
+        })
 }
 
 const ASTRAY: Deviation = Deviation {
@@ -71,16 +94,13 @@ fn curve_to_points(span: Span<'_>, path: &BezPath) -> Deviation {
         ring.extend(span.points().first());
     }
     match Polyline::new(ring) {
-        Some(line) if path.is_finite() => deviation(steps(path), &line),
+        Some(line) if !strays(span.points(), path) => deviation(steps(path), &line),
         _ => ASTRAY,
     }
 }
 
 /// The path as chords within [`PRECISION_PX`].
 fn chords(path: &BezPath) -> Option<Polyline> {
-    if !path.is_finite() {
-        return None;
-    }
     let start = path.elements().first().and_then(PathEl::end_point);
     let mut points: Vec<Point> = start.into_iter().collect();
     for seg in path.segments() {
@@ -151,6 +171,21 @@ mod tests {
         ] {
             assert!((d - 1.0).abs() < 2e-3, "{j:?}");
         }
+    }
+
+    #[test]
+    fn a_curve_from_here_to_the_stars_is_not_measured() {
+        let points = ring(20.0, 100);
+        let mut path = BezPath::from_vec(vec![PathEl::MoveTo(points[0])]);
+        let far = [Point::new(1e15, 1e15), Point::new(-1e15, 1e14)];
+        path.curve_to(far[0], far[1], points[0]);
+        assert!(
+            judge(Span::Ring(&points), &path)
+                .points
+                .max_px
+                .is_infinite()
+        );
+        assert!(judge(Span::Ring(&points), &path).curve.max_px.is_infinite());
     }
 
     #[test]

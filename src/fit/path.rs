@@ -71,14 +71,15 @@ pub(super) fn path_of(cubics: &[CubicBez], span: Span<'_>) -> BezPath {
 /// than this many times what it misses of the points, it is no answer.
 const SWING: f64 = 4.0;
 
-/// The path with the verdict of the judge, both ways; `None` when it swings out between the points.
+/// The path with the verdict of the judge, both ways; `None` when it swings out between the points, or is lost.
 pub(super) fn judged(
     span: Span<'_>,
     path: BezPath,
     (tolerance, parameters): (f64, usize),
 ) -> Option<Fitted> {
     let j = judge(span, &path);
-    let steady = j.curve.max_px <= SWING * j.points.max_px.max(tolerance);
+    let near = j.points.max_px.is_finite();
+    let steady = near && j.curve.max_px <= SWING * j.points.max_px.max(tolerance);
     let verdict = if j.max_px() <= tolerance {
         Verdict::Met
     } else {
