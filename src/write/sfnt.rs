@@ -13,7 +13,7 @@ use write_fonts::tables::hhea::Hhea;
 use write_fonts::tables::hmtx::{Hmtx, LongMetric};
 use write_fonts::tables::maxp::Maxp;
 use write_fonts::tables::post::Post;
-use write_fonts::types::{FWord, Fixed, GlyphId, LongDateTime, Tag, UfWord};
+use write_fonts::types::{FWord, Fixed, GlyphId, LongDateTime, Tag, UfWord, Version16Dot16};
 use write_fonts::validate::Validate;
 use write_fonts::{FontBuilder, FontWrite};
 
@@ -194,14 +194,26 @@ fn head(font: &Font, extents: &[Option<Rect>]) -> Result<Head, WriteError> {
     })
 }
 
+/// A table of names numbers them from behind the 258 of every Macintosh font, in 16 bits.
+const NAMED: usize = (1 << 16) - 258;
+
 fn post(font: &Font) -> Result<Post, WriteError> {
     let em = f64::from(font.info.units_per_em);
+    let names = || font.glyphs().iter().map(|g| g.name.as_str());
+    let names = if font.glyphs().len() <= NAMED {
+        Post::new_v2(names())
+    } else {
+        Post {
+            version: Version16Dot16::VERSION_3_0,
+            ..Post::default()
+        }
+    };
     let word = |v: f64| to_i16(v, || "the underline".to_owned()).map(FWord::new);
     Ok(Post {
         italic_angle: Fixed::from_f64(font.info.italic_angle),
         underline_position: word(UNDERLINE.0 * em)?,
         underline_thickness: word(UNDERLINE.1 * em)?,
-        ..Post::new_v2(font.glyphs().iter().map(|g| g.name.as_str()))
+        ..names
     })
 }
 
@@ -212,4 +224,23 @@ pub(super) fn gasp() -> Gasp {
         | GaspRangeBehavior::GASP_SYMMETRIC_GRIDFIT
         | GaspRangeBehavior::GASP_SYMMETRIC_SMOOTHING;
     Gasp::new(1, 1, vec![GaspRange::new(u16::MAX, all)])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::types::{Info, Name};
+
+    #[test]
+    fn names_beyond_sixteen_bits_are_left_out() {
+        let font = |count: usize| {
+            let more = (1..count).map(|i| Name::new(format!("g{i}")).unwrap());
+            let names = std::iter::once(Name::notdef()).chain(more);
+            let glyphs = names.map(|name| Glyph::new(name, Vec::new(), 0.0));
+            Font::new(Info::default(), glyphs.collect()).unwrap()
+        };
+        let version = |count: usize| post(&font(count)).unwrap().version;
+        assert_eq!(version(NAMED), Version16Dot16::VERSION_2_0);
+        assert_eq!(version(usize::from(u16::MAX)), Version16Dot16::VERSION_3_0);
+    }
 }
