@@ -122,6 +122,9 @@ impl Scene<'_> {
             .collect::<Vec<_>>()
             .into_iter()
             .max_by(|a, b| a.0.total_cmp(&b.0))?;
+        if best.turn.abs() * half < STEP / 2.0 {
+            return None;
+        }
         let (mut step, mut bin) = ((SLOPES.1 / 2.0, STEP / 2.0 / half), coarse);
         for _ in 0..ROUNDS {
             bin = (bin / 2.0).max(1.0);
