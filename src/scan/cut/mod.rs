@@ -199,14 +199,7 @@ pub fn cut_with(
         letters: mut all,
         rejected: beside,
         specks,
-    } = sort(components(gray, low, SEED.max(low)), page, options);
-    let colourless = colourless(page, options);
-    if all.is_empty() && beside.iter().any(|r| r.reason == Reason::OtherInk) {
-        return Err(ScanError::OtherInk {
-            source_name: page.sheet.source.clone(),
-            ink: options.ink.into(),
-        });
-    }
+    } = sort(components(gray, low, SEED.max(low)), page, options)?;
     let edges = Edges::new(&all.iter().collect::<Vec<_>>());
     let skew_deg = Some(skew_deg(&edges)).filter(|s| s.abs() >= LEAST_SKEW_DEG);
     let skew_deg = skew_deg.unwrap_or(0.0);
@@ -247,7 +240,7 @@ pub fn cut_with(
     let guides = guides::measure(&layer, &all, page, options)?;
     let misfit = stance::misfit(&layer, &all, &guides.drop);
     let mut warnings = guides.warnings;
-    warnings.extend(colourless);
+    warnings.extend(colourless(page, options));
     let inked: Vec<&Slot> = layer.slots.iter().filter(|s| !s.parts.is_empty()).collect();
     let picture = Rect::new(0.0, 0.0, gray.width() as f64, gray.height() as f64);
     warnings.extend(odd::warnings(&inked, &all, picture, whole));
@@ -301,10 +294,16 @@ struct Inks {
 }
 
 /// Parts the letters' ink from dust, from what lies beside the paper or runs along its edge, and from other inks.
-fn sort(all: Vec<Component>, page: &Page, options: &Options) -> Inks {
+fn sort(all: Vec<Component>, page: &Page, options: &Options) -> Result<Inks, ScanError> {
     let gray = &page.sheet.gray;
     let (found, mut beyond): (Vec<_>, Vec<_>) = all.into_iter().partition(|c| on_paper(c, page));
     let (mut letters, mut other) = options.ink.part(found, page.sheet.colours.as_ref());
+    if letters.is_empty() && !other.is_empty() {
+        return Err(ScanError::OtherInk {
+            source_name: page.sheet.source.clone(),
+            ink: options.ink.into(),
+        });
+    }
     let least = speck_limit(&letters);
     let mut specks = 0;
     for pieces in [&mut letters, &mut other, &mut beyond] {
@@ -316,11 +315,11 @@ fn sort(all: Vec<Component>, page: &Page, options: &Options) -> Inks {
     let borders = borders.iter().map(|c| rejected(c, Reason::Border));
     let other = other.iter().map(|c| rejected(c, Reason::OtherInk));
     let beyond = beyond.iter().map(|c| rejected(c, Reason::OffPage));
-    Inks {
+    Ok(Inks {
         rejected: borders.chain(other).chain(beyond).collect(),
         letters,
         specks,
-    }
+    })
 }
 
 /// A remark where inks are to be told apart in a picture without colours.
