@@ -1,16 +1,17 @@
 //! Corners of known shapes, smooth and ragged.
 
 use super::{Detector as _, sharpen, sides::Sides};
-use crate::types::Contour;
+use crate::{numeric::cast::index, types::Contour};
 use kurbo::{
-    Affine, BezPath, ParamCurve as _, ParamCurveArclen as _, Point, Rect, RoundedRect, Shape as _,
+    Affine, BezPath, Circle, ParamCurve as _, ParamCurveArclen as _, Point, Rect, RoundedRect,
+    Shape as _,
 };
 
 /// A shape's contour with points 0.8 px apart, moved off it by what `stray` says, px outwards.
 fn contour(path: &BezPath, stray: impl Fn(usize) -> f64) -> Contour {
     let mut points: Vec<Point> = Vec::new();
     for seg in path.segments() {
-        let n = (seg.arclen(1e-3) / 0.8).ceil() as usize;
+        let n = index((seg.arclen(1e-3) / 0.8).ceil());
         points.extend((0..n).map(|i| seg.eval(i as f64 / n as f64)));
     }
     let n = points.len();
@@ -53,7 +54,7 @@ fn a_square_has_its_corners_smooth_or_ragged() {
 
 #[test]
 fn bumps_of_ragged_ink_are_no_corners() {
-    let disk = kurbo::Circle::new((50.0, 50.0), 40.0).to_path(1e-4);
+    let disk = Circle::new((50.0, 50.0), 40.0).to_path(1e-4);
     let smooth = contour(&disk, |_| 0.0);
     assert_eq!(Sides::default().corners(&smooth), [0usize; 0]);
     let ragged = contour(&disk, bumps);

@@ -1,5 +1,7 @@
-//! Coordinates to whole font units: the one place where that happens.
+//! Coordinates to whole font units: the one place where that happens. Nodes go to the nearest grid point, handles
+//! to where smooth joins stay smooth.
 
+use super::joins;
 use crate::types::{Font, Glyph, Outline};
 use kurbo::{BezPath, PathEl, Point};
 
@@ -53,7 +55,9 @@ fn contour(path: &BezPath) -> BezPath {
         PathEl::CurveTo(a, b, c) => PathEl::CurveTo(p(a), p(b), p(c)),
         PathEl::ClosePath => PathEl::ClosePath,
     };
-    path.elements().iter().map(map).collect()
+    let mut rounded: Vec<PathEl> = path.elements().iter().map(map).collect();
+    joins::keep(path.elements(), &mut rounded);
+    BezPath::from_vec(rounded)
 }
 
 #[cfg(test)]

@@ -119,3 +119,46 @@ fn between(values: &[f32], w: usize, levels: &[(f32, f32)]) -> Vec<f32> {
     }
     out
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const W: usize = 64;
+
+    /// Coverage of a disk, on paper that darkens and with ink that pales from left to right.
+    fn uneven() -> (Vec<f32>, Vec<f32>) {
+        let at = |i: usize| (single((i % W) as f64), single((i / W) as f64));
+        let disk = |i: usize| {
+            let (x, y) = at(i);
+            (20.5 - (x - 31.5).hypot(y - 31.5)).clamp(0.0, 1.0)
+        };
+        let coverage: Vec<f32> = (0..W * W).map(disk).collect();
+        let grey = |i: usize| {
+            let light = at(i).0 / 640.0;
+            light + coverage[i] * (0.9 - 2.0 * light)
+        };
+        ((0..W * W).map(grey).collect(), coverage)
+    }
+
+    fn sure(coverage: f32, value: f32) -> Votes {
+        let (ink, paper) = (coverage.floor(), (1.0 - coverage).floor());
+        [ink * value, ink, paper * value, paper]
+    }
+
+    #[test]
+    fn uneven_levels_become_coverage() {
+        let (grey, coverage) = uneven();
+        let got = normalised(&grey, W, |i| sure(coverage[i], grey[i]));
+        let off = got.iter().zip(&coverage).map(|(a, b)| (a - b).abs());
+        let off = off.fold(0.0, f32::max);
+        assert!(off < 0.02, "{off}");
+    }
+
+    #[test]
+    fn a_picture_without_contrast_or_pixels_stays_as_it_is() {
+        let flat = vec![0.3; W * 4];
+        assert_eq!(normalised(&flat, W, |i| sure((i % 2) as f32, 0.3)), flat);
+        assert!(normalised(&[], 0, |_| [0.0; 4]).is_empty());
+    }
+}

@@ -176,12 +176,14 @@ pub enum Place {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::numeric::cast::index;
 
     /// Points of a circle about `centre` between two angles, half a pixel apart.
     fn arc(centre: Point, radius: f64, from: f64, to: f64) -> Vec<Point> {
-        let n = ((to - from).abs() * radius / 0.5).round();
-        let at = |i: f64| centre + radius * Vec2::from_angle(from + (to - from) * i / n);
-        (0..=n as usize).map(|i| at(i as f64)).collect()
+        let n = index((to - from).abs() * radius / 0.5);
+        let at =
+            |i: usize| centre + radius * Vec2::from_angle(from + (to - from) * i as f64 / n as f64);
+        (0..=n).map(at).collect()
     }
 
     #[test]

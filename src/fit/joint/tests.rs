@@ -1,4 +1,5 @@
 use super::*;
+use crate::types::Contour;
 use kurbo::{Arc, ParamCurve, PathEl, PathSeg, Shape, Vec2};
 
 /// Points about a pixel apart along a path.
@@ -193,7 +194,7 @@ fn half_disk(stray: f64) -> Spans {
     let mut ring: Vec<Point> = out.collect();
     let end = ring.len() - 1;
     ring.extend((1..86).map(|i| Point::new(20.0 + 0.7 * f64::from(i), 50.0)));
-    crate::types::Contour::new(ring).unwrap().cut(&[0, end])
+    Contour::new(ring).unwrap().cut(&[0, end])
 }
 
 #[test]

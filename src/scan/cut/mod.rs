@@ -20,6 +20,7 @@ use super::error::ScanError;
 use super::ink::Ink;
 use super::options::{Direction, Layout, Options, Order};
 use super::perspective::Scene;
+use crate::numeric::view::View;
 use crate::types::{Cell, Label};
 use kurbo::{Affine, Point, Rect};
 use rayon::prelude::*;
@@ -217,25 +218,8 @@ pub fn cut_with(
     all.par_iter_mut().for_each(|c| c.stand(&upright));
     pins::stand(&mut all, &claims, pins, &upright);
 
-    let (source, whole) = (page.sheet.source.as_str(), all.len());
-    let mut layer = match options.layout {
-        Layout::Grid(rows, columns) => grid::place(
-            &all,
-            labels,
-            &grid::Plan::new(page, options, rows, columns)?,
-        )?,
-        Layout::Free => free::place(&all, labels, &claims, options, source)?,
-        Layout::Boxes => {
-            let plan = boxes::Plan {
-                gray,
-                low,
-                upright,
-                options,
-                source,
-            };
-            boxes::place(&mut all, labels, &plan)?
-        }
-    };
+    let whole = all.len();
+    let mut layer = placed(&mut all, labels, (page, low, upright), options, &claims)?;
     pins::settle(&mut layer, &claims);
     let guides = guides::measure(&layer, &all, page, options)?;
     let misfit = stance::misfit(&layer, &all, &guides.drop);
@@ -273,6 +257,34 @@ pub fn cut_with(
         specks,
         misfit,
     })
+}
+
+/// Where the layout puts the pieces of a page that is seen as `upright` says.
+fn placed(
+    all: &mut Vec<Component>,
+    labels: &[Label],
+    (page, low, upright): (&Page, f32, View),
+    options: &Options,
+    claims: &[(usize, Vec<usize>)],
+) -> Result<Layer, ScanError> {
+    let source = page.sheet.source.as_str();
+    match options.layout {
+        Layout::Grid(rows, columns) => {
+            let plan = grid::Plan::new(page, options, rows, columns)?;
+            grid::place(all, labels, &plan)
+        }
+        Layout::Free => free::place(all, labels, claims, options, source),
+        Layout::Boxes => {
+            let plan = boxes::Plan {
+                gray: &page.sheet.gray,
+                low,
+                upright,
+                options,
+                source,
+            };
+            boxes::place(all, labels, &plan)
+        }
+    }
 }
 
 fn rejected(c: &Component, reason: Reason) -> Rejected {
