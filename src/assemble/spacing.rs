@@ -59,8 +59,8 @@ const KINDS: [(f64, f64); 4] = [
 const WEIGHTS: [f64; 4] = [0.17, -1.023, 0.361, -0.296];
 /// How deep the two whites look, parts of the x-height.
 const DEPTHS: (f64, f64) = (0.3, 0.5);
-/// Room beside letters of a joining script, part of the thickness of its joining stroke: the middle of what pages of
-/// four fonts want.
+/// Room beside letters of a joining script, part of the thickness of its joining stroke: between what two fonts with
+/// little room and two with much have.
 const OF_STROKE: f64 = 0.68;
 /// Room where neither counters nor joining strokes tell, em.
 const UNKNOWN: f64 = 0.05;
