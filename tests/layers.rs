@@ -45,27 +45,53 @@ pub(crate) fn sources() -> Vec<(String, String)> {
     out
 }
 
-/// The modules named after `crate::` in a file, comments left out.
+/// The modules named after `crate::` in a file, comments left out; of a list in braces, over however many lines, all.
 fn named(text: &str) -> Vec<String> {
-    let code = text.lines().filter(|l| !l.trim_start().starts_with("//"));
+    let code: Vec<&str> = text
+        .lines()
+        .filter(|l| !l.trim_start().starts_with("//"))
+        .collect();
+    let first_word = |w: &str| -> String {
+        let letters = w.trim_start().chars();
+        letters
+            .take_while(|c| c.is_alphanumeric() || *c == '_')
+            .collect()
+    };
     let mut out = Vec::new();
-    for line in code {
-        for rest in line.split("crate::").skip(1) {
-            let end = rest
-                .find(|c: char| !c.is_alphanumeric() && c != '_')
-                .unwrap_or(rest.len());
-            let list = rest.strip_prefix('{').and_then(|r| r.split('}').next());
-            match list {
-                Some(list) => out.extend(
-                    list.split(',')
-                        .map(|w| w.trim().split("::").next().unwrap_or_default().to_owned()),
-                ),
-                None => out.push(rest[..end].to_owned()),
-            }
+    for rest in code.join("\n").split("crate::").skip(1) {
+        match rest.strip_prefix('{') {
+            Some(list) => out.extend(top_level(list).into_iter().map(first_word)),
+            None => out.push(first_word(rest)),
         }
     }
     out.retain(|w| !w.is_empty());
     out
+}
+
+/// The items of a list in braces, from behind its opening to its own closing one.
+fn top_level(list: &str) -> Vec<&str> {
+    let (mut out, mut start, mut depth) = (Vec::new(), 0, 0);
+    for (i, c) in list.char_indices() {
+        match c {
+            '{' => depth += 1,
+            '}' if depth > 0 => depth -= 1,
+            ',' | '}' if depth == 0 => {
+                out.push(&list[start..i]);
+                start = i + 1;
+            }
+            _ => {}
+        }
+        if c == '}' && start == i + 1 {
+            break;
+        }
+    }
+    out
+}
+
+#[test]
+fn names_are_found_in_lists_over_lines() {
+    let text = "use crate::{\n    corner::{Detector, sides::Sides},\n    types::Contour,\n};\n// crate::fit\ncrate::scan::whole()";
+    assert_eq!(named(text), ["corner", "types", "scan"]);
 }
 
 #[test]

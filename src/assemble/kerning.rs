@@ -12,8 +12,9 @@
 
 use super::Draft;
 use super::features::is_arabic;
-use super::profile::{Profile, median};
+use super::profile::Profile;
 use super::spacing::Rhythm;
+use crate::numeric::median::median;
 use crate::types::{Kerning, Name};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

@@ -1,5 +1,6 @@
 //! A glyph's sides as scan lines see them.
 
+use crate::numeric::median::median;
 use crate::types::Outline;
 use kurbo::{Affine, PathEl, Point, flatten};
 
@@ -129,13 +130,6 @@ pub(super) fn white(distances: &[Option<f64>], depths: (f64, f64)) -> White {
 )]
 pub(super) fn rows(height: f64) -> usize {
     (height / STEP).round() as usize
-}
-
-/// The middle value.
-pub(super) fn median(values: impl Iterator<Item = f64>) -> Option<f64> {
-    let mut values: Vec<f64> = values.collect();
-    values.sort_by(f64::total_cmp);
-    values.get(values.len() / 2).copied()
 }
 
 /// The outline as straight edges.

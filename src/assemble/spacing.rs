@@ -18,8 +18,9 @@
 //! Leaning fonts are set upright before they are measured.
 
 use super::features::is_arabic;
-use super::profile::{Profile, median, white};
+use super::profile::{Profile, white};
 use super::{Draft, Options, tails};
+use crate::numeric::median::median;
 use crate::types::Info;
 use kurbo::Affine;
 use schemars::JsonSchema;

@@ -2,7 +2,7 @@
 
 use super::calm::calm;
 use crate::{
-    numeric::side::{FLOOR_PX, Meeting, Place, Side},
+    numeric::side::{Meeting, Place, Side, scatter_px},
     types::Contour,
 };
 use kurbo::Point;
@@ -12,19 +12,12 @@ use std::f64::consts::SQRT_2;
 const REACH_PX: f64 = 16.0;
 /// And how much longer it may be for each px along which ink is ragged.
 const RAGGED: f64 = 4.0;
-/// How far ragged ink's edge strays, in the length along which it does.
-const SCATTER: f64 = 0.1;
 
 /// How far from a corner its rounding by the picture's blur is felt, px: the bilinear surface reaches
 /// 1 px, and a Gaussian's edge is straight again to 1 % of a pixel after one and a half deviations. Ragged ink is
 /// averaged by one more.
 pub(super) fn clearance_px(contour: &Contour) -> f64 {
     1.05 + 1.5 * contour.blur_px().hypot(contour.ragged_px())
-}
-
-/// Least scatter of a side's points, px.
-pub(crate) fn scatter_px(contour: &Contour) -> f64 {
-    FLOOR_PX.hypot(SCATTER * contour.ragged_px())
 }
 
 /// Clearance of a needle, in those of a right angle, at most: further out its sides are seen apart.
@@ -59,7 +52,7 @@ impl<'a> Corners<'a> {
         Self {
             points: contour.points(),
             clear: clearance_px(contour),
-            floor: scatter_px(contour),
+            floor: scatter_px(contour.ragged_px()),
             reach: REACH_PX + RAGGED * contour.ragged_px(),
             at,
         }

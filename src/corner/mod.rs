@@ -14,7 +14,6 @@ pub mod srm05;
 #[cfg(test)]
 mod tests;
 
-pub(crate) use beside::scatter_px;
 pub use beside::sharpen;
 
 use crate::types::Contour;

@@ -117,9 +117,9 @@ impl Task {
             )
         });
         let mut out = Vec::new();
-        let mut todo = vec![(0, last)];
+        let mut pieces = vec![(0, last)];
         let mut parameters = 0;
-        while let Some((a, b)) = todo.pop() {
+        while let Some((a, b)) = pieces.pop() {
             let ends = [
                 self.direction(&points, a, seam),
                 self.direction(&points, b, seam),
@@ -130,7 +130,7 @@ impl Task {
                     // Two lengths, and a point and a direction for the next piece to begin with.
                     parameters += 5;
                 }
-                Err(worst) => todo.extend([(a + worst, b), (a, a + worst)]),
+                Err(worst) => pieces.extend([(a + worst, b), (a, a + worst)]),
             }
         }
         judged(span, path_of(&out, span), (self.tolerance, parameters))

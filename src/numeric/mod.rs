@@ -8,6 +8,7 @@ pub mod chain;
 pub mod coverage;
 pub mod distance;
 pub mod levels;
+pub mod median;
 pub mod minimise;
 pub mod qbc;
 pub mod refit;

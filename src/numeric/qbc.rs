@@ -114,8 +114,8 @@ impl Pull {
         /// Parts that each range of u is cut into at most: 2^10.
         const DEPTH: u32 = 10;
         let mut out = Vec::new();
-        let mut todo = vec![(0.0, 1.0, DEPTH)];
-        while let Some((a, b, depth)) = todo.pop() {
+        let mut pieces = vec![(0.0, 1.0, DEPTH)];
+        while let Some((a, b, depth)) = pieces.pop() {
             let ((p, dp), (q, dq)) = (self.eval(points, a), self.eval(points, b));
             let third = (b - a) / 3.0;
             let cubic = CubicBez::new(p, p + dp * third, q - dq * third, q);
@@ -125,7 +125,7 @@ impl Pull {
                 out.push(cubic);
             } else {
                 let m = 0.5 * (a + b);
-                todo.extend([(m, b, depth - 1), (a, m, depth - 1)]);
+                pieces.extend([(m, b, depth - 1), (a, m, depth - 1)]);
             }
         }
         out

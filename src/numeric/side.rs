@@ -32,11 +32,19 @@ pub struct Meeting {
 
 /// What tracing itself scatters on a straight edge without noise, px: the bilinear surface follows the
 /// pixels' steps.
-pub const FLOOR_PX: f64 = 0.02;
+const FLOOR_PX: f64 = 0.02;
+/// How far ragged ink's edge strays, in the length along which it does.
+const SCATTER: f64 = 0.1;
 /// A longer side is taken as long as its points scatter no more than this many times the shorter's.
 const GROWTH: f64 = 1.3;
 /// Points of the shortest and the longest side that is tried.
 const REACH: (usize, usize) = (5, 20);
+
+/// Least scatter of a side's points, px, along ink that is ragged over `ragged_px`.
+#[must_use]
+pub fn scatter_px(ragged_px: f64) -> f64 {
+    FLOOR_PX.hypot(SCATTER * ragged_px)
+}
 
 impl Side {
     /// The side through `points`, in their order along the contour, which scatter by `floor` px at least; nothing

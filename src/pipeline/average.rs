@@ -5,7 +5,9 @@
 //! of two drawings the edge runs halfway, of three it follows the two that agree.
 
 use super::letter::Letter;
+use crate::numeric::cast::{index, single};
 use crate::numeric::coverage::Coverage;
+use crate::numeric::median::median;
 use crate::types::{Cell, Gray, Guides};
 use kurbo::{Affine, Line, ParamCurveNearest, Point, Vec2};
 
@@ -37,8 +39,8 @@ pub(super) fn middle(drawings: &[&Letter]) -> Option<Cell> {
     });
     let corner = low - Vec2::new(MARGIN, MARGIN);
     let (width, height) = (
-        floor((high.x - low.x + 2.0 * MARGIN).ceil()),
-        floor((high.y - low.y + 2.0 * MARGIN).ceil()),
+        index((high.x - low.x + 2.0 * MARGIN).ceil()),
+        index((high.y - low.y + 2.0 * MARGIN).ceil()),
     );
     let reach = REACH_EM * px_per_em;
     let fields: Vec<Vec<f64>> = laid
@@ -52,17 +54,14 @@ pub(super) fn middle(drawings: &[&Letter]) -> Option<Cell> {
         })
         .collect();
     let gray = Gray::from_fn(width, height, |x, y| {
-        let mut here: Vec<f64> = fields.iter().map(|f| f[y * width + x]).collect();
-        #[expect(clippy::cast_possible_truncation, reason = "pictures have 24 bit")]
-        let ink = (0.5 + median(&mut here) / (2.0 * SOFT)).clamp(0.0, 1.0) as f32;
-        ink
+        let here = median(fields.iter().map(|f| f[y * width + x])).unwrap_or_default();
+        single((0.5 + here / (2.0 * SOFT)).clamp(0.0, 1.0))
     });
-    let mut lines: Vec<f64> = laid.iter().map(|l| l.baseline).collect();
-    let up = median(&mut lines) - corner.y;
+    let up = median(laid.iter().map(|l| l.baseline))? - corner.y;
     Some(Cell {
         gray,
         guides: Guides {
-            baseline_px: as_f64(height) - up,
+            baseline_px: height as f64 - up,
             px_per_em,
             advance_px: None,
         },
@@ -86,7 +85,7 @@ fn lay(letter: &Letter, px_per_em: f64) -> Option<Laid> {
         }
     }
     let centre = moment / area;
-    let baseline = as_f64(letter.picture.height()) - letter.guides.baseline_px;
+    let baseline = letter.picture.height() as f64 - letter.guides.baseline_px;
     let rings = letter.edge.iter().map(|ring| {
         let about = |p: &Point| ((p.to_vec2() - centre) * size).to_point();
         ring.points().iter().map(about).collect()
@@ -106,12 +105,12 @@ fn distances(rings: &[Vec<Point>], (width, height): (usize, usize), reach: f64) 
         let next = ring.iter().cycle().skip(1);
         for (&a, &b) in ring.iter().zip(next) {
             let edge = Line::new(a, b);
-            let top = as_f64(height);
+            let top = height as f64;
             let (x0, x1) = (a.x.min(b.x) - reach, a.x.max(b.x) + reach);
             let (y0, y1) = (top - a.y.max(b.y) - reach, top - a.y.min(b.y) + reach);
-            for y in floor(y0)..floor(y1 + 1.0).min(height) {
-                for x in floor(x0)..floor(x1 + 1.0).min(width) {
-                    let p = Point::new(as_f64(x) + 0.5, top - as_f64(y) - 0.5);
+            for y in index(y0)..index(y1 + 1.0).min(height) {
+                for x in index(x0)..index(x1 + 1.0).min(width) {
+                    let p = Point::new(x as f64 + 0.5, top - y as f64 - 0.5);
                     let here = &mut field[y * width + x];
                     *here = here.min(edge.nearest(p, 1e-3).distance_sq.sqrt());
                 }
@@ -122,30 +121,6 @@ fn distances(rings: &[Vec<Point>], (width, height): (usize, usize), reach: f64) 
     signed
         .map(|(d, ink)| if ink >= 0.5 { *d } else { -d })
         .collect()
-}
-
-/// The middle value, or the mean of the two in the middle; 0 of none.
-fn median(values: &mut [f64]) -> f64 {
-    values.sort_by(f64::total_cmp);
-    let at = |i: usize| values.get(i).copied().unwrap_or(0.0);
-    f64::midpoint(at(values.len().saturating_sub(1) / 2), at(values.len() / 2))
-}
-
-#[expect(
-    clippy::cast_precision_loss,
-    reason = "pictures have fewer pixels a side than 2^52"
-)]
-const fn as_f64(n: usize) -> f64 {
-    n as f64
-}
-
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "the cast saturates: what lies before the first pixel is at it"
-)]
-const fn floor(v: f64) -> usize {
-    v as usize
 }
 
 #[cfg(test)]
@@ -196,7 +171,7 @@ mod tests {
             sum(gray.width(), &|x| gray.at(x, cy)),
             sum(gray.height(), &|y| gray.at(cx, y)),
         );
-        let above = sum(floor(cell.guides.baseline_px), &|y| gray.at(cx, y));
+        let above = sum(index(cell.guides.baseline_px), &|y| gray.at(cx, y));
         let em = cell.guides.px_per_em;
         [w / em, h / em, (h - above) / em]
     }

@@ -4,6 +4,7 @@ use super::dissimilar::{Curves, Way};
 use super::ink::Ink;
 use super::shape::Shape;
 use super::skeleton::{Pruning, Skeleton};
+use crate::numeric::median::median;
 use crate::types::{Gray, Guides};
 use serde::{Deserialize, Serialize};
 
@@ -263,17 +264,10 @@ const PLACE: f64 = 0.2;
 
 /// Scale and shift by medians: what half of the cells get wrong does no harm.
 fn page_map(pairs: &[([f64; 2], [f64; 2])]) -> (f64, f64) {
-    let median = |mut v: Vec<f64>| {
-        v.sort_by(f64::total_cmp);
-        v.get(v.len() / 2).copied().unwrap_or_default()
-    };
     let height = |p: &[f64; 2]| (p[0] - p[1]).max(1e-6);
-    let scale = median(pairs.iter().map(|(a, b)| height(b) / height(a)).collect());
-    let shift = median(
-        pairs
-            .iter()
-            .flat_map(|(a, b)| [b[0] - scale * a[0], b[1] - scale * a[1]])
-            .collect(),
-    );
-    (scale, shift)
+    let scale = median(pairs.iter().map(|(a, b)| height(b) / height(a))).unwrap_or_default();
+    let shifts = pairs
+        .iter()
+        .flat_map(|(a, b)| [b[0] - scale * a[0], b[1] - scale * a[1]]);
+    (scale, median(shifts).unwrap_or_default())
 }

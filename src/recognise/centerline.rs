@@ -13,6 +13,7 @@
 
 use super::skeleton::{Dot, Pruning, Skeleton, Stroke};
 use super::spline::{Data, Knots, Spline};
+use crate::numeric::cast::index;
 use crate::types::{Bitmap, Gray, Span};
 use kurbo::{BezPath, CubicBez, Point, Vec2};
 
@@ -112,7 +113,7 @@ impl Way {
     fn read(&self, gray: &Gray, i: usize) -> Option<Middle> {
         let n = self.middles.len();
         let (at, width) = self.middles[i];
-        let reach = floor(width / 2.0).clamp(2, 12);
+        let reach = index(width / 2.0).clamp(2, 12);
         let (a, b) = if self.closed {
             ((i + n - reach % n) % n, (i + reach) % n)
         } else {
@@ -406,7 +407,7 @@ fn sample(gray: &Gray, p: Point) -> f64 {
         return 0.0;
     }
     // One pixel of paper to the left and above.
-    let (i, j) = (floor(x + 1.0), floor(y + 1.0));
+    let (i, j) = (index(x + 1.0), index(y + 1.0));
     let (u, v) = (x + 1.0 - i as f64, y + 1.0 - j as f64);
     let at = |i: usize, j: usize| match (i.checked_sub(1), j.checked_sub(1)) {
         (Some(i), Some(j)) => f64::from(gray.at(i, j)),
@@ -414,15 +415,6 @@ fn sample(gray: &Gray, p: Point) -> f64 {
     };
     let row = |j: usize| (1.0 - u) * at(i, j) + u * at(i + 1, j);
     (1.0 - v) * row(j) + v * row(j + 1)
-}
-
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "saturates; pixels are looked up with a check"
-)]
-const fn floor(v: f64) -> usize {
-    v as usize
 }
 
 /// The place nearest to the lines that arrive at junction `j`, held near where thinning saw it.

@@ -17,6 +17,7 @@ use super::affine::{Map, STAY, Sums};
 use super::skeleton::{Skeleton, Stroke};
 use super::spline::{Data, FEW, Knots, PIXEL_STEPS, Spline};
 use crate::numeric::assignment::assign;
+use crate::numeric::cast::single;
 use kurbo::{Point, Vec2};
 
 /// How faithful to the paper.
@@ -141,14 +142,6 @@ impl Curves {
 
 /// From, to, weight.
 type Pair = ([f64; 2], [f64; 2], f64);
-
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "letters have size 1 here; seven digits do"
-)]
-const fn single(v: f64) -> f32 {
-    v as f32
-}
 
 /// Where and which way a curve is read.
 #[derive(Debug, Clone, Copy)]

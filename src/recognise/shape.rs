@@ -11,6 +11,7 @@ use super::align::{self, Spot};
 use super::ink::Ink;
 use super::marks::{Marks, holes};
 use super::skeleton::{Pruning, Skeleton, Stroke};
+use crate::numeric::cast::{index, single};
 use crate::types::Bitmap;
 use kurbo::{Point, Rect, Vec2};
 use std::f64::consts::PI;
@@ -60,7 +61,7 @@ impl Shape {
         }
         let pixels = normalise(&pixels);
         let step = (pixels.len() as f64 / SPOTS as f64).max(1.0);
-        let kept = (0..SPOTS).map_while(|i| pixels.get(floor(i as f64 * step)));
+        let kept = (0..SPOTS).map_while(|i| pixels.get(index(i as f64 * step)));
         Self {
             spots: kept.map(Line::spot).collect(),
             density: density(&pixels),
@@ -86,23 +87,6 @@ impl Shape {
         let holes = self.holes.abs_diff(other.holes).min(2);
         HOLE * holes as f32 + single(self.marks.distance(&other.marks))
     }
-}
-
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "features need no more than seven digits"
-)]
-const fn single(v: f64) -> f32 {
-    v as f32
-}
-
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "the cast saturates, and callers look the index up with a check"
-)]
-const fn floor(v: f64) -> usize {
-    v as usize
 }
 
 /// The rectangle of the ink, px.
@@ -244,7 +228,7 @@ fn density(lines: &[Line]) -> Vec<f32> {
             l.at.x * HALF + GRID as f64 / 2.0,
             l.at.y * HALF + GRID as f64 / 2.0,
         );
-        let around = |c: f64| floor(c - 3.0)..(floor(c + 4.0)).min(GRID);
+        let around = |c: f64| index(c - 3.0)..(index(c + 4.0)).min(GRID);
         for j in around(v) {
             for i in around(u) {
                 let d2 = (i as f64 + 0.5 - u).powi(2) + (j as f64 + 0.5 - v).powi(2);
@@ -263,7 +247,7 @@ fn directions(way: Vec2) -> [f64; WAYS] {
         return [1.0 / WAYS as f64; WAYS];
     }
     let turn = (way.atan2() / PI).rem_euclid(1.0) * WAYS as f64;
-    let (whole, part) = (floor(turn) % WAYS, turn.fract());
+    let (whole, part) = (index(turn) % WAYS, turn.fract());
     let mut out = [0.0; WAYS];
     out[whole] += 1.0 - part;
     out[(whole + 1) % WAYS] += part;

@@ -87,14 +87,14 @@ fn deletes(code: usize, pass: usize) -> bool {
 pub fn thin(bitmap: &Bitmap) -> Bitmap {
     let mut field = Field::new(bitmap);
     let tables = [0, 1].map(|pass| std::array::from_fn::<bool, 256, _>(|c| deletes(c, pass)));
-    let mut todo: [Vec<usize>; 2] = [0, 1].map(|_| {
+    let mut open: [Vec<usize>; 2] = [0, 1].map(|_| {
         let all = 0..field.ink.len();
         all.filter(|&i| field.ink[i]).collect()
     });
     let mut queued = vec![[true; 2]; field.ink.len()];
-    while !(todo[0].is_empty() && todo[1].is_empty()) {
+    while !(open[0].is_empty() && open[1].is_empty()) {
         for pass in 0..2 {
-            let look = std::mem::take(&mut todo[pass]);
+            let look = std::mem::take(&mut open[pass]);
             look.iter().for_each(|&i| queued[i][pass] = false);
             let gone: Vec<usize> = look
                 .into_iter()
@@ -102,7 +102,7 @@ pub fn thin(bitmap: &Bitmap) -> Bitmap {
                 .collect();
             gone.iter().for_each(|&i| field.ink[i] = false);
             for n in gone.iter().flat_map(|&i| field.around(i)) {
-                for (other, list) in todo.iter_mut().enumerate() {
+                for (other, list) in open.iter_mut().enumerate() {
                     if field.ink[n] && !std::mem::replace(&mut queued[n][other], true) {
                         list.push(n);
                     }

@@ -17,8 +17,7 @@ mod tests;
 pub use corners::{confirmed, undrawn};
 
 use crate::{
-    corner::scatter_px,
-    numeric::side::{Place, Side},
+    numeric::side::{Place, Side, scatter_px},
     types::{Contour, Gray},
 };
 use kurbo::{Point, Vec2};
@@ -117,7 +116,7 @@ impl<'a> Ring<'a> {
         let n = corners.len();
         let before = self.between(corners[(k + n - 1) % n], corners[k]);
         let after = self.between(corners[k], corners[(k + 1) % n]);
-        let floor = scatter_px(&self.from.0);
+        let floor = scatter_px(self.from.0.ragged_px());
         let sides = (
             Side::beside(&before, Place::Before, floor)?,
             Side::beside(&after, Place::After, floor)?,

@@ -3,7 +3,7 @@
 
     python3 tests/bench/pages.py --khatt target/release/khatt PROJECT.toml [--pages 24] [--snakemake]
 
-PROJECT.toml names one page, a PNG of glyphs of one character each; the font repeats it under other glyph names and with
+PROJECT.toml names one page, a PNG; the font repeats it under other glyph names and with
 another comment, so that no page is another's copy.
 With --snakemake (PyPI) the pages are done one by one by its workers and merged; the font must be the same to the byte.
 """
@@ -48,6 +48,11 @@ def commented(png, comment):
     return png[:33] + chunk + png[33:]
 
 
+def glyph_name(written):
+    """The name of a glyph that a project file names or writes as a character."""
+    return written if len(written) > 1 else f"uni{ord(written):04X}"
+
+
 def project(folder, source, pages):
     """The project file, and the pages' pictures."""
     with open(source, "rb") as file:
@@ -59,7 +64,7 @@ def project(folder, source, pages):
     for n in range(1, pages + 1):
         with open(os.path.join(folder, f"{n}.png"), "wb") as file:
             file.write(commented(picture, str(n)))
-        glyphs = " ".join(names if n == 1 else [f"uni{ord(name):04X}.p{n}" for name in names])
+        glyphs = " ".join(names if n == 1 else [f"{glyph_name(name)}.p{n}" for name in names])
         sheet = table | {"image": f"{n}.png", "glyphs": glyphs}
         text.append("[[sheet]]\n" + "".join(f"{k} = {toml(v)}\n" for k, v in sheet.items()))
     text.append('[output]\nttf = "font.ttf"\n')

@@ -1,6 +1,7 @@
 //! Baseline and scale: from the many letters of the rows, never from one letter's own ink.
 
 use super::{Layer, Slot, Warning};
+use crate::numeric::median::median;
 use crate::scan::clean::Page;
 use crate::scan::components::Component;
 use crate::scan::error::ScanError;
@@ -107,7 +108,7 @@ fn drops(letters: &[Letter], rows: usize) -> Vec<f64> {
             .map(|l| (l.row, l.body.y1 - l.level))
             .collect();
     }
-    let height = median(&letters.iter().map(|l| l.body.height()).collect::<Vec<_>>());
+    let height = median(letters.iter().map(|l| l.body.height()));
     let common = Line::through(&off);
     let near = |&(r, o): &(usize, f64)| (o - common.at(r)).abs() <= ASTRAY * height.unwrap_or(0.0);
     let steady: Vec<(usize, f64)> = off.iter().copied().filter(near).collect();
@@ -123,7 +124,7 @@ fn drops(letters: &[Letter], rows: usize) -> Vec<f64> {
             .map(|o| o.1 - common.at(r))
             .collect();
         let n = own.len() as f64;
-        common.at(r) + median(&own).unwrap_or(0.0) * n / (n + SHRINK)
+        common.at(r) + median(own.iter().copied()).unwrap_or(0.0) * n / (n + SHRINK)
     };
     (0..rows).map(row).collect()
 }
@@ -140,11 +141,11 @@ impl Line {
         let of =
             |r: usize| -> Vec<f64> { points.iter().filter(|p| p.0 == r).map(|p| p.1).collect() };
         let last = points.iter().map(|p| p.0).max().unwrap_or(0);
-        let rows = (0..=last).filter_map(|r| Some((r as f64, median(&of(r))?)));
+        let rows = (0..=last).filter_map(|r| Some((r as f64, median(of(r))?)));
         let slope = slope(&rows.collect::<Vec<_>>());
         let flat: Vec<f64> = points.iter().map(|p| p.1 - slope * p.0 as f64).collect();
         Self {
-            level: median(&flat).unwrap_or(0.0),
+            level: median(flat).unwrap_or(0.0),
             slope,
         }
     }
@@ -161,16 +162,6 @@ fn feet(letters: &[Letter], foot: Foot, overshoot: f64) -> Vec<(usize, f64)> {
         .collect()
 }
 
-fn median(values: &[f64]) -> Option<f64> {
-    let mut sorted = values.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    let (low, high) = (
-        sorted.get(sorted.len().saturating_sub(1) / 2)?,
-        sorted.get(sorted.len() / 2)?,
-    );
-    Some(f64::midpoint(*low, *high))
-}
-
 /// The median slope through pairs of points; 0 for fewer than three.
 fn slope(points: &[(f64, f64)]) -> f64 {
     if points.len() < 3 {
@@ -181,7 +172,7 @@ fn slope(points: &[(f64, f64)]) -> f64 {
         .enumerate()
         .flat_map(|(i, a)| points[i + 1..].iter().map(move |b| (a, b)));
     let slopes: Vec<f64> = pairs.map(|(a, b)| (b.1 - a.1) / (b.0 - a.0)).collect();
-    median(&slopes).unwrap_or(0.0)
+    median(slopes).unwrap_or(0.0)
 }
 
 /// Pixels an em, and a word where nobody gave it.
@@ -246,7 +237,7 @@ fn head_height(letters: &[Letter], drop: &[f64], head: Head) -> Option<f64> {
         Head::X => Head::XBow,
         other => other,
     };
-    median(&of(head)).or_else(|| Some(median(&of(bows))? / (1.0 + OVERSHOOT)))
+    median(of(head)).or_else(|| Some(median(of(bows))? / (1.0 + OVERSHOOT)))
 }
 
 /// From the highest ink to the lowest, about the baselines, px.

@@ -4,6 +4,7 @@
 //! left. A page read on its side or head gives names to other letters, and hardly one of these holds.
 
 use super::Layer;
+use crate::numeric::median::median;
 use crate::scan::components::Component;
 use crate::scan::letters::{Foot, Head, Pieces, Shape};
 use glyphs_reader::glyphdata::GlyphData;
@@ -62,7 +63,7 @@ pub(super) fn misfit(layer: &Layer, all: &[Component], drop: &[f64]) -> Option<f
         }
     });
     let drawn: Vec<Drawn> = drawn.collect();
-    let height = median(drawn.iter().map(|d| d.body().0.height()).collect())?.max(1.0);
+    let height = median(drawn.iter().map(|d| d.body().0.height()))?.max(1.0);
     let feet = drawn.iter().filter_map(|d| {
         let foot = if d.shape.dotted {
             d.body().0.y1
@@ -94,7 +95,7 @@ fn heads(drawn: &[Drawn]) -> Vec<f64> {
     let (capitals, small) = (of([Head::Cap, Head::CapBow]), of([Head::X, Head::XBow]));
     let mut out = Vec::new();
     for heights in [&capitals, &small] {
-        let usual = median(heights.clone()).unwrap_or(0.0);
+        let usual = median(heights.iter().copied()).unwrap_or(0.0);
         out.extend(heights.iter().map(|h| far(h - usual, usual)));
     }
     if let Some(cap) = median(capitals) {
@@ -135,9 +136,4 @@ fn weight(d: &Drawn) -> Vec<f64> {
 /// How wrong a length is that is off by so much, 0 to 1.
 fn far(off: f64, of: f64) -> f64 {
     (off.abs() / (FAR * of.max(1.0))).min(1.0)
-}
-
-fn median(mut values: Vec<f64>) -> Option<f64> {
-    values.sort_by(f64::total_cmp);
-    values.get(values.len() / 2).copied()
 }

@@ -1,6 +1,7 @@
 //! Where the distance between scan and font comes from, a row a glyph.
 
 use super::Entry;
+use crate::numeric;
 use maud::{Markup, html};
 
 /// Units, and millimetres of paper where these are known.
@@ -48,7 +49,5 @@ pub(super) fn table(entries: &[Entry]) -> Markup {
 
 /// The value in the middle.
 fn median(rows: &[(&Entry, f64)], value: impl Fn(&Entry, f64) -> f64) -> f64 {
-    let mut all: Vec<f64> = rows.iter().map(|(e, worst)| value(e, *worst)).collect();
-    all.sort_by(f64::total_cmp);
-    all.get(all.len() / 2).copied().unwrap_or_default()
+    numeric::median::median(rows.iter().map(|(e, worst)| value(e, *worst))).unwrap_or_default()
 }
