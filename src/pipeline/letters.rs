@@ -8,7 +8,7 @@ use super::project::{Labels, Layout, Project, SheetTable};
 use super::reference::{Script, samples, spelling};
 use super::{corrections, labels, page};
 use crate::assemble::names;
-use crate::recognise::{Alphabet, Finding, Guess, Look, Reading, check};
+use crate::recognise::{Alphabet, Finding, Guess, Look, Reading, check, once};
 use crate::types::{Cell, Label};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
@@ -88,28 +88,28 @@ pub(super) fn resolve(
 /// A page has fewer cells than this.
 const MOST_CELLS: usize = 1_000_000;
 
-/// Confidence from which a cell is named by what it looks like.
+/// Confidence, among the letters left by the other cells, from which a cell is named by what it looks like.
 const NAMED: f64 = 0.5;
+/// And least confidence among all letters: a second drawing of a letter is no other letter.
+const POSSIBLE: f64 = 0.1;
 
-/// A name for each of `count` cells, the surest first, no name twice; and the cells left out.
+/// A name for each of `count` cells, no name twice; and the cells left out.
 fn name(count: usize, cells: &[Cell], guesses: &[Vec<Guess>]) -> (Vec<String>, Vec<Finding>) {
-    let mut order: Vec<(&Cell, &Guess)> = cells
-        .iter()
-        .zip(guesses)
-        .filter_map(|(c, g)| Some((c, g.first()?)))
-        .collect();
-    order.sort_by(|a, b| b.1.confidence.total_cmp(&a.1.confidence));
     let mut labels = vec![labels::SKIP.to_owned(); count];
     let mut unsure = Vec::new();
-    for (cell, guess) in order {
-        let free = !labels.contains(&guess.label);
-        match labels.get_mut(cell.index) {
-            Some(label) if free && guess.confidence >= NAMED => label.clone_from(&guess.label),
-            _ => unsure.push(Finding::Unsure {
+    for ((cell, guesses), given) in cells.iter().zip(guesses).zip(once(guesses)) {
+        let sure = given.filter(|given| {
+            let own = guesses.iter().find(|g| g.label == given.label);
+            given.confidence >= NAMED && own.is_some_and(|g| g.confidence >= POSSIBLE)
+        });
+        match (sure, labels.get_mut(cell.index), guesses.first()) {
+            (Some(given), Some(label), _) => *label = given.label,
+            (_, _, Some(like)) => unsure.push(Finding::Unsure {
                 cell: cell.index,
-                like: guess.label.clone(),
-                confidence: guess.confidence,
+                like: like.label.clone(),
+                confidence: like.confidence,
             }),
+            _ => {}
         }
     }
     unsure.sort_by_key(|f| {

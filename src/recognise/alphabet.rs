@@ -101,8 +101,43 @@ enum Features {
 #[derive(Debug, Clone)]
 pub struct Look {
     features: Option<Features>,
-    /// Top and bottom of the ink in em above the baseline.
-    place: Option<[f64; 2]>,
+    /// Of the ink, px.
+    height: f64,
+    place: Place,
+}
+
+/// What is known of where the ink stands on its line.
+#[derive(Debug, Clone, Copy)]
+enum Place {
+    /// Top and bottom, em above the baseline.
+    Line([f64; 2]),
+    /// Its height alone, em.
+    Height(f64),
+    /// Nothing.
+    Unknown,
+}
+
+impl Place {
+    fn height(self) -> Option<f64> {
+        match self {
+            Self::Line([top, bottom]) => Some(top - bottom),
+            Self::Height(height) => Some(height),
+            Self::Unknown => None,
+        }
+    }
+
+    /// Sum of the squared differences of top and bottom; where one of both has no line, as they lie best. 1 at most,
+    /// and 0 where nothing is known.
+    fn apart(self, other: Self) -> f64 {
+        let squares = match (self, other) {
+            (Self::Line(a), Self::Line(b)) => (a[0] - b[0]).powi(2) + (a[1] - b[1]).powi(2),
+            _ => match (self.height(), other.height()) {
+                (Some(a), Some(b)) => (a - b).powi(2) / 2.0,
+                _ => 0.0,
+            },
+        };
+        squares.min(1.0)
+    }
 }
 
 impl Look {
@@ -117,13 +152,17 @@ impl Look {
         let Some(ink) = Ink::new(gray) else {
             return Self {
                 features: None,
-                place: None,
+                height: 0.0,
+                place: Place::Unknown,
             };
         };
-        let place = guides.filter(|g| g.px_per_em > 0.0).map(|g| {
-            let em = |y: f64| (g.baseline_px - y) / g.px_per_em;
-            [em(ink.bounds.y0), em(ink.bounds.y1)]
-        });
+        let place = match guides.filter(|g| g.px_per_em > 0.0) {
+            Some(g) => {
+                let em = |y: f64| (g.baseline_px - y) / g.px_per_em;
+                Place::Line([em(ink.bounds.y0), em(ink.bounds.y1)])
+            }
+            None => Place::Unknown,
+        };
         let features = match way {
             None => Features::Shape(Box::new(Shape::new(&ink))),
             Some(way) => Features::Curves(
@@ -133,6 +172,7 @@ impl Look {
         };
         Self {
             features: Some(features),
+            height: ink.bounds.height(),
             place,
         }
     }
@@ -198,7 +238,7 @@ impl Alphabet {
         guesses
     }
 
-    fn by_shape(&self, shape: &Shape, place: Option<[f64; 2]>) -> Vec<(usize, f64)> {
+    fn by_shape(&self, shape: &Shape, place: Place) -> Vec<(usize, f64)> {
         let rough = self
             .letters
             .iter()
@@ -211,11 +251,8 @@ impl Alphabet {
         rough.sort_by(|a, b| a.2.total_cmp(&b.2).then(a.0.cmp(&b.0)));
         rough.truncate(CANDIDATES);
         let full = |&(i, s, r): &(usize, &Shape, f32)| {
-            let apart = match (place, self.letters[i].1.place) {
-                (Some(a), Some(b)) => (a[0] - b[0]).powi(2) + (a[1] - b[1]).powi(2),
-                _ => 0.0,
-            };
-            (i, f64::from(shape.distance(s, r)) + PLACE * apart.min(1.0))
+            let apart = place.apart(self.letters[i].1.place);
+            (i, f64::from(shape.distance(s, r)) + PLACE * apart)
         };
         rough.iter().map(full).collect()
     }
@@ -233,32 +270,43 @@ impl Alphabet {
     }
 
     /// Takes the reference's proportions off a page: finds the scale and height that take the ink of surely
-    /// known cells to the reference's, and puts every cell's place in the reference's em. Where too few are
-    /// sure, places are forgotten and shapes alone decide.
+    /// known cells to the reference's, and puts every cell's place in the reference's em. Cells without a baseline give
+    /// their heights alone, where these are of one scale. Where too few are sure, places are forgotten and shapes alone
+    /// decide.
     pub fn settle_page(&self, looks: &mut [Look]) {
-        let mut pairs: Vec<([f64; 2], [f64; 2])> = Vec::new();
+        let (mut lines, mut heights) = (Vec::new(), Vec::new());
         for look in looks.iter() {
             let blind = Look {
-                place: None,
+                place: Place::Unknown,
                 ..look.clone()
             };
             let best = self.rank(&blind).into_iter().next();
             let sure = best.filter(|g| g.confidence >= PAGE_CONFIDENCE);
             let letter = sure.and_then(|g| self.letters.iter().find(|(l, _)| *l == g.label));
-            if let (Some(here), Some(there)) = (look.place, letter.and_then(|l| l.1.place)) {
-                pairs.push((here, there));
+            if let Some(there @ Place::Line(line)) = letter.map(|l| l.1.place) {
+                match look.place {
+                    Place::Line(here) => lines.push((here, line)),
+                    _ => heights.extend(there.height().map(|h| (look.height, h))),
+                }
             }
         }
-        let map = (pairs.len() >= PAGE_CELLS).then(|| page_map(&pairs));
+        let line = (lines.len() >= PAGE_CELLS).then(|| page_map(&lines));
+        let scale = (heights.len() >= PAGE_CELLS).then(|| page_scale(&heights));
+        let scale = scale.flatten();
         for look in looks {
-            look.place = match (look.place, map) {
-                (Some(p), Some((scale, shift))) => Some(p.map(|v| scale * v + shift)),
-                _ => None,
+            look.place = match (look.place, line, scale) {
+                (Place::Line(p), Some((scale, shift)), _) => {
+                    Place::Line(p.map(|v| scale * v + shift))
+                }
+                (Place::Unknown, _, Some(scale)) => Place::Height(scale * look.height),
+                _ => Place::Unknown,
             };
         }
     }
 }
 
+/// Heights of one page differ from the reference's by this at most, median of the ratios' logarithms.
+const ONE_SCALE: f64 = 0.2;
 /// Weight of squared differences of top and bottom, em².
 const PLACE: f64 = 0.2;
 
@@ -270,4 +318,16 @@ fn page_map(pairs: &[([f64; 2], [f64; 2])]) -> (f64, f64) {
         .iter()
         .flat_map(|(a, b)| [b[0] - scale * a[0], b[1] - scale * a[1]]);
     (scale, median(shifts).unwrap_or_default())
+}
+
+/// Em a pixel by heights in both; nothing where they differ too much to be of one scale.
+fn page_scale(pairs: &[(f64, f64)]) -> Option<f64> {
+    let ratios = || {
+        pairs
+            .iter()
+            .map(|(px, em)| (em / px.max(1e-6)).max(1e-9).ln())
+    };
+    let middle = median(ratios())?;
+    let spread = median(ratios().map(|r| (r - middle).abs()))?;
+    (spread <= ONE_SCALE).then(|| middle.exp())
 }

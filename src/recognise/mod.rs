@@ -13,6 +13,7 @@ mod check;
 mod dissimilar;
 mod ink;
 mod marks;
+mod once;
 mod shape;
 mod skeleton;
 mod spline;
@@ -21,6 +22,7 @@ mod thin;
 pub use alphabet::{Alphabet, Guess, Look, Method, Sample};
 pub use centerline::{Centerline, Line, centerline};
 pub use check::{Finding, Reading, check};
+pub use once::once;
 pub use skeleton::{Dot, Pruning, Skeleton, Stroke};
 pub use thin::thin;
 

@@ -2,7 +2,7 @@
 
 use super::{Outcome, Score, letters, same, stem};
 use khatt::pipeline::reference::{Script, spelling};
-use khatt::recognise::{Alphabet, Look, Method, Sample};
+use khatt::recognise::{Alphabet, Guess, Look, Method, Sample, once};
 use khatt::scan::{Polarity, load};
 use khatt::types::{Gray, Label};
 use std::fs;
@@ -72,7 +72,7 @@ pub(super) fn run(script: &str, folder: &str, references: &[&str]) -> Outcome {
         let drawn = letters(reference, wanted(script))?;
         let mut row = format!("| {} |", stem(reference));
         for (method, sum) in Method::all().into_iter().zip(&mut sums) {
-            let score = score(&crops, &drawn, method);
+            let score = score(&crops, &read(&crops, &drawn, method));
             sum.join(score);
             row += &format!(" {} |", score.percent());
         }
@@ -82,8 +82,16 @@ pub(super) fn run(script: &str, folder: &str, references: &[&str]) -> Outcome {
     let mean: Vec<String> = sums.iter().map(|s| s.percent()).collect();
     println!("| mean | {} |", mean.join(" | "));
     if references.len() > 1 {
-        let together = Method::all().map(|method| score(&crops, &all, method).percent());
-        println!("| all together | {} |", together.join(" | "));
+        let together = Method::all().map(|method| read(&crops, &all, method));
+        let row = together.each_ref().map(|g| score(&crops, g).percent());
+        println!("| all together | {} |", row.join(" | "));
+        let row = together.each_ref().map(|g| alone(&crops, g).percent());
+        println!("| no letter twice | {} |", row.join(" | "));
+        println!(
+            "\nmissed by `{}`: {}",
+            heads[0],
+            missed(&crops, &together[0])
+        );
     }
     Ok(())
 }
@@ -134,21 +142,53 @@ fn letter(label: &str) -> &str {
     }
 }
 
-fn score(crops: &[Sample], drawn: &[Sample], method: Method) -> Score {
+/// What each crop may be. They come from one page, so that their sizes compare.
+fn read(crops: &[Sample], drawn: &[Sample], method: Method) -> Vec<Vec<Guess>> {
     let alphabet = Alphabet::new(drawn, method);
-    let mut score = Score::default();
-    for crop in crops {
-        let guesses = alphabet.rank(&Look::new(&crop.gray, None, method));
-        let mut told: Vec<&str> = Vec::new();
-        for guess in &guesses {
-            if !told.contains(&letter(&guess.label)) {
-                told.push(letter(&guess.label));
-            }
+    let looks = crops.iter().map(|c| Look::new(&c.gray, None, method));
+    let mut looks: Vec<Look> = looks.collect();
+    alphabet.settle_page(&mut looks);
+    looks.iter().map(|look| alphabet.rank(look)).collect()
+}
+
+/// The letters that a crop may be, in any position, likeliest first.
+fn told(guesses: &[Guess]) -> Vec<&str> {
+    let mut told: Vec<&str> = Vec::new();
+    for guess in guesses {
+        if !told.contains(&letter(&guess.label)) {
+            told.push(letter(&guess.label));
         }
+    }
+    told
+}
+
+fn score(crops: &[Sample], guesses: &[Vec<Guess>]) -> Score {
+    let mut score = Score::default();
+    for (crop, guesses) in crops.iter().zip(guesses) {
         let wanted = letter(&crop.label);
-        score.add(told.iter().position(|g| same(g, wanted)));
+        score.add(told(guesses).iter().position(|g| same(g, wanted)));
     }
     score
+}
+
+/// The score where no letter, and no form of one, is given to two crops.
+fn alone(crops: &[Sample], guesses: &[Vec<Guess>]) -> Score {
+    let mut score = Score::default();
+    for (crop, given) in crops.iter().zip(once(guesses)) {
+        let right = given.is_some_and(|g| same(letter(&g.label), letter(&crop.label)));
+        score.add(right.then_some(0));
+    }
+    score
+}
+
+/// What was taken for what.
+fn missed(crops: &[Sample], guesses: &[Vec<Guess>]) -> String {
+    let wrong = crops.iter().zip(guesses).filter_map(|(crop, guesses)| {
+        let first = told(guesses).first().copied().unwrap_or("nothing");
+        let wrong = !same(first, letter(&crop.label));
+        wrong.then(|| format!("{} for {}", first, crop.label))
+    });
+    wrong.collect::<Vec<_>>().join(", ")
 }
 
 /// Paper to 0 and ink to 1: a crop has no page that its light was evened out with.
