@@ -8,7 +8,7 @@ use crate::cli::{khatt, png, transcript};
 use crate::common::approved;
 use crate::sheets::{LETTERS, edge, page, project};
 use image::imageops;
-use khatt::scan::{self, Layout, Options, Polarity, Scale};
+use khatt::scan::{self, Ink, Layout, Options, Polarity, Scale};
 use khatt::types::{Cell, Label};
 use kurbo::{Point, Rect};
 use proptest::collection::vec;
@@ -418,7 +418,7 @@ fn marks_in_another_ink_are_no_letters() {
     let page = marked();
     for layout in [Layout::Grid(3, 4), Layout::Free] {
         let options = Options {
-            ink: "blue".to_owned().try_into().expect("an ink"),
+            ink: Ink::try_from("blue".to_owned()).expect("an ink").into(),
             ..options(layout)
         };
         let cut = page.cut(&TWELVE, &options);

@@ -64,6 +64,7 @@ fn font() -> Font {
     let drawn = (0..).zip(LABELS).map(|(i, label)| Drawn {
         label: Label((*label).to_owned()),
         outline: shape(i),
+        plates: Vec::new(),
         advance: None,
     });
     let info = Info {
@@ -351,6 +352,7 @@ fn a_shape_beyond_the_format_is_an_error() {
     let drawn = vec![Drawn {
         label: Label("A".to_owned()),
         outline: Outline::new(vec![far]).expect("closed"),
+        plates: Vec::new(),
         advance: None,
     }];
     let font = assemble::font(drawn, Info::default(), &assemble::Options::default())

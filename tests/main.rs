@@ -2,6 +2,7 @@
 
 mod cells;
 mod cli;
+mod colours;
 mod common;
 mod compose;
 mod convert;

@@ -65,6 +65,7 @@ fn drawn(label: &str, seed: u32) -> Drawn {
     Drawn {
         label: Label(label.to_owned()),
         outline: Outline::new(contours).expect("closed contours"),
+        plates: Vec::new(),
         advance: None,
     }
 }

@@ -67,6 +67,9 @@ const THICKNESS: (f64, f64) = (0.008, 0.3);
 /// steeply than that is no end but a bend.
 const MOST_SHEAR: f64 = 0.27;
 
+/// How far an ink's end may lie from the whole letter's and still be the same, em.
+const SAME: f64 = 0.01;
+
 /// Rounds in which the choice of ends and their median settle: they did in two on every font seen.
 const ROUNDS: u32 = 4;
 
@@ -290,6 +293,14 @@ struct Terms<'a> {
     options: &'a Options,
 }
 
+/// Whether an end of one ink is that end of the whole letter.
+fn is_one(plate: &End, whole: &End, em: f64) -> bool {
+    let near = |a: f64, b: f64| (a - b).abs() < SAME * em;
+    near(plate.tip, whole.tip)
+        && near(plate.edges.0, whole.edges.0)
+        && near(plate.edges.1, whole.edges.1)
+}
+
 /// Cuts and moves one end; says so where the contract is out of reach.
 fn join(draft: &mut Draft, side: Side, end: &End, terms: Terms<'_>) -> (Join, Option<Note>) {
     let (em, options) = (terms.em, terms.options);
@@ -302,7 +313,7 @@ fn join(draft: &mut Draft, side: Side, end: &End, terms: Terms<'_>) -> (Join, Op
         },
     };
     let wanted = (edges.0 - end.edges.0, edges.1 - end.edges.1);
-    let moved = (wanted.0.clamp(-limit, limit), wanted.1.clamp(-limit, limit));
+    let shifts = (wanted.0.clamp(-limit, limit), wanted.1.clamp(-limit, limit));
     let shear = |want: f64, have: f64| (want - have).clamp(-MOST_SHEAR, MOST_SHEAR);
     let shears = (shear(slopes.0, end.slopes.0), shear(slopes.1, end.slopes.1));
     let reach = options.reach * em;
@@ -311,25 +322,30 @@ fn join(draft: &mut Draft, side: Side, end: &End, terms: Terms<'_>) -> (Join, Op
         cut: end.cut,
         reach,
         edges: end.edges,
-        shifts: moved,
+        shifts,
         shears,
     };
     let tab = Tab {
         length: 0.5 * options.overlap * em,
         slopes,
     };
-    let contours = draft
-        .outline
-        .contours()
-        .iter()
-        .enumerate()
-        .map(|(i, path)| {
-            let cut = (i == end.contour && end.cut - end.tip < tab.length)
-                .then(|| stroke::square(path, end, side, tab))
-                .flatten();
+    let moved = |outline: &Outline, end: Option<&End>| {
+        let contours = outline.contours().iter().enumerate();
+        let contours = contours.map(|(i, path)| {
+            let end = end.filter(|end| i == end.contour && end.cut - end.tip < tab.length);
+            let cut = end.and_then(|end| stroke::square(path, end, side, tab));
             warp.contour(cut.as_ref().unwrap_or(path))
         });
-    if let Ok(outline) = Outline::new(contours.collect()) {
+        Outline::new(contours.collect())
+    };
+    for (_, plate) in &mut draft.plates {
+        let ends = stroke::ends(plate.contours(), side, DEPTH * em);
+        let own = ends.iter().find(|e| is_one(e, end, em));
+        if let Ok(outline) = moved(plate, own) {
+            *plate = outline;
+        }
+    }
+    if let Ok(outline) = moved(&draft.outline, Some(end)) {
         draft.outline = outline;
     }
     let x = side.inward(end.cut);
@@ -338,7 +354,7 @@ fn join(draft: &mut Draft, side: Side, end: &End, terms: Terms<'_>) -> (Join, Op
         Side::Left => (draft.joint.0, draft.cursive.0) = (Some(x), height),
         Side::Right => (draft.joint.1, draft.cursive.1) = (Some(x), height),
     }
-    let missed = (wanted.0 - moved.0).abs().max((wanted.1 - moved.1).abs());
+    let missed = (wanted.0 - shifts.0).abs().max((wanted.1 - shifts.1).abs());
     let note = (missed > 1.0).then(|| Note {
         glyph: draft.id.name.to_string(),
         message: format!(
@@ -353,7 +369,7 @@ fn join(draft: &mut Draft, side: Side, end: &End, terms: Terms<'_>) -> (Join, Op
             side,
             x,
             drawn: end.edges,
-            moved,
+            moved: shifts,
         },
         note,
     )

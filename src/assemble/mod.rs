@@ -9,6 +9,7 @@ pub mod compose;
 mod features;
 pub mod joining;
 pub mod kerning;
+mod layers;
 mod marks;
 pub mod metrics;
 pub mod names;
@@ -63,6 +64,8 @@ pub struct Drawn {
     pub label: Label,
     /// Its contours, y measured from the baseline.
     pub outline: Outline,
+    /// The part of each ink, by the ink, the lowest first; empty where inks make no layers.
+    pub plates: Vec<(String, Outline)>,
     /// Left and right end of its advance where the page says them, in the outline's own x.
     pub advance: Option<(f64, f64)>,
 }
@@ -87,6 +90,9 @@ pub struct Options {
     /// Anchors by hand: `[anchors]` of a project.
     #[serde(skip)]
     pub anchors: Anchors,
+    /// The inks that are layers and how they look, red, green and blue: they become the palette.
+    #[serde(skip)]
+    pub inks: Vec<(String, [u8; 3])>,
 }
 
 /// Anchors set by hand, font units: by glyph name and their own.
@@ -118,6 +124,8 @@ struct Draft {
     id: Identity,
     codepoints: Vec<char>,
     outline: Outline,
+    /// Its colours, each with its place in the palette, the lowest first.
+    plates: Vec<(usize, Outline)>,
     given: Option<(f64, f64)>,
     /// Left and right end of the advance where a stroke joins.
     joint: (Option<f64>, Option<f64>),
@@ -138,6 +146,15 @@ struct Part {
 }
 
 impl Draft {
+    /// Moves what was drawn to the right.
+    fn shift(&mut self, by: f64) {
+        let shift = Affine::translate((by, 0.0));
+        let plates = self.plates.iter_mut().map(|p| &mut p.1);
+        for outline in plates.chain([&mut self.outline]) {
+            *outline = outline.transformed(shift);
+        }
+    }
+
     /// Whether it is a sign that stands above or below letters.
     fn is_mark(&self) -> bool {
         matches!(self.id.chars[..], [c] if is_combining_mark(c))
@@ -153,7 +170,7 @@ pub fn font(
     mut info: Info,
     options: &Options,
 ) -> Result<Assembled, AssembleError> {
-    let mut drafts = drafts(drawn)?;
+    let mut drafts = drafts(drawn, &options.inks)?;
     encode(&mut drafts);
     let em = f64::from(info.units_per_em);
     info.metrics = metrics::measure(&drafts, em, &options.heights);
@@ -175,11 +192,13 @@ pub fn font(
     let anchors = marks::anchors(&drafts, em);
     let names: Vec<Name> = drafts.iter().map(|d| d.id.name.clone()).collect();
     let letters = drafts
-        .into_iter()
+        .iter()
         .zip(anchors)
         .filter(|(d, _)| !basics::is_basic(d));
     glyphs.extend(letters.map(|(draft, anchors)| glyph(draft, anchors, &names)));
+    layers::add(&mut glyphs, &drafts);
     let mut font = Font::new(info, glyphs)?;
+    font.palette = options.inks.iter().map(|ink| ink.1).collect();
     font.features = features;
     font.kerning = kerning;
     Ok(Assembled {
@@ -189,7 +208,7 @@ pub fn font(
     })
 }
 
-fn glyph(draft: Draft, anchors: Vec<Anchor>, names: &[Name]) -> Glyph {
+fn glyph(draft: &Draft, anchors: Vec<Anchor>, names: &[Name]) -> Glyph {
     let component = |part: &Part| {
         Some(Component {
             base: names.get(part.draft)?.clone(),
@@ -197,17 +216,21 @@ fn glyph(draft: Draft, anchors: Vec<Anchor>, names: &[Name]) -> Glyph {
         })
     };
     let components: Vec<Component> = draft.parts.iter().filter_map(component).collect();
-    let own = components.is_empty().then_some(draft.outline);
+    let own = components.is_empty().then(|| draft.outline.clone());
     Glyph {
         outline: own.unwrap_or_default(),
         components,
         anchors,
-        ..Glyph::new(draft.id.name, draft.codepoints, draft.advance)
+        ..Glyph::new(
+            draft.id.name.clone(),
+            draft.codepoints.clone(),
+            draft.advance,
+        )
     }
 }
 
 /// Reads the labels.
-fn drafts(drawn: Vec<Drawn>) -> Result<Vec<Draft>, AssembleError> {
+fn drafts(drawn: Vec<Drawn>, inks: &[(String, [u8; 3])]) -> Result<Vec<Draft>, AssembleError> {
     let mut seen: BTreeMap<String, usize> = BTreeMap::new();
     let mut out = Vec::with_capacity(drawn.len());
     for (index, shape) in drawn.into_iter().enumerate() {
@@ -221,10 +244,15 @@ fn drafts(drawn: Vec<Drawn>) -> Result<Vec<Draft>, AssembleError> {
                 second,
             });
         }
+        let plates = shape.plates.into_iter().filter_map(|(ink, outline)| {
+            let colour = inks.iter().position(|i| i.0 == ink)?;
+            Some((colour, outline))
+        });
         out.push(Draft {
             id,
             codepoints: Vec::new(),
             outline: shape.outline,
+            plates: plates.collect(),
             given: shape.advance,
             joint: (None, None),
             cursive: (None, None),

@@ -22,7 +22,6 @@ use super::profile::{Profile, white};
 use super::{Draft, Options, tails};
 use crate::numeric::median::median;
 use crate::types::Info;
-use kurbo::Affine;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -174,7 +173,7 @@ pub(super) fn set(drafts: &mut [Draft], info: &Info, stroke: Option<f64>, option
     };
     for (draft, tail) in drafts.iter_mut().zip(tails) {
         let (left, right) = terms.ends(draft, tail);
-        draft.outline = draft.outline.transformed(Affine::translate((-left, 0.0)));
+        draft.shift(-left);
         draft.advance = (right - left).max(0.0).round();
     }
     if options.letters.figures == Figures::Tabular {
@@ -244,7 +243,7 @@ fn tabular(drafts: &mut [Draft]) {
             .fold(0.0, f64::max);
         for draft in drafts.iter_mut().filter(|d| is_one(d)) {
             let shift = 0.5 * (widest - draft.advance);
-            draft.outline = draft.outline.transformed(Affine::translate((shift, 0.0)));
+            draft.shift(shift);
             draft.advance = widest;
         }
     }

@@ -81,6 +81,7 @@ mod tests {
             id: identify(&Label(label.to_owned())).unwrap(),
             codepoints: Vec::new(),
             outline: Outline::new(contours).unwrap(),
+            plates: Vec::new(),
             given: None,
             joint: (None, None),
             cursive: (None, None),

@@ -7,6 +7,7 @@ fn drawn(label: &str) -> Drawn {
     Drawn {
         label: Label(label.to_owned()),
         outline: Outline::new(vec![BezPath::from_svg(shape).unwrap()]).unwrap(),
+        plates: Vec::new(),
         advance: None,
     }
 }

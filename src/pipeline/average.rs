@@ -67,6 +67,7 @@ pub(super) fn middle(drawings: &[&Letter]) -> Option<Cell> {
         },
         label: first.label.clone(),
         index: first.index,
+        plates: Vec::new(),
         in_sheet: first.in_sheet,
         to_sheet: Affine::IDENTITY,
     })
@@ -145,6 +146,7 @@ mod tests {
             (ink(x, 40.0 + shift, 40.0 + shift + w) * ink(y, 160.0 - h, 160.0)) as f32
         });
         Letter {
+            plates: Vec::new(),
             sheet: "page".to_owned(),
             label: Label("l".to_owned()),
             index: 0,

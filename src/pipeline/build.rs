@@ -10,6 +10,7 @@ use super::labels;
 use super::letter::Letter;
 use super::letters;
 use super::page::{Page, Source};
+use super::palette;
 use super::problem::Problem;
 use super::project::Project;
 use super::repeats::{self, Settled};
@@ -118,6 +119,7 @@ pub fn build(project: &Project, world: World<'_>) -> Result<Built, Vec<Problem>>
     let options = assemble::Options {
         compose: project.compose.clone(),
         anchors: project.anchors.clone(),
+        inks: palette::of(project, &pages),
         ..project.spacing.clone()
     };
     let mut assembled = assemble::font(drawn, info, &options).map_err(|e| vec![e.into()])?;

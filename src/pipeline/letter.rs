@@ -6,7 +6,7 @@ use super::watch::{Stage, Watch};
 use crate::assemble::{Drawn, names};
 use crate::finish::place;
 use crate::trace;
-use crate::types::{Cell, Contour, Font, Frame, Guides, Label, Png};
+use crate::types::{Cell, Contour, Font, Frame, Guides, Label, Outline, Plate, Png};
 use kurbo::{BezPath, Rect};
 
 /// What was drawn in a cell, still in the cell's px.
@@ -28,6 +28,8 @@ pub struct Letter {
     pub edge: Vec<Contour>,
     /// Its closed curves, px, y up, origin at the picture's bottom left.
     pub paths: Vec<BezPath>,
+    /// The closed curves around each ink's own part, by the ink, the lowest first; empty where inks make no layers.
+    pub plates: Vec<(String, Vec<BezPath>)>,
 }
 
 impl Letter {
@@ -42,9 +44,15 @@ impl Letter {
         watch: &dyn Watch,
     ) -> Result<Self, Problem> {
         let _time = watch.enter(Stage::Trace);
-        match trace_picture(&cell.gray, options) {
-            Ok(paths) if paths.is_empty() => Err(Problem::Empty(Place::of(sheet, &cell))),
-            Ok(paths) => Ok(Self {
+        let plate = |plate: &Plate| Ok((plate.ink.clone(), trace_picture(&plate.gray, options)?));
+        let traced = trace_picture(&cell.gray, options);
+        let traced = traced.and_then(|paths| {
+            let plates = cell.plates.iter().map(plate);
+            Ok((paths, plates.collect::<Result<Vec<_>, _>>()?))
+        });
+        match traced {
+            Ok((paths, _)) if paths.is_empty() => Err(Problem::Empty(Place::of(sheet, &cell))),
+            Ok((paths, plates)) => Ok(Self {
                 sheet: sheet.to_owned(),
                 edge: trace::trace(&cell.gray, &trace::Options::default()),
                 picture: Png::of(&cell.gray),
@@ -53,6 +61,7 @@ impl Letter {
                 in_sheet: cell.in_sheet,
                 guides: cell.guides,
                 paths,
+                plates,
             }),
             Err(source) => Err(Problem::Fit {
                 place: Place::of(sheet, &cell),
@@ -107,15 +116,21 @@ impl Letter {
     /// The curves are no outline.
     pub(super) fn place(&self, units_per_em: u16) -> Result<Drawn, Problem> {
         let frame = self.frame(units_per_em);
-        let outline = place::outline(&self.paths, frame).map_err(|source| Problem::Outline {
-            place: self.spot(),
-            source,
-        })?;
+        let outline = |paths: &[BezPath]| {
+            place::outline(paths, frame).map_err(|source| Problem::Outline {
+                place: self.spot(),
+                source,
+            })
+        };
+        let plates = self.plates.iter();
+        let plates = plates.map(|(ink, paths)| Ok((ink.clone(), outline(paths)?)));
+        let plates: Vec<(String, Outline)> = plates.collect::<Result<_, Problem>>()?;
         let units = |px: f64| (px - frame.origin_px) * frame.units_per_px;
         let advance = self.guides.advance_px;
         Ok(Drawn {
             label: self.label.clone(),
-            outline,
+            outline: outline(&self.paths)?,
+            plates: plates.into_iter().filter(|p| !p.1.is_empty()).collect(),
             advance: advance.map(|(left, right)| (units(left), units(right))),
         })
     }

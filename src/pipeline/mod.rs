@@ -15,6 +15,7 @@ mod letter;
 mod letters;
 mod outputs;
 mod page;
+mod palette;
 pub mod picture;
 mod printing;
 mod problem;

@@ -10,7 +10,7 @@ use super::problem::{Place, Problem};
 use super::project::{Cells, Layout, Project, SheetTable};
 use super::watch::Stage;
 use crate::assemble::names;
-use crate::scan::{self, Cut, Pin, Turn, Warning};
+use crate::scan::{self, Cut, Grain, Pin, Turn, Warning};
 use crate::template::Gain;
 use crate::types::{Cell, Label, Sheet};
 use std::collections::BTreeSet;
@@ -305,7 +305,12 @@ fn load(table: &SheetTable, turn: Turn, world: World<'_>) -> Result<Sheet, Probl
     let _time = world.watch.enter(Stage::Load);
     let bytes = world.file(image)?;
     let name = image.display().to_string();
-    let mut pages = scan::load_turned(&bytes, &name, table.polarity, turn)?;
+    let grain = if table.ink.layers().is_empty() {
+        Grain::Blocks
+    } else {
+        Grain::Pixels
+    };
+    let mut pages = scan::load_turned(&bytes, &name, table.polarity, (turn, grain))?;
     let count = pages.len();
     match table.page {
         None if count == 1 => Ok(pages.swap_remove(0)),

@@ -94,6 +94,14 @@ impl<'a> Printing<'a> {
                     .to_owned(),
             });
         }
+        if !table.ink.layers().is_empty() {
+            return Err(Problem::Sheet {
+                sheet: table.name(),
+                why: "layers of several inks are made from a grid, free or boxes: give one ink to a template, or name \
+                      another layout"
+                    .to_owned(),
+            });
+        }
         let names: Vec<String> = labels.iter().map(|l| l.0.clone()).collect();
         let pages = layout.places(&names, direction(table));
         Ok(Self {
@@ -196,6 +204,7 @@ impl<'a> Printing<'a> {
             rejected,
             skew_deg: b.atan2(a).to_degrees(),
             upright: Affine::scale(scale) * down.inverse(),
+            colours: Vec::new(),
             misfit: None,
         };
         let page = Page {

@@ -4,7 +4,7 @@ use super::batch::Batch;
 use super::build::Traced;
 use super::letter::Letter;
 use super::page::Page;
-use crate::scan::{Cut, Reason, Rejected, Warning};
+use crate::scan::{Colour, Cut, Reason, Rejected, Warning};
 use crate::template::Gain;
 use crate::types::{Contour, Guides, Label, Png};
 use kurbo::{Affine, BezPath, PathEl, Point, Rect};
@@ -24,6 +24,8 @@ struct PageRecord {
     skew_deg: f64,
     upright: [f64; 6],
     specks: usize,
+    /// Ink, red, green and blue, and area.
+    colours: Vec<(String, [u8; 3], usize)>,
     gain: Option<Gain>,
     px_per_mm: Option<f64>,
 }
@@ -43,6 +45,8 @@ struct LetterRecord {
     /// Blur and points of each contour.
     edge: Vec<(f64, Vec<(f64, f64)>)>,
     paths: Vec<Vec<Step>>,
+    /// Of each ink.
+    plates: Vec<(String, Vec<Vec<Step>>)>,
 }
 
 /// An element of a path.
@@ -79,6 +83,7 @@ impl PageRecord {
         let cut = &page.cut;
         let rejected = cut.rejected.iter();
         let warnings = cut.warnings.iter();
+        let colour = |c: &Colour| (c.ink.clone(), c.rgb, c.area_px);
         let label = |w: &Warning| w.label.as_ref().map(|l| l.0.clone());
         Self {
             number: *number,
@@ -93,6 +98,7 @@ impl PageRecord {
             skew_deg: cut.skew_deg,
             upright: cut.upright.as_coeffs(),
             specks: cut.specks,
+            colours: cut.colours.iter().map(colour).collect(),
             gain: page.gain.clone(),
             px_per_mm: page.px_per_mm,
         }
@@ -112,6 +118,8 @@ impl PageRecord {
             label: label.map(Label),
             message,
         });
+        let colours = self.colours.into_iter();
+        let colours = colours.map(|(ink, rgb, area_px)| Colour { ink, rgb, area_px });
         let page = Page {
             name: self.name,
             table: 0,
@@ -122,6 +130,7 @@ impl PageRecord {
                 skew_deg: self.skew_deg,
                 upright: Affine::new(self.upright),
                 specks: self.specks,
+                colours: colours.collect(),
                 // it has said what it had to when the page was cut
                 misfit: None,
             },
@@ -134,6 +143,10 @@ impl PageRecord {
 
 impl LetterRecord {
     fn of(letter: &Letter) -> Self {
+        let plate = |(ink, paths): &(String, Vec<BezPath>)| {
+            let paths = paths.iter().map(steps).collect();
+            (ink.clone(), paths)
+        };
         let ring = |c: &Contour| (c.blur_px(), c.points().iter().map(pair).collect());
         Self {
             sheet: letter.sheet.clone(),
@@ -148,10 +161,15 @@ impl LetterRecord {
             advance_px: letter.guides.advance_px,
             edge: letter.edge.iter().map(ring).collect(),
             paths: letter.paths.iter().map(steps).collect(),
+            plates: letter.plates.iter().map(plate).collect(),
         }
     }
 
     fn letter(self) -> Option<Letter> {
+        let drawn = |(ink, paths): (String, Vec<Vec<Step>>)| {
+            let paths = paths.iter().map(|p| path(p)).collect();
+            (ink, paths)
+        };
         let ring = |(blur, points): (f64, Vec<(f64, f64)>)| {
             let points = points.into_iter().map(Point::from).collect();
             Some(Contour::new(points).ok()?.with_blur(blur))
@@ -169,6 +187,7 @@ impl LetterRecord {
             },
             edge: self.edge.into_iter().map(ring).collect::<Option<_>>()?,
             paths: self.paths.iter().map(|p| path(p)).collect(),
+            plates: self.plates.into_iter().map(drawn).collect(),
         })
     }
 }

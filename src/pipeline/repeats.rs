@@ -73,7 +73,8 @@ pub(super) fn settle(
             rings.push(ring);
             continue;
         }
-        let cell = (repeated == Repeated::Median)
+        let plain = all.iter().all(|&i| letters[i].plates.is_empty());
+        let cell = (repeated == Repeated::Median && plain)
             .then(|| average::middle(&all.iter().map(|&i| &letters[i]).collect::<Vec<_>>()));
         if let Some(cell) = cell.flatten() {
             let first = all[0];

@@ -9,6 +9,7 @@
 //! Letters of a skewed page come out upright: their pixels are interpolated once, the only resampling
 //! between the scanner and the contour.
 
+mod chamfer;
 mod clean;
 mod components;
 mod cut;
@@ -22,12 +23,14 @@ mod load;
 mod options;
 mod paper;
 mod perspective;
+mod separation;
 mod whole;
 
 pub use clean::{Page, clean, clean_paper};
 pub use cut::{Cut, Pin, Reason, Region, Rejected, Warning, cut, cut_with};
 pub use cut::{SMALL, SMALL_LETTER, is_full};
 pub use error::ScanError;
-pub use ink::Ink;
-pub use load::{Polarity, Turn, load, load_turned};
+pub use ink::{Ink, Inks};
+pub use load::{Grain, Polarity, Turn, load, load_turned};
 pub use options::{Direction, Layout, Options, Order, Scale};
+pub use separation::Colour;

@@ -1,6 +1,6 @@
 //! What a user says about a page.
 
-use super::Ink;
+use super::Inks;
 use serde::{Deserialize, Serialize};
 
 /// How the cells lie on the page.
@@ -55,7 +55,7 @@ pub enum Scale {
 }
 
 /// How a page is cut.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Options {
     /// How the cells lie.
@@ -64,8 +64,8 @@ pub struct Options {
     pub direction: Direction,
     /// Rows or columns first.
     pub order: Order,
-    /// The ink of the letters; ink of other colours is in no cell.
-    pub ink: Ink,
+    /// The inks of the letters; ink of other colours is in no cell.
+    pub ink: Inks,
     /// The size of an em; measured from the letters' usual heights where it is not given.
     pub scale: Option<Scale>,
 }

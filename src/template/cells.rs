@@ -87,6 +87,7 @@ fn drawing(
             advance_px: None,
         },
         gray: crop(&tile, window, level),
+        plates: Vec::new(),
     };
     let joins = joining(&place.label);
     Drawing {

@@ -124,6 +124,8 @@ pub struct Font {
     glyphs: Vec<Glyph>,
     /// Pair kerning.
     pub kerning: Kerning,
+    /// Colours of the glyphs' layers: red, green and blue.
+    pub palette: Vec<[u8; 3]>,
     /// OpenType features in feature-file syntax, except kerning and mark attachment: those follow
     /// from [`Self::kerning`] and the glyphs' anchors when a font is written.
     pub features: String,
@@ -165,6 +167,7 @@ impl Font {
             info,
             glyphs,
             kerning: Kerning::default(),
+            palette: Vec::new(),
             features: String::new(),
             carried: BTreeMap::new(),
         })

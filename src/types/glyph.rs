@@ -73,6 +73,15 @@ pub struct Component {
     pub place: Affine,
 }
 
+/// A part of a glyph that has one colour.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Layer {
+    /// The glyph whose shape it is.
+    pub glyph: Name,
+    /// Its place in the font's palette, from 0; the text's colour where it has none.
+    pub colour: Option<usize>,
+}
+
 /// One glyph of a font, font units.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Glyph {
@@ -88,6 +97,8 @@ pub struct Glyph {
     pub components: Vec<Component>,
     /// Attachment points.
     pub anchors: Vec<Anchor>,
+    /// What programs that know colours draw in its place, the lowest first; empty for a glyph of the text's colour.
+    pub layers: Vec<Layer>,
 }
 
 impl Glyph {
@@ -102,6 +113,7 @@ impl Glyph {
             outline,
             components: Vec::new(),
             anchors: Vec::new(),
+            layers: Vec::new(),
         }
     }
 }

@@ -53,6 +53,15 @@ pub struct Guides {
     pub advance_px: Option<(f64, f64)>,
 }
 
+/// A letter's ink of one colour.
+#[derive(Debug, Clone)]
+pub struct Plate {
+    /// The ink, as the project file names it.
+    pub ink: String,
+    /// Coverage by this ink in the cell; it runs on by a hair under the plates above.
+    pub gray: Gray,
+}
+
 /// One letter of a page: the ink that belongs to it and nothing else.
 #[derive(Debug, Clone)]
 pub struct Cell {
@@ -62,6 +71,8 @@ pub struct Cell {
     pub index: usize,
     /// Coverage inside the cell; other cells' ink, printed lines and dust are paper here.
     pub gray: Gray,
+    /// The coverage by each ink, the lowest first, where inks are to become layers; empty elsewhere.
+    pub plates: Vec<Plate>,
     /// The ink's rectangle in the sheet's picture, px, y down, inside the picture.
     pub in_sheet: Rect,
     /// From cell px (y down) to px of the sheet's picture.

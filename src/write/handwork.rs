@@ -253,6 +253,11 @@ impl Merge {
         names.extend(more.filter(|n| !listed.contains(n)));
         let names = names.into_iter().map(Value::from).collect();
         out.lib.extend(build.lib.clone());
+        if !ufo::has_layers(out) {
+            for key in ufo::COLOUR_KEYS {
+                out.lib.remove(key);
+            }
+        }
         out.lib
             .insert("public.glyphOrder".to_owned(), Value::Array(names));
         Ok(())

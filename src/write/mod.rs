@@ -4,6 +4,7 @@
 //! bytes, and nothing touches the disk.
 
 mod cff;
+mod colour;
 pub mod handwork;
 pub mod layout;
 mod names;

@@ -1,7 +1,7 @@
 //! The tables that TrueType and CFF fonts share.
 
 use super::numbers::{count, to_i16, to_u16};
-use super::{WriteError, layout, names, os2};
+use super::{WriteError, colour, layout, names, os2};
 use crate::types::{Font, Glyph};
 use kurbo::Rect;
 use std::collections::BTreeMap;
@@ -41,6 +41,10 @@ pub(super) fn common(font: &Font, extents: &[Option<Rect>]) -> Result<Common, Wr
     add(&mut builder, "OS/2", &os2::table(font, &advances, extents)?)?;
     add(&mut builder, "name", &names::table(&font.info)?)?;
     add(&mut builder, "cmap", &cmap(font)?)?;
+    if let Some((colr, cpal)) = colour::tables(font)? {
+        add(&mut builder, "COLR", &colr)?;
+        add(&mut builder, "CPAL", &cpal)?;
+    }
     let features = layout::compile(font)?;
     let carried = font.carried.clone();
     if let Some(gsub) = &features.gsub {

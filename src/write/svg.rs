@@ -1,7 +1,7 @@
 //! One SVG a glyph: user space in font units, y down, the em box from ascender to descender.
 
 use super::WriteError;
-use crate::types::{Files, Font, Glyph};
+use crate::types::{Files, Font, Glyph, Layer, Name};
 use kurbo::{Affine, BezPath, PathEl, Point};
 use std::collections::BTreeSet;
 use std::fmt::Write;
@@ -9,7 +9,7 @@ use std::fmt::Write;
 /// Numbers are cut to thousandths of a unit: below what a rasteriser can show.
 const PER_UNIT: f64 = 1000.0;
 
-/// A file for every glyph that has ink.
+/// A file for every glyph that has ink; colours lie in the glyph whose layers they are.
 #[expect(
     clippy::unnecessary_wraps,
     reason = "every writer in the table has one signature"
@@ -17,15 +17,19 @@ const PER_UNIT: f64 = 1000.0;
 pub(super) fn files(font: &Font) -> Result<Files, WriteError> {
     let mut files = Files::default();
     let mut taken = BTreeSet::new();
+    let layers: BTreeSet<&Name> = font
+        .glyphs()
+        .iter()
+        .flat_map(|g| &g.layers)
+        .map(|l| &l.glyph)
+        .collect();
     for glyph in font.glyphs() {
         let shape = font.shape(glyph);
-        if shape.is_empty() {
+        if shape.is_empty() || layers.contains(&glyph.name) {
             continue;
         }
         let name = file_name(glyph.name.as_str(), &mut taken);
-        files
-            .0
-            .insert(name, document(font, glyph, &shape.to_path()).into_bytes());
+        files.0.insert(name, document(font, glyph).into_bytes());
     }
     Ok(files)
 }
@@ -45,13 +49,29 @@ fn file_name(glyph: &str, taken: &mut BTreeSet<String>) -> String {
     format!("{stem}.svg")
 }
 
-fn document(font: &Font, glyph: &Glyph, shape: &BezPath) -> String {
+fn document(font: &Font, glyph: &Glyph) -> String {
     let m = font.info.metrics;
-    let path = path_data(&(Affine::FLIP_Y * shape));
+    let path = |glyph: &Glyph, fill: &str| {
+        let data = path_data(&(Affine::FLIP_Y * font.shape(glyph).to_path()));
+        format!("  <path{fill} d=\"{data}\"/>\n")
+    };
+    let layer = |layer: &Layer| {
+        let colour = layer.colour.and_then(|c| font.palette.get(c));
+        let fill = colour.map(|[r, g, b]| format!(" fill=\"#{r:02x}{g:02x}{b:02x}\""));
+        Some(path(
+            font.glyph(layer.glyph.as_str())?,
+            &fill.unwrap_or_default(),
+        ))
+    };
+    let paths = if glyph.layers.is_empty() {
+        path(glyph, "")
+    } else {
+        glyph.layers.iter().filter_map(layer).collect()
+    };
     let (top, height) = (number(-m.ascender), number(m.ascender - m.descender));
     let width = number(glyph.advance);
     format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 {top} {width} {height}\">\n  <path d=\"{path}\"/>\n</svg>\n"
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 {top} {width} {height}\">\n{paths}</svg>\n"
     )
 }
 

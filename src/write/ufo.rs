@@ -6,7 +6,7 @@
 
 use super::layout::{self, Class};
 use super::{WriteError, handwork, names};
-use crate::types::{Files, Font, Glyph, Info};
+use crate::types::{Files, Font, Glyph, Info, Layer};
 use kurbo::{BezPath, PathEl, Point, Vec2};
 use norad::fontinfo::{NonNegativeIntegerOrFloat, StyleMapStyle};
 use norad::{AffineTransform, Contour, ContourPoint, FontInfo, PointType, WriteOptions};
@@ -16,6 +16,14 @@ use std::sync::Mutex;
 
 /// Tangents that turn less than this at a point, radians, make it a smooth one: a quarter of a degree.
 const SMOOTH: f64 = 0.0044;
+
+/// Keys of the lib that hold layers and palettes.
+pub(super) const COLOUR_KEYS: [&str; 2] = [
+    "com.github.googlei18n.ufo2ft.colorLayers",
+    "com.github.googlei18n.ufo2ft.colorPalettes",
+];
+/// The palette entry that stands for the text's colour.
+const FOREGROUND: u64 = 0xFFFF;
 
 /// Bit of OS/2 fsSelection that asks programs to use the typo metrics.
 const USE_TYPO_METRICS: u8 = 7;
@@ -70,6 +78,7 @@ fn convert(font: &Font) -> Result<norad::Font, WriteError> {
         .collect();
     ufo.lib
         .insert("public.glyphOrder".to_owned(), Value::Array(order));
+    ufo.lib.extend(colours(font));
     let categories = font
         .glyphs()
         .iter()
@@ -103,6 +112,41 @@ fn convert(font: &Font) -> Result<norad::Font, WriteError> {
         ufo.kerning.entry(first).or_default().insert(second, value);
     }
     Ok(ufo)
+}
+
+/// Layers and palette where ufo2ft looks for them: layers are glyphs of their own, colours have parts of 1.
+fn colours(font: &Font) -> Dictionary {
+    let mut lib = Dictionary::new();
+    let layered = font.glyphs().iter().filter(|g| !g.layers.is_empty());
+    let layer = |layer: &Layer| {
+        let colour = layer.colour.map_or(FOREGROUND, |c| c as u64);
+        Value::Array(vec![layer.glyph.as_str().into(), colour.into()])
+    };
+    let layers = layered.map(|g| {
+        let layers = g.layers.iter().map(layer).collect();
+        (g.name.to_string(), Value::Array(layers))
+    });
+    let layers: Dictionary = layers.collect();
+    if layers.is_empty() {
+        return lib;
+    }
+    let colour = |rgb: &[u8; 3]| {
+        let parts = rgb.iter().map(|&v| Value::from(f64::from(v) / 255.0));
+        Value::Array(parts.chain([1.0.into()]).collect())
+    };
+    let palette = Value::Array(font.palette.iter().map(colour).collect());
+    lib.insert(COLOUR_KEYS[0].to_owned(), Value::Dictionary(layers));
+    lib.insert(COLOUR_KEYS[1].to_owned(), Value::Array(vec![palette]));
+    lib
+}
+
+/// Whether the layers that a UFO names are there.
+pub(super) fn has_layers(ufo: &norad::Font) -> bool {
+    let layers = ufo.lib.get(COLOUR_KEYS[0]).and_then(Value::as_dictionary);
+    let layers = layers.into_iter().flat_map(Dictionary::values);
+    let pairs = layers.filter_map(Value::as_array).flatten();
+    let names = pairs.filter_map(|pair| pair.as_array()?.first()?.as_string());
+    names.into_iter().all(|name| ufo.get_glyph(name).is_some())
 }
 
 /// A glyph's name and what GDEF says of it.

@@ -205,6 +205,7 @@ fn run(path: &Path, glyphs: Glyphs, out: Option<&Path>) -> Result<(), Box<dyn Er
     let drawn = truth.iter().map(|t| Drawn {
         label: Label(t.label.clone()),
         outline: t.outline.clone(),
+        plates: Vec::new(),
         advance: None,
     });
     let stem = path

@@ -272,6 +272,7 @@ impl Work<'_> {
         Ok(Some(Draft {
             id,
             outline: self.outline(&parts),
+            plates: Vec::new(),
             advance: base.advance + left + right,
             parts,
             ..base.clone()
@@ -421,17 +422,21 @@ impl Work<'_> {
             .iter()
             .map(bounds)
             .min_by(|a, b| a.y0.total_cmp(&b.y0))?;
-        let (kept, dots): (Vec<_>, Vec<_>) = contours
-            .iter()
-            .cloned()
-            .partition(|c| bounds(c).y0 < stem.y1);
-        let id = names::identify(&Label(dotless.to_string())).ok()?;
-        if dots.is_empty() {
+        let without = |outline: &Outline| {
+            let contours = outline.contours().iter();
+            let kept = contours.filter(|c| bounds(c).y0 < stem.y1).cloned();
+            Outline::new(kept.collect()).ok()
+        };
+        let outline = without(&whole.outline)?;
+        if outline.contours().len() == contours.len() {
             return None;
         }
+        let plates = whole.plates.iter();
+        let plates = plates.filter_map(|(ink, own)| Some((*ink, without(own)?)));
         let draft = Draft {
-            id,
-            outline: Outline::new(kept).ok()?,
+            id: names::identify(&Label(dotless.to_string())).ok()?,
+            outline,
+            plates: plates.filter(|p| !p.1.is_empty()).collect(),
             ..whole.clone()
         };
         self.drafts.push(draft);

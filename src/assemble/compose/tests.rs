@@ -10,6 +10,7 @@ fn drawn(label: &str, rects: &[[f64; 4]]) -> Drawn {
     Drawn {
         label: Label(label.to_owned()),
         outline: Outline::new(contours).unwrap(),
+        plates: Vec::new(),
         advance: None,
     }
 }

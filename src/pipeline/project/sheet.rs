@@ -1,7 +1,7 @@
 //! `[[sheet]]`: a page and what is drawn on it.
 
 use super::check;
-use crate::scan::{self, Direction, Ink, Options, Order, Polarity, Scale, Turn};
+use crate::scan::{self, Direction, Inks, Options, Order, Polarity, Scale, Turn};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
@@ -31,9 +31,10 @@ pub struct SheetTable {
     /// Which of dark and light is the ink.
     #[serde(default)]
     pub polarity: Polarity,
-    /// Which ink the letters are drawn with, where the page has other colours too.
+    /// Which ink the letters are drawn with, where the page has other colours too; a list of inks makes each of them a
+    /// layer of a colour font, the lowest first.
     #[serde(default)]
-    pub ink: Ink,
+    pub ink: Inks,
     /// What the cells hold, in reading order.
     pub glyphs: Labels,
     /// Pixels an em.
@@ -156,7 +157,7 @@ impl SheetTable {
             layout,
             direction: self.direction,
             order: self.order,
-            ink: self.ink,
+            ink: self.ink.clone(),
             scale: given.first().map(|(_, scale)| *scale),
         })
     }

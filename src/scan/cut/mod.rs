@@ -17,9 +17,9 @@ use super::clean::Page;
 use super::components::{Component, Run, components};
 use super::deskew::{Edges, skew_deg};
 use super::error::ScanError;
-use super::ink::Ink;
 use super::options::{Direction, Layout, Options, Order};
 use super::perspective::Scene;
+use super::separation::{Colour, Separation};
 use crate::numeric::view::View;
 use crate::types::{Cell, Label};
 use kurbo::{Affine, Point, Rect};
@@ -61,6 +61,8 @@ pub struct Cut {
     pub upright: Affine,
     /// Pieces of ink below the speckle limit, which are in no list.
     pub specks: usize,
+    /// The inks of the layers, the lowest first; none where letters have no layers.
+    pub colours: Vec<Colour>,
     /// How badly the letters stand for what their names say, 0 to 1; above a third the page may lie on its side or
     /// head. `None` where the names say too little.
     pub misfit: Option<f64>,
@@ -201,6 +203,8 @@ pub fn cut_with(
         rejected: beside,
         specks,
     } = sort(components(gray, low, SEED.max(low)), page, options)?;
+    let separation = Separation::measure(&page.sheet, &all, &options.ink, speck_limit(&all));
+    let separation = separation.map_err(|ink| other_ink(page, ink))?;
     let edges = Edges::new(&all.iter().collect::<Vec<_>>());
     let skew_deg = Some(skew_deg(&edges)).filter(|s| s.abs() >= LEAST_SKEW_DEG);
     let skew_deg = skew_deg.unwrap_or(0.0);
@@ -231,7 +235,11 @@ pub fn cut_with(
     let empty = layer.slots.iter().filter(|s| s.parts.is_empty());
     warnings
         .extend(empty.map(|s| Warning::of(s, "the cell is empty: draw the letter or name it _")));
-    let shutter = window::Shutter { page, low };
+    let shutter = window::Shutter {
+        page,
+        low,
+        separation: separation.as_ref(),
+    };
     let cells = inked.par_iter().map(|slot| {
         let parts: Vec<&Component> = slot.parts.iter().map(|&i| &all[i]).collect();
         shutter.cell(
@@ -255,6 +263,7 @@ pub fn cut_with(
         skew_deg,
         upright: upright.affine().unwrap_or_else(|| upright.near(middle)),
         specks,
+        colours: separation.map_or_else(Vec::new, |s| s.colours()),
         misfit,
     })
 }
@@ -311,10 +320,7 @@ fn sort(all: Vec<Component>, page: &Page, options: &Options) -> Result<Inks, Sca
     let (found, mut beyond): (Vec<_>, Vec<_>) = all.into_iter().partition(|c| on_paper(c, page));
     let (mut letters, mut other) = options.ink.part(found, page.sheet.colours.as_ref());
     if letters.is_empty() && !other.is_empty() {
-        return Err(ScanError::OtherInk {
-            source_name: page.sheet.source.clone(),
-            ink: options.ink.into(),
-        });
+        return Err(other_ink(page, options.ink.to_string()));
     }
     let least = speck_limit(&letters);
     let mut specks = 0;
@@ -334,9 +340,16 @@ fn sort(all: Vec<Component>, page: &Page, options: &Options) -> Result<Inks, Sca
     })
 }
 
+fn other_ink(page: &Page, ink: String) -> ScanError {
+    ScanError::OtherInk {
+        source_name: page.sheet.source.clone(),
+        ink,
+    }
+}
+
 /// A remark where inks are to be told apart in a picture without colours.
 fn colourless(page: &Page, options: &Options) -> Option<Warning> {
-    let useless = options.ink != Ink::Any && page.sheet.colours.is_none();
+    let useless = options.ink.choose() && page.sheet.colours.is_none();
     useless.then(|| Warning {
         index: None,
         label: None,

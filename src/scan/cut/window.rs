@@ -6,10 +6,12 @@
 
 use super::Slot;
 use crate::numeric::view::View;
+use crate::scan::chamfer::distances;
 use crate::scan::clean::Page;
 use crate::scan::components::{Component, Run};
+use crate::scan::separation::{self, Separation};
 use crate::scan::whole::{floor, narrow};
-use crate::types::{Cell, Gray, Guides};
+use crate::types::{Cell, Gray, Guides, Plate};
 use kurbo::{Affine, Point, Rect, Vec2};
 use std::f64::consts::PI;
 
@@ -29,6 +31,8 @@ pub(super) struct Shutter<'a> {
     pub(super) page: &'a Page,
     /// Coverage from which pixels are ink.
     pub(super) low: f32,
+    /// What tells the inks apart that become layers.
+    pub(super) separation: Option<&'a Separation<'a>>,
 }
 
 impl Shutter<'_> {
@@ -59,10 +63,12 @@ impl Shutter<'_> {
             |map| View::from(map.inverse() * corner),
         );
         let middle = (window.center() - window.origin()).to_point();
+        let (gray, plates) = self.pictures(parts, window, &to_sheet);
         Cell {
             label: slot.label.clone(),
             index: slot.index,
-            gray: self.picture(parts, window, &to_sheet),
+            gray,
+            plates,
             in_sheet: union(|c| c.bounds).unwrap_or(Rect::ZERO),
             to_sheet: to_sheet.affine().unwrap_or_else(|| to_sheet.near(middle)),
             guides: Guides {
@@ -73,25 +79,37 @@ impl Shutter<'_> {
         }
     }
 
-    fn picture(&self, parts: &[&Component], window: Rect, to_sheet: &View) -> Gray {
+    /// The picture of all ink, and of each ink by itself where there are several.
+    fn pictures(&self, parts: &[&Component], window: Rect, to_sheet: &View) -> (Gray, Vec<Plate>) {
         let (w, h) = (floor(window.width()), floor(window.height()));
         let needed = to_sheet.bounds(Rect::new(0.0, 0.0, w as f64, h as f64));
-        let patch = Patch::new(
+        let mut patch = Patch::new(
             self,
             parts,
             needed.inflate(LOBES as f64 + 1.0, LOBES as f64 + 1.0),
         );
-        if let Some(shift) = to_sheet.affine().and_then(whole_shift) {
-            let shift = shift - patch.origin.to_vec2();
-            let at = |x: usize, y: usize| patch.at(x as f64 + shift.x, y as f64 + shift.y);
-            return Gray::from_fn(w, h, at);
+        let Some(separation) = self.separation else {
+            return (patch.picture((w, h), to_sheet), Vec::new());
+        };
+        let mut all = separation.plates(&separation::Part {
+            corner: (floor(patch.origin.x), floor(patch.origin.y)),
+            width: patch.width,
+            samples: &patch.samples,
+        });
+        for (i, v) in patch.samples.iter_mut().enumerate() {
+            *v = all.iter().map(|plate| plate[i]).sum();
         }
-        let kernel = Kernel::new();
-        let to_patch = View::from(Affine::translate(-patch.origin.to_vec2())) * *to_sheet;
-        Gray::from_fn(w, h, |x, y| {
-            let p = to_patch.at(Point::new(x as f64 + 0.5, y as f64 + 0.5));
-            kernel.sample(&patch, p.x - 0.5, p.y - 0.5)
-        })
+        let gray = patch.picture((w, h), to_sheet);
+        separation::trap(&mut all, patch.width);
+        let plates = separation.colours().into_iter().zip(all);
+        let plates = plates.map(|(colour, samples)| {
+            patch.samples = samples;
+            Plate {
+                ink: colour.ink,
+                gray: patch.picture((w, h), to_sheet),
+            }
+        });
+        (gray, plates.collect())
     }
 }
 
@@ -157,6 +175,21 @@ impl Patch {
         new
     }
 
+    /// Its picture of a size in px, each of whose places `to_sheet` maps to the sheet's.
+    fn picture(&self, (w, h): (usize, usize), to_sheet: &View) -> Gray {
+        if let Some(shift) = to_sheet.affine().and_then(whole_shift) {
+            let shift = shift - self.origin.to_vec2();
+            let at = |x: usize, y: usize| self.at(x as f64 + shift.x, y as f64 + shift.y);
+            return Gray::from_fn(w, h, at);
+        }
+        let kernel = Kernel::new();
+        let to_patch = View::from(Affine::translate(-self.origin.to_vec2())) * *to_sheet;
+        Gray::from_fn(w, h, |x, y| {
+            let p = to_patch.at(Point::new(x as f64 + 0.5, y as f64 + 0.5));
+            kernel.sample(self, p.x - 0.5, p.y - 0.5)
+        })
+    }
+
     fn mark(&self, r: &Run, mask: &mut [u16]) {
         let place = |v: usize, origin: f64, size: usize| v.saturating_sub(floor(origin)).min(size);
         let y = place(r.y, self.origin.y, self.height);
@@ -176,35 +209,6 @@ impl Patch {
             self.samples[floor(y) * self.width + floor(x)]
         } else {
             0.0
-        }
-    }
-}
-
-/// Distances to the pixels that are 0, in thirds of a pixel: two passes of a 3-4 chamfer.
-fn distances(field: &mut [u16], width: usize) {
-    let last = field.len().saturating_sub(1);
-    spread(field, width, |i| i);
-    spread(field, width, |i| last - i);
-}
-
-/// One pass of the chamfer over the pixels in the order that `at` gives them.
-fn spread(field: &mut [u16], width: usize, at: impl Fn(usize) -> usize) {
-    let height = field.len() / width.max(1);
-    for y in 0..height {
-        for x in 0..width {
-            let here = at(y * width + x);
-            let mut best = field[here];
-            let mut from = |dx: isize, dy: usize, cost: u16| {
-                let column = x.checked_add_signed(dx).filter(|&c| c < width);
-                if let (Some(c), Some(r)) = (column, y.checked_sub(dy)) {
-                    best = best.min(field[at(r * width + c)].saturating_add(cost));
-                }
-            };
-            from(-1, 0, 3);
-            from(0, 1, 3);
-            from(-1, 1, 4);
-            from(1, 1, 4);
-            field[here] = best;
         }
     }
 }

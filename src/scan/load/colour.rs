@@ -1,5 +1,6 @@
 //! Which light a picture swallows, block by block.
 
+use super::Grain;
 use crate::types::Colours;
 use image::DynamicImage;
 use rayon::prelude::*;
@@ -8,13 +9,17 @@ use rayon::prelude::*;
 const BLOCK: usize = 8;
 
 /// The colours of a picture that has any.
-pub(super) fn colours(image: &DynamicImage) -> Option<Colours> {
-    let width = image.width() as usize;
+pub(super) fn colours(image: &DynamicImage, grain: Grain) -> Option<Colours> {
+    let side = match grain {
+        Grain::Blocks => BLOCK,
+        Grain::Pixels => 1,
+    };
+    let size = (image.width() as usize, side);
     match image {
-        DynamicImage::ImageRgb8(i) => Some(blocks(i.as_raw(), width, 3, |v| u32::from(*v))),
-        DynamicImage::ImageRgba8(i) => Some(blocks(i.as_raw(), width, 4, |v| u32::from(*v))),
-        DynamicImage::ImageRgb16(i) => Some(blocks(i.as_raw(), width, 3, |v| u32::from(v >> 8))),
-        DynamicImage::ImageRgba16(i) => Some(blocks(i.as_raw(), width, 4, |v| u32::from(v >> 8))),
+        DynamicImage::ImageRgb8(i) => Some(blocks(i.as_raw(), size, 3, |v| u32::from(*v))),
+        DynamicImage::ImageRgba8(i) => Some(blocks(i.as_raw(), size, 4, |v| u32::from(*v))),
+        DynamicImage::ImageRgb16(i) => Some(blocks(i.as_raw(), size, 3, |v| u32::from(v >> 8))),
+        DynamicImage::ImageRgba16(i) => Some(blocks(i.as_raw(), size, 4, |v| u32::from(v >> 8))),
         _ => None,
     }
 }
@@ -22,16 +27,16 @@ pub(super) fn colours(image: &DynamicImage) -> Option<Colours> {
 /// Means of blocks; a fourth channel is opacity over white.
 fn blocks<S: Sync>(
     raw: &[S],
-    width: usize,
+    (width, side): (usize, usize),
     channels: usize,
     level: impl Fn(&S) -> u32 + Sync,
 ) -> Colours {
-    let columns = width.div_ceil(BLOCK);
-    let bands = raw.par_chunks((width * channels * BLOCK).max(1));
+    let columns = width.div_ceil(side);
+    let bands = raw.par_chunks((width * channels * side).max(1));
     let rows = bands.map(|band| {
         let (mut sums, mut counts) = (vec![[0u32; 3]; columns], vec![0u32; columns]);
         for row in band.chunks_exact((width * channels).max(1)) {
-            let blocks = row.chunks(channels * BLOCK);
+            let blocks = row.chunks(channels * side);
             for ((sum, count), block) in sums.iter_mut().zip(&mut counts).zip(blocks) {
                 for p in block.chunks_exact(channels) {
                     let opacity = p.get(3).map_or(255, &level);
@@ -48,7 +53,7 @@ fn blocks<S: Sync>(
     });
     let swallowed: Vec<Vec<[u8; 3]>> = rows.collect();
     Colours {
-        block: BLOCK,
+        block: side,
         columns,
         swallowed: swallowed.concat(),
     }

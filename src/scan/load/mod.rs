@@ -23,6 +23,17 @@ const FLAT: f32 = 0.02;
 /// Share of dark pixels, of the outermost ring, from which the picture counts as light on dark.
 const DARK_RING: f32 = 0.9;
 
+/// How closely a picture's colours are looked at.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum Grain {
+    /// In blocks: enough to tell pieces of ink apart. Ink is what luma says.
+    #[default]
+    Blocks,
+    /// In pixels: layers are to be made of the inks. Ink is what the darkest of red, green and blue says, so that light
+    /// colours count as much as dark ones.
+    Pixels,
+}
+
 /// Which of dark and light is the ink.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -45,7 +56,7 @@ pub enum Polarity {
 /// # Errors
 /// The content is no picture of these kinds, ends too early, is damaged, or is larger than a page can be.
 pub fn load(bytes: &[u8], source: &str, polarity: Polarity) -> Result<Vec<Sheet>, ScanError> {
-    load_turned(bytes, source, polarity, Turn::None)
+    load_turned(bytes, source, polarity, (Turn::None, Grain::Blocks))
 }
 
 /// How a picture must be turned to stand upright, beyond what its file says: clockwise.
@@ -99,7 +110,7 @@ impl Turn {
     }
 }
 
-/// The same with every page turned.
+/// The same with every page turned, its colours looked at more closely or not.
 ///
 /// # Errors
 /// As of [`load`].
@@ -107,7 +118,7 @@ pub fn load_turned(
     bytes: &[u8],
     source: &str,
     polarity: Polarity,
-    turn: Turn,
+    (turn, grain): (Turn, Grain),
 ) -> Result<Vec<Sheet>, ScanError> {
     let pictures = if pdf::is_pdf(bytes) {
         pdf::pages(bytes, source)?
@@ -133,19 +144,19 @@ pub fn load_turned(
     };
     let sheets = pictures.into_iter().zip(1..);
     sheets
-        .map(|((image, dpi), n)| sheet(turn.apply(image), dpi, &name(n), polarity))
+        .map(|((image, dpi), n)| sheet((turn.apply(image), dpi), &name(n), polarity, grain))
         .collect()
 }
 
 fn sheet(
-    image: DynamicImage,
-    dpi: Option<f64>,
+    (image, dpi): (DynamicImage, Option<f64>),
     source: &str,
     polarity: Polarity,
+    grain: Grain,
 ) -> Result<Sheet, ScanError> {
     let (width, height) = (image.width() as usize, image.height() as usize);
-    let mut colours = colour::colours(&image);
-    let mut samples = ink(image);
+    let mut colours = colour::colours(&image, grain);
+    let mut samples = ink(image, grain);
     if light_on_dark(&samples, width, polarity) {
         samples.par_iter_mut().for_each(|v| *v = 1.0 - *v);
         colours = None; // what light ink swallows says nothing of it
@@ -210,17 +221,17 @@ fn decode(bytes: &[u8], source: &str) -> Result<DynamicImage, ScanError> {
     Ok(image)
 }
 
-/// Ink of every pixel, 1 − luma over white.
-fn ink(image: DynamicImage) -> Vec<f32> {
+/// Ink of every pixel over white.
+fn ink(image: DynamicImage, grain: Grain) -> Vec<f32> {
     match image {
         DynamicImage::ImageLuma8(i) => grey(i.as_raw()),
         DynamicImage::ImageLumaA8(i) => grey_alpha(i.as_raw()),
-        DynamicImage::ImageRgb8(i) => rgb(i.as_raw()),
-        DynamicImage::ImageRgba8(i) => rgba(i.as_raw()),
+        DynamicImage::ImageRgb8(i) => rgb(i.as_raw(), grain),
+        DynamicImage::ImageRgba8(i) => rgba(i.as_raw(), grain),
         DynamicImage::ImageLuma16(i) => grey(i.as_raw()),
         DynamicImage::ImageLumaA16(i) => grey_alpha(i.as_raw()),
-        DynamicImage::ImageRgb16(i) => rgb(i.as_raw()),
-        other => rgba(other.into_rgba16().as_raw()),
+        DynamicImage::ImageRgb16(i) => rgb(i.as_raw(), grain),
+        other => rgba(other.into_rgba16().as_raw(), grain),
     }
 }
 
@@ -241,16 +252,21 @@ impl Sample for u16 {
     }
 }
 
-fn luma<S: Sample>(p: &[S]) -> f32 {
-    p.iter().zip(LUMA).map(|(s, w)| s.unit() * w).sum()
+/// What counts of a pixel's light: luma, or the darkest channel.
+fn light<S: Sample>(p: &[S], grain: Grain) -> f32 {
+    match grain {
+        Grain::Blocks => p.iter().zip(LUMA).map(|(s, w)| s.unit() * w).sum(),
+        Grain::Pixels => p.iter().map(|s| s.unit()).fold(1.0, f32::min),
+    }
 }
 
 fn grey<S: Sample>(raw: &[S]) -> Vec<f32> {
     raw.par_iter().map(|s| 1.0 - s.unit()).collect()
 }
 
-fn rgb<S: Sample>(raw: &[S]) -> Vec<f32> {
-    raw.par_chunks_exact(3).map(|p| 1.0 - luma(p)).collect()
+fn rgb<S: Sample>(raw: &[S], grain: Grain) -> Vec<f32> {
+    let pixels = raw.par_chunks_exact(3);
+    pixels.map(|p| 1.0 - light(p, grain)).collect()
 }
 
 fn grey_alpha<S: Sample>(raw: &[S]) -> Vec<f32> {
@@ -258,9 +274,13 @@ fn grey_alpha<S: Sample>(raw: &[S]) -> Vec<f32> {
     over_white(pixels.map(|p| (p[0].unit(), p[1].unit())).collect())
 }
 
-fn rgba<S: Sample>(raw: &[S]) -> Vec<f32> {
+fn rgba<S: Sample>(raw: &[S], grain: Grain) -> Vec<f32> {
     let pixels = raw.par_chunks_exact(4);
-    over_white(pixels.map(|p| (luma(&p[..3]), p[3].unit())).collect())
+    over_white(
+        pixels
+            .map(|p| (light(&p[..3], grain), p[3].unit()))
+            .collect(),
+    )
 }
 
 /// Ink of (luma, opacity) pixels over white paper; where the visible colours are all one, the opacity.
