@@ -101,6 +101,48 @@ fn corrections_change_one_letter() {
     assert!(bounds(traced, &plain, 'H').is_some());
 }
 
+/// The points of a glyph, as drawn.
+#[derive(Default)]
+struct Drawn(Vec<(f32, f32)>);
+
+impl ttf_parser::OutlineBuilder for Drawn {
+    fn move_to(&mut self, x: f32, y: f32) {
+        self.0.push((x, y));
+    }
+    fn line_to(&mut self, x: f32, y: f32) {
+        self.0.push((x, y));
+    }
+    fn quad_to(&mut self, a: f32, b: f32, x: f32, y: f32) {
+        self.0.extend([(a, b), (x, y)]);
+    }
+    fn curve_to(&mut self, a: f32, b: f32, c: f32, d: f32, x: f32, y: f32) {
+        self.0.extend([(a, b), (c, d), (x, y)]);
+    }
+    fn close(&mut self) {}
+}
+
+#[test]
+fn tension_is_set_for_one_letter() {
+    let plain = page(&[]);
+    let drawn = |tension: &str| {
+        let correction = format!("[cells.o.trace.fit]\nmethod = \"gc2\"\n{tension}");
+        let (dir, out) = corrected(&plain, &correction);
+        let stderr = String::from_utf8_lossy(&out.stderr);
+        assert_eq!(out.status.code(), Some(0), "{correction}: {stderr}");
+        let bytes = font(dir.path());
+        let face = ttf_parser::Face::parse(&bytes, 0).expect("a font");
+        ['o', 'H'].map(|letter| {
+            let mut drawn = Drawn::default();
+            let glyph = face.glyph_index(letter).expect("a glyph");
+            face.outline_glyph(glyph, &mut drawn).expect("an outline");
+            drawn.0
+        })
+    };
+    let [loose, tight] = ["point_tension = 0.0", "point_tension = 40.0"].map(drawn);
+    assert_ne!(loose[0], tight[0], "o has a tension of its own");
+    assert_eq!(loose[1], tight[1], "H has not");
+}
+
 #[test]
 fn a_box_leaves_a_blot_out() {
     let clean = image::load_from_memory(&page(&[]))

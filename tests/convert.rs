@@ -1,13 +1,21 @@
 //! Reading back what was written, conversions between formats, and readers under attack.
 
 use khatt::pipeline::convert::{Options, convert};
-use khatt::quadratic::{Method, merge::merge, split::Split};
+use khatt::quadratic::{Method, merge::merge, rate::Rate, split::Split};
 use khatt::read::{self, ReadError, Reading};
 use khatt::types::{Font, Glyph, Info, Metrics, Name, Outline};
 use khatt::write::format;
 use kurbo::{Affine, BezPath, Circle, ParamCurve, ParamCurveNearest, PathSeg, Shape};
 use proptest::prelude::*;
+use skrifa::MetadataProvider;
 use std::{fs, io::Write};
+use write_fonts::FontBuilder;
+use write_fonts::read::tables::glyf::Glyph as Stored;
+use write_fonts::read::{FontRef, TableProvider};
+use write_fonts::tables::fvar::{AxisInstanceArrays, Fvar, VariationAxisRecord};
+use write_fonts::tables::gvar::{GlyphDelta, GlyphDeltas, GlyphVariations, Gvar};
+use write_fonts::tables::variations::Tent;
+use write_fonts::types::{F2Dot14, Fixed, GlyphId, NameId, Tag};
 
 fn path(svg: &str) -> BezPath {
     BezPath::from_svg(svg).expect("a path")
@@ -95,6 +103,89 @@ fn compiled_fonts_come_back() {
         let beh = reading.font.glyph("beh-ar").expect("beh");
         assert_eq!(beh.codepoints, ['ب', 'ى'], "{name}");
     }
+}
+
+/// The small font with an axis along which the stem moves 60 units to the right.
+fn variable() -> Vec<u8> {
+    let ttf = written("ttf");
+    let source = FontRef::new(&ttf).expect("a font");
+    let stem = source.charmap().map('ب').expect("beh");
+    let (loca, glyf) = (
+        source.loca(None).expect("loca"),
+        source.glyf().expect("glyf"),
+    );
+    let glyph = loca.get_glyf(stem, &glyf).expect("a glyph");
+    let Some(Stored::Simple(simple)) = glyph else {
+        unreachable!("the stem has contours of its own");
+    };
+    let moved = (0..simple.num_points()).map(|_| GlyphDelta::required(60, 0));
+    // four points more say where the glyph's box begins and ends
+    let still = (0..4).map(|_| GlyphDelta::required(0, 0));
+    let tent = Tent::new(F2Dot14::from_f32(1.0), None);
+    let deltas = GlyphDeltas::new(vec![tent], moved.chain(still).collect());
+    let glyphs = (0..source.maxp().expect("maxp").num_glyphs()).map(GlyphId::from);
+    let variations = glyphs.map(|id| {
+        let own = (id == stem).then(|| deltas.clone());
+        GlyphVariations::new(id, own.into_iter().collect())
+    });
+    let gvar = Gvar::new(variations.collect(), 1).expect("variations");
+    let [low, high] = [400, 700].map(Fixed::from_i32);
+    let axis = VariationAxisRecord::new(Tag::new(b"wght"), low, low, high, 0, NameId::new(256));
+    let fvar = Fvar::new(AxisInstanceArrays::new(vec![axis], Vec::new()));
+    let mut builder = FontBuilder::new();
+    builder.add_table(&gvar).expect("gvar");
+    builder.add_table(&fvar).expect("fvar");
+    builder.copy_missing_tables(source);
+    builder.build()
+}
+
+#[test]
+fn a_variable_font_is_read_at_its_place() {
+    let bytes = variable();
+    let left = |place: &[(String, f64)], format_name: &str| {
+        let reading = read::font(&bytes, place).expect("a font");
+        let format = format(format_name).expect("a format");
+        let files = convert(&reading.font, format, &Options::default()).expect("files");
+        let file = files.0.into_values().next().expect("a file");
+        let tables = FontRef::new(&file).expect("a font");
+        assert!(
+            tables.table_data(Tag::new(b"fvar")).is_none(),
+            "it varies no more"
+        );
+        let after = read::font(&file, &[]).expect("a font").font;
+        let beh = after.glyph("beh-ar").expect("beh");
+        beh.outline.bounds().expect("ink").x0
+    };
+    for name in ["ttf", "otf"] {
+        let usual = left(&[], name);
+        for (place, moved) in [(400.0, 0.0), (550.0, 30.0), (700.0, 60.0)] {
+            let found = left(&[("wght".to_owned(), place)], name);
+            assert!(
+                (found - usual - moved).abs() < 1.0,
+                "{name} {place}: {found}, {usual}"
+            );
+        }
+    }
+    let wrong = read::font(&bytes, &[("opsz".to_owned(), 9.0)]).expect_err("no such axis");
+    assert!(wrong.to_string().contains("opsz"), "{wrong}");
+}
+
+#[test]
+fn a_polygon_begins_where_that_costs_least() {
+    let z = path("M39 0L429 0L429 67L143 67L417 433L417 482L39 482L39 415L313 415L39 49Z");
+    let glyphs = vec![glyph(".notdef", &[], vec![]), glyph("z", &['z'], vec![z])];
+    let font = Font::new(font().info, glyphs).expect("a font");
+    let length = |quadratic: Method| {
+        let options = Options {
+            quadratic,
+            ..Options::default()
+        };
+        let files = convert(&font, format("ttf").expect("ttf"), &options).expect("files");
+        let file = files.0.into_values().next().expect("a file");
+        let tables = FontRef::new(&file).expect("a font");
+        tables.table_data(Tag::new(b"glyf")).expect("glyf").len()
+    };
+    assert!(length(Method::Rate(Rate::default())) < length(Method::Split(Split::default())));
 }
 
 #[test]

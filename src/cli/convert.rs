@@ -28,8 +28,9 @@ pub(crate) struct Convert {
     /// How cubics become quadratics; `khatt methods` lists the ways
     #[arg(long, value_name = "METHOD", hide_possible_values = true, value_parser = PossibleValuesParser::new(Method::all().iter().map(Method::key)))]
     quadratic: Option<String>,
-    /// What the conversion with fewest bytes keeps beside the shape: extrema, or corners alone
-    #[arg(long, value_name = "WHAT", requires = "quadratic", value_parser = ["extrema", "corners"])]
+    /// What the conversion with fewest bytes keeps beside the shape: extrema, corners alone, or extrema
+    /// and the places of corners
+    #[arg(long, value_name = "WHAT", requires = "quadratic", value_parser = ["extrema", "corners", "places"])]
     keep: Option<String>,
     /// Convert outlines that the format could store as they are, too
     #[arg(long)]
@@ -113,10 +114,12 @@ impl Convert {
         {
             options.quadratic = method;
         }
-        if let (Method::Rate(rate), Some("corners")) =
-            (&mut options.quadratic, self.keep.as_deref())
-        {
-            rate.keep = Strictness::Corners;
+        if let Method::Rate(rate) = &mut options.quadratic {
+            rate.keep = match self.keep.as_deref() {
+                Some("corners") => Strictness::Corners,
+                Some("places") => Strictness::Places,
+                _ => rate.keep,
+            };
         }
         if self.optimize {
             options.outlines = Outlines::All;

@@ -5,8 +5,6 @@
 //! cheapest path is the optimum (Bellman); with a coarser one it is an upper bound. Stages are
 //! worked through in increasing order, and every step leads to a later stage.
 
-use std::collections::BTreeMap;
-
 /// A label's number, in order of creation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Id(usize);
@@ -18,11 +16,20 @@ struct Label<T> {
     item: T,
 }
 
+/// A label that nothing cheaper of its kind has replaced.
+#[derive(Debug, Clone, Copy)]
+struct Alive {
+    key: u64,
+    cost: u64,
+    id: Id,
+}
+
 /// All labels made, and which of them are alive at each stage.
 #[derive(Debug, Clone)]
 pub struct Labels<T> {
     labels: Vec<Label<T>>,
-    alive: Vec<BTreeMap<u64, Id>>,
+    /// By key; costs are kept here too, since most questions end with them.
+    alive: Vec<Vec<Alive>>,
     beyond: Vec<u64>,
 }
 
@@ -32,7 +39,7 @@ impl<T> Labels<T> {
     pub fn new(stages: usize) -> Self {
         Self {
             labels: Vec::new(),
-            alive: vec![BTreeMap::new(); stages],
+            alive: vec![Vec::new(); stages],
             beyond: vec![u64::MAX; stages],
         }
     }
@@ -44,12 +51,16 @@ impl<T> Labels<T> {
         let Some(alive) = self.alive.get_mut(stage) else {
             return false;
         };
-        if let Some(old) = alive.get(&key)
-            && self.labels[old.0].cost <= cost
-        {
-            return false;
+        let new = Alive {
+            key,
+            cost,
+            id: Id(self.labels.len()),
+        };
+        match alive.binary_search_by_key(&key, |a| a.key) {
+            Ok(i) if alive[i].cost <= cost => return false,
+            Ok(i) => alive[i] = new,
+            Err(i) => alive.insert(i, new),
         }
-        alive.insert(key, Id(self.labels.len()));
         self.labels.push(Label { cost, prev, item });
         for least in self.beyond[..=stage].iter_mut().rev() {
             if *least <= cost {
@@ -64,7 +75,7 @@ impl<T> Labels<T> {
     #[must_use]
     pub fn at(&self, stage: usize) -> Vec<Id> {
         let alive = self.alive.get(stage);
-        alive.map_or_else(Vec::new, |a| a.values().copied().collect())
+        alive.map_or_else(Vec::new, |a| a.iter().map(|a| a.id).collect())
     }
 
     /// The least cost of any label at this stage or a later one.
@@ -77,9 +88,9 @@ impl<T> Labels<T> {
     #[must_use]
     pub fn wants(&self, place: (usize, u64), cost: u64) -> bool {
         let alive = self.alive.get(place.0);
-        alive.is_some_and(|a| {
-            a.get(&place.1)
-                .is_none_or(|old| cost < self.labels[old.0].cost)
+        alive.is_some_and(|all| {
+            let found = all.binary_search_by_key(&place.1, |a| a.key);
+            found.map_or(true, |i| cost < all[i].cost)
         })
     }
 

@@ -94,7 +94,8 @@ fn outline(
     );
     let all = options.outlines == Outlines::All;
     match curves {
-        Curves::Quadratic if cubic || all => options
+        // What has only lines may still begin where that costs fewest bytes.
+        Curves::Quadratic if cubic || all || !quad => options
             .quadratic
             .convert(&glyph.outline, units)
             .map_err(|source| ConvertError::Quadratic {

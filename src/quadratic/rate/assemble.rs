@@ -3,14 +3,12 @@
 use super::glyf::{Pen, Stored};
 use kurbo::{BezPath, Point};
 
-/// Closed paths of these contours; the starts are chosen together, so that the steps from one
-/// contour to the next are small and flags repeat. They are chosen for the points as TrueType runs
-/// them, clockwise outside: against the outline.
+/// Closed paths of these contours, which run as TrueType stores them, clockwise outside; the paths run
+/// the other way. The starts are chosen together, so that the steps from one contour to the next are
+/// small and flags repeat.
 pub(super) fn paths(contours: &[Vec<Stored>]) -> Vec<BezPath> {
-    let turned = |c: &Vec<Stored>| c.iter().rev().copied().collect();
-    let turned: Vec<Vec<Stored>> = contours.iter().map(turned).collect();
-    let starts = starts(&turned);
-    let written = turned.iter().zip(starts).map(|(c, s)| path(c, s));
+    let starts = starts(contours);
+    let written = contours.iter().zip(starts).map(|(c, s)| path(c, s));
     written.map(|p| p.reverse_subpaths()).collect()
 }
 
@@ -64,6 +62,12 @@ fn starts(contours: &[Vec<Stored>]) -> Vec<usize> {
     }
     out.reverse();
     out
+}
+
+/// Bytes of all points but the first, begun where they are fewest.
+pub(super) fn bytes(c: &[Stored]) -> u32 {
+    let starts = (0..c.len()).filter(|&s| may_begin(c, s));
+    starts.map(|s| around(c, s)).min().unwrap_or(0)
 }
 
 /// Bytes of all points but the first, begun at `s`.

@@ -11,6 +11,19 @@ pub(super) struct Node {
     pub(super) along: Option<Vec2>,
     /// How far rounding moved it, units.
     pub(super) rounded: f64,
+    /// How far a corner may move in x and y, units: not across a level or upright line that ends there.
+    pub(super) free: Vec2,
+}
+
+impl Node {
+    /// The node at a point that is settled.
+    pub(super) const fn held(self, at: Stored) -> Self {
+        Self {
+            at,
+            free: Vec2::ZERO,
+            ..self
+        }
+    }
 }
 
 /// What lies between two nodes.
@@ -65,6 +78,8 @@ pub(super) struct Keep {
     pub(super) line: f64,
     /// Least rise of an extremum that stays, units.
     pub(super) least: f64,
+    /// How far a corner may move, units.
+    pub(super) free: f64,
 }
 
 /// A quadratic beside the curve: the sample where it ends, and its largest distance on the way.
@@ -119,7 +134,21 @@ impl Course {
                     direction(seg, end)
                 };
                 let (p, at) = (seg.eval(end), Stored::on(seg.eval(end)));
+                let mut free = Vec2::new(keep.free, keep.free);
+                for near in [i + n - 1, i]
+                    .map(|k| &segs[k % n])
+                    .into_iter()
+                    .filter(|s| is_line(s))
+                {
+                    let u = direction(near, 0.0);
+                    if u.y == 0.0 {
+                        free.y = 0.0;
+                    } else if u.x == 0.0 {
+                        free.x = 0.0;
+                    }
+                }
                 Node {
+                    free: if corner[i % n] { free } else { Vec2::ZERO },
                     at,
                     along: (!corner[i % n]).then_some(along),
                     rounded: p.distance(at.point()),

@@ -2,7 +2,7 @@
 
 use super::curve::{Course, Curve, Keep, Node, Span, count};
 use super::glyf::{Pen, Stored};
-use super::search::{Effort, smooth};
+use super::search::{Effort, Otherwise, smooth};
 use super::{Strictness, solve};
 use kurbo::{BezPath, Point, Rect, Vec2};
 use std::cmp::Reverse;
@@ -17,6 +17,7 @@ fn effort() -> Effort {
         grain: 1.0,
         slack: 2.1,
         lambda: 0.0,
+        otherwise: Otherwise::Nothing,
     }
 }
 
@@ -27,6 +28,7 @@ fn bow(svg: &str) -> (Curve, Node, Node) {
         tolerance: TOLERANCE,
         line: 1.0,
         least: 3.0 * TOLERANCE,
+        free: 0.0,
     };
     let path = BezPath::from_svg(svg).unwrap();
     let Some(Course::Spans(spans)) = Course::new(&path, keep) else {

@@ -7,7 +7,8 @@
 //! Symbols  c_(i,m), c_(j,n) -> `Join::c`, `Join::next`; r -> `Pen::store`; w -> cost; T -> `Effort::limit`
 //! Departs  the rate is the bytes of `glyf`; an on-curve point may stand between two runs; control
 //!          points come from tangents of the contour ahead instead of a band around it; states with
-//!          nearly one future share a label, so the result is an upper bound of the optimum
+//!          nearly one future share a label, so the result is an upper bound of the optimum; a contour is
+//!          searched both ways around and the cheaper answer taken
 //! Cost     O(stages * labels * reach), some ms a glyph    Fails  where whole units cannot come so close
 
 mod assemble;
@@ -23,18 +24,23 @@ pub use through::through;
 use super::QuadraticError;
 use crate::types::Outline;
 use curve::{Course, Keep};
-use search::Effort;
+use glyf::Stored;
+use kurbo::BezPath;
+use search::{Effort, Otherwise};
 use serde::{Deserialize, Serialize};
 
 /// What of the outline is kept beside its shape.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Strictness {
-    /// Corners, long lines and smooth joins; extrema where that costs nothing.
+    /// Corners, long lines and smooth joins; extrema where that costs nothing. A corner may move within
+    /// the tolerance, but not away from a level or upright line that ends there.
     Corners,
     /// Extrema too: an on-curve or implied point with a level or upright tangent at the rounded extreme.
     #[default]
     Extrema,
+    /// Both, and every corner stands at the unit nearest to where it was drawn.
+    Places,
 }
 
 /// Options of the converter.
@@ -77,6 +83,8 @@ impl Rate {
         const LINE: f64 = 16.0;
         /// A smaller rise makes no extremum worth keeping, tolerances.
         const RISE: f64 = 3.0;
+        /// A corner may move so far, tolerances.
+        const MOVE: f64 = 0.9;
         /// Bytes that a label may cost more than the cheapest beyond it; one more takes twice the
         /// time and saves 0.3 %.
         const SLACK: f64 = 2.1;
@@ -85,6 +93,10 @@ impl Rate {
             tolerance,
             line: LINE * tolerance,
             least: RISE * tolerance,
+            free: match self.keep {
+                Strictness::Corners | Strictness::Extrema => MOVE * tolerance,
+                Strictness::Places => 0.0,
+            },
         };
         let effort = Effort {
             limit: tolerance,
@@ -92,13 +104,11 @@ impl Rate {
             grain: self.grain.clamp(0.1, 10.0),
             slack: SLACK,
             lambda: self.lambda.max(0.0),
+            otherwise: Otherwise::Nothing,
         };
         let mut contours = Vec::new();
         for (i, path) in outline.contours().iter().enumerate() {
-            let Some(course) = Course::new(path, keep) else {
-                continue;
-            };
-            let stored = solve::contour(&course, effort).ok_or(QuadraticError::Grid {
+            let stored = contour(path, keep, effort).ok_or(QuadraticError::Grid {
                 contour: i,
                 tolerance,
             })?;
@@ -111,6 +121,31 @@ impl Rate {
         }
         Ok(Outline::new(assemble::paths(&contours))?)
     }
+}
+
+/// The points of a contour as TrueType runs it, against the outline: the fewer bytes of a search each way,
+/// since a search finds the turns of a curve more easily one way than the other. None where the grid is too coarse.
+fn contour(path: &BezPath, keep: Keep, effort: Effort) -> Option<Vec<Stored>> {
+    /// Factors on slack and grain after neither way was found.
+    const CLOSER: (f64, f64) = (4.0, 2.0);
+    let one = |path: &BezPath, effort: Effort| match Course::new(path, keep) {
+        Some(course) => solve::contour(&course, effort),
+        None => Some(Vec::new()),
+    };
+    let turned = path.reverse_subpaths();
+    let back = |c: Vec<Stored>| c.into_iter().rev().collect();
+    let both = [one(&turned, effort), one(path, effort).map(back)];
+    let cheapest = both
+        .into_iter()
+        .flatten()
+        .min_by_key(|c| assemble::bytes(c));
+    let closer = Effort {
+        slack: CLOSER.0 * effort.slack,
+        grain: CLOSER.1 * effort.grain,
+        otherwise: Otherwise::Pieces,
+        ..effort
+    };
+    cheapest.or_else(|| one(&turned, closer))
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 use super::curve::{Course, Curve, Gate, Node, Span, count};
 use super::glyf::{Stored, stored_bytes};
-use super::search::{Effort, Join, Search, Start};
+use super::search::{Care, Effort, Join, Otherwise, Search, Start};
 use kurbo::{Point, QuadBez, Vec2};
 
 /// The points of one contour, without the implied ones. None where the grid is too coarse.
@@ -16,27 +16,32 @@ pub(super) fn contour(course: &Course, effort: Effort) -> Option<Vec<Stored>> {
 }
 
 fn along(spans: &[(Node, Span, Node)], effort: Effort) -> Option<Vec<Stored>> {
+    let ends_curved = matches!(spans.last(), Some((_, Span::Curve(_), _)));
     let mut out = Vec::new();
-    let mut before = spans.last().is_some_and(|s| matches!(s.1, Span::Line));
-    for (from, span, to) in spans {
+    // Where the curve before has ended, and where the first one began if the last one ends there.
+    let (mut met, mut begun) = (None, None);
+    for (i, (from, span, to)) in spans.iter().enumerate() {
         if from.rounded > effort.limit {
             return None;
         }
-        match span {
-            Span::Line => {
-                out.extend(before.then_some(from.at));
-                before = true;
-            }
-            Span::Curve(curve) => {
-                let (start, points) = match open(curve, effort, *from, *to) {
-                    Some(joins) => (Stored::on(joins.first()?.m), stored(&joins)),
-                    None => (from.at, plain(curve, effort.limit)?),
-                };
-                out.extend(before.then_some(start));
-                out.extend(points);
-                before = false;
-            }
-        }
+        // A curve's last point is stored with it.
+        let stores = met.is_none() && (i > 0 || !ends_curved);
+        let Span::Curve(curve) = span else {
+            out.extend(stores.then_some(from.at));
+            met = None;
+            continue;
+        };
+        let last = i + 1 == spans.len();
+        let from = met.map_or(*from, |m| from.held(m));
+        let to = begun.filter(|_| last).map_or(*to, |m| to.held(m));
+        let (start, points) = match open(curve, effort, from, to) {
+            Some(joins) => (Stored::on(joins.first()?.m), stored(&joins)),
+            None => (from.at, plain(curve, effort, to.at)?),
+        };
+        out.extend(stores.then_some(start));
+        begun = begun.or((i == 0).then_some(start));
+        met = points.last().copied();
+        out.extend(points);
     }
     Some(out)
 }
@@ -48,43 +53,41 @@ pub(super) fn between(curve: &Curve, effort: Effort, from: Node, to: Node) -> Op
 }
 
 /// The cheapest path between two nodes that stays within the tolerance when it is measured densely.
+/// Where the search ends before it has arrived it is repeated with more labels there, and where the path
+/// strays between the places the search looked at, with less room there.
 fn open(curve: &Curve, effort: Effort, from: Node, to: Node) -> Option<Vec<Join>> {
-    /// Slack and grain of each attempt, as factors: a search that pruned its only way looks wider.
-    const WIDER: [(f64, f64); 3] = [(1.0, 1.0), (4.0, 1.0), (6.0, 2.0)];
-    /// Factor on the limit after a path that was within it only where the search looked.
-    const TIGHTER: f64 = 0.95;
-    /// Part of the limit that the dense measure may use: it looks between its samples no closer.
-    const SURE: f64 = 0.998;
-    let most = effort.limit;
-    let mut limit = most;
-    for (slack, grain) in WIDER {
-        for _ in 0..4 {
-            let effort = Effort {
-                limit,
-                slack: slack * effort.slack,
-                grain: grain * effort.grain,
-                ..effort
-            };
-            let mut search = Search::new(curve, effort, to, None);
-            let ends = search.run(Start::Node(from));
-            let Some(&id) = ends.first() else { break };
-            let joins = search.path(id);
-            if strays(curve, &joins) <= SURE * most {
-                return Some(joins);
-            }
-            limit *= TIGHTER;
+    /// Searches at most.
+    const TRIES: usize = 8;
+    let mut care = Care::default();
+    for _ in 0..TRIES {
+        let mut search = Search::new(curve, effort, to, None, care);
+        let ends = search.run(Start::Node(from));
+        let Some(&id) = ends.first() else {
+            care = search.widened();
+            continue;
+        };
+        let joins = search.path(id);
+        let strays = strays(curve, &joins, effort.limit);
+        if strays.is_empty() {
+            return Some(joins);
         }
+        care = search.tightened(&strays);
     }
     None
 }
 
-/// The largest distance between a path and its curve, units.
-fn strays(curve: &Curve, joins: &[Join]) -> f64 {
-    let quads = joins.windows(2).map(|w| {
+/// Where a path lies farther from its curve than the limit: from sample to sample, and which part of
+/// the distance the limit is.
+fn strays(curve: &Curve, joins: &[Join], limit: f64) -> Vec<((f64, f64), f64)> {
+    /// Part of the limit that the dense measure may use: it looks between its samples no closer.
+    const SURE: f64 = 0.998;
+    let quads = joins.windows(2).filter_map(|w| {
         let c = w[1].c.unwrap_or(w[0].m.midpoint(w[1].m));
-        curve.strays(QuadBez::new(w[0].m, c, w[1].m), w[0].at(), w[1].at())
+        let (from, to) = (w[0].at(), w[1].at());
+        let far = curve.strays(QuadBez::new(w[0].m, c, w[1].m), from, to);
+        (far > SURE * limit).then_some(((from, to), limit / far))
     });
-    quads.fold(0.0, f64::max)
+    quads.collect()
 }
 
 /// The points a path stores after its start: control points, and the joins that are not implied.
@@ -101,14 +104,18 @@ fn stored(joins: &[Join]) -> Vec<Stored> {
     out
 }
 
-fn plain(curve: &Curve, limit: f64) -> Option<Vec<Stored>> {
-    let pairs = curve.plain(limit)?;
-    Some(
-        pairs
-            .into_iter()
-            .flat_map(|(c, m)| [Stored::off(c), Stored::on(m)])
-            .collect(),
-    )
+/// The curve's own pieces to an end, where the effort ends with them.
+fn plain(curve: &Curve, effort: Effort, to: Stored) -> Option<Vec<Stored>> {
+    if effort.otherwise == Otherwise::Nothing {
+        return None;
+    }
+    let pairs = curve.plain(effort.limit)?;
+    let pieces = pairs.into_iter();
+    let mut out: Vec<Stored> = pieces
+        .flat_map(|(c, m)| [Stored::off(c), Stored::on(m)])
+        .collect();
+    *out.last_mut()? = to;
+    Some(out)
 }
 
 fn ring(curve: &Curve, gate: Gate, effort: Effort) -> Option<Vec<Stored>> {
@@ -119,9 +126,10 @@ fn ring(curve: &Curve, gate: Gate, effort: Effort) -> Option<Vec<Stored>> {
         at: Stored::on(m),
         along,
         rounded: top.distance(m),
+        free: Vec2::ZERO,
     };
     let Some(joins) = open(curve, effort, node, node) else {
-        return plain(curve, effort.limit);
+        return plain(curve, effort, node.at);
     };
     let first = stored(&joins);
     // Closing inside a run saves the on-curve point: try the control points of the first answer.
@@ -145,7 +153,7 @@ fn closed(
     effort: Effort,
     (node, next): (Node, Point),
 ) -> Option<Vec<Stored>> {
-    let mut search = Search::new(curve, effort, node, Some(gate));
+    let mut search = Search::new(curve, effort, node, Some(gate), Care::default());
     let m = node.at.point();
     let ends = search.run(Start::Implied { m, next });
     ends.into_iter().find_map(|id| {
@@ -162,7 +170,7 @@ fn closed(
         );
         joins[n - 1].m = meet;
         joins[0].m = meet;
-        let fits = opens.is_some() && strays(curve, &joins) <= effort.limit;
+        let fits = opens.is_some() && strays(curve, &joins, effort.limit).is_empty();
         let mut out = stored(&joins);
         // The last join is implied by the first control point.
         out.pop();

@@ -80,7 +80,11 @@ fn it_needs_fewer_bytes_than_splitting() {
 
 #[test]
 fn corners_lines_and_extrema_stay() {
-    let (o, q) = (letter(), Rate::default().convert(&letter(), 1.0).unwrap());
+    let places = Rate {
+        keep: Strictness::Places,
+        ..Rate::default()
+    };
+    let (o, q) = (letter(), places.convert(&letter(), 1.0).unwrap());
     assert_eq!(o.bounds(), q.bounds());
     let corners = [
         "240 0", "240 20", "180 300", "40 560", "40 540", "40 20", "40 0", "180 330", "180 530",
@@ -102,6 +106,29 @@ fn corners_lines_and_extrema_stay() {
         round.bounds().unwrap(),
     );
     assert_eq!(a.round(), b, "extrema stand at the rounded extremes");
+}
+
+#[test]
+fn a_corner_moves_along_its_level_line_only() {
+    // a bow that one quadratic misses by 2 units from corner to corner, between two level lines
+    let svg = "M0 0L300 0C260 70 180 130 120 160L-200 160L-200 100L0 100Z";
+    let (bow, tolerance) = (
+        Outline::new(vec![BezPath::from_svg(svg).unwrap()]).unwrap(),
+        2.4,
+    );
+    let [placed, free] = [Strictness::Places, Strictness::Corners].map(|keep| {
+        let rate = Rate {
+            keep,
+            ..Rate::default()
+        };
+        rate.convert(&bow, tolerance).unwrap()
+    });
+    assert!(glyf_bytes(&free) <= glyf_bytes(&placed));
+    for y in [0, 100, 160] {
+        let stored = points(&free.contours()[0]);
+        let level = stored.iter().filter(|p| p.on && p.y == y).count();
+        assert_eq!(level, 2, "{y} of {stored:?}");
+    }
 }
 
 #[test]

@@ -4,10 +4,10 @@ use super::super::{
     curve::{Node, count},
     glyf::Stored,
 };
-use super::lattice::{full, half, normal, smooth};
+use super::lattice::{floor, full, half, normal, smooth};
 use super::stage::{Kind, gate_direction, on_gate};
 use super::{Join, Search, Way};
-use kurbo::Point;
+use kurbo::{Point, Vec2};
 
 impl Search<'_> {
     /// The quadratic that ends at the gate or the span's end, if `c` allows one.
@@ -42,7 +42,7 @@ impl Search<'_> {
                 );
             }
         }
-        for k in [0.0, -0.5, 0.5] {
+        for k in [0.0, -0.35, 0.35, -0.7, 0.7, -1.0, 1.0] {
             let m = full(p + ahead * (k * slide));
             if (m - c).dot(ahead) > 0.25 && self.closing.is_none() {
                 hit |= self.both(gate, (id, until), [c, m], ([u64::MAX, 0], ahead));
@@ -59,6 +59,10 @@ impl Search<'_> {
         let p = on_gate(g, self.curve.p[g.at]);
         let ahead = gate_direction(g, self.curve.t[g.at]);
         let mut out = Vec::new();
+        if let Some(c) = self.halved(gate, (p, ahead)) {
+            let low = floor(c);
+            out.extend([low, on_gate(g, low + Vec2::new(1.0, 1.0))].map(|c| on_gate(g, c)));
+        }
         for s in gate + 1..self.stages.len() {
             for level in [0.0, 0.6, -0.6] {
                 let (target, dir) = self.target(s, level * self.effort.limit);
@@ -74,6 +78,42 @@ impl Search<'_> {
             }
         }
         out
+    }
+
+    /// The control point on a line from which two quadratics lead to the next line given, with a join half way
+    /// to their second control point on the curve's own tangent: a quadrant's two.
+    pub(super) fn halved(&self, stage: usize, (p, u): (Point, Vec2)) -> Option<Point> {
+        let gate = *self.ahead.get(stage)?.first()?;
+        let (q, v) = self.rail(gate)?;
+        let (from, to) = (self.stages[stage].at, self.stages[gate].at);
+        let mut last = None;
+        for i in from + 1..to {
+            let (o, t) = (self.curve.p[i], self.curve.t[i]);
+            let (before, after) = (u.cross(t), v.cross(t));
+            if before.abs() < 1e-3 || after.abs() < 1e-3 {
+                continue;
+            }
+            let c = p + u * ((o - p).cross(t) / before);
+            let next = q + v * ((o - q).cross(t) / after);
+            let longer = (o - c).dot(t) - (next - o).dot(t);
+            match last.replace(longer) {
+                Some(l) if l < 0.0 && longer >= 0.0 => return Some(c),
+                _ => {}
+            }
+        }
+        None
+    }
+
+    /// The line along which the curve passes a gate or ends.
+    fn rail(&self, stage: usize) -> Option<(Point, Vec2)> {
+        match self.stages[stage].kind {
+            Kind::Gate(g) | Kind::Pass(g) => {
+                let along = gate_direction(g, self.curve.t[g.at]);
+                Some((on_gate(g, self.curve.p[g.at]), along))
+            }
+            Kind::End => self.end.along.map(|u| (self.end.at.point(), u)),
+            Kind::Free => None,
+        }
     }
 
     pub(super) fn reach_end(&mut self, way: Way, c: Point) -> bool {
@@ -98,7 +138,7 @@ impl Search<'_> {
                 [from.m, c, m],
                 from.at,
                 self.until(gate) + beyond,
-                self.effort.limit,
+                self.limit(from.at, self.until(gate)),
             ) {
                 let item = Join {
                     m,
@@ -122,8 +162,11 @@ impl Search<'_> {
         const BESIDE: f64 = 0.8;
         let p = node.at.point();
         let mut out = vec![p];
-        let Some(u) = node.along else { return out };
-        if room == 0 || (u.x != 0.0 && u.y != 0.0) {
+        let Some(u) = node.along else {
+            out.extend(self.moved(node, i));
+            return out;
+        };
+        if room == 0 {
             return out;
         }
         let reach = self.slide(i).min(count(room) * self.curve.step - 1.0);
@@ -139,16 +182,24 @@ impl Search<'_> {
         out
     }
 
+    /// Where a corner may move.
+    fn moved(&self, node: Node, i: usize) -> Vec<Point> {
+        let (p, exact) = (node.at.point(), self.curve.p[i]);
+        let most = node.free.x.max(node.free.y);
+        let reach = Stored::on(Point::new(most, 0.0)).x + 1;
+        let around = (-reach..=reach).flat_map(|x| (-reach..=reach).map(move |y| (x, y)));
+        let points = around.filter(|&(x, y)| {
+            (x == 0 || node.free.x > 0.0) && (y == 0 || node.free.y > 0.0) && (x, y) != (0, 0)
+        });
+        let points = points.map(|(x, y)| p + Vec2::new(f64::from(x), f64::from(y)));
+        points.filter(|m| m.distance(exact) <= most).collect()
+    }
+
     /// Joins after which the next control point lies on the gate's line.
     pub(super) fn towards_gate(&mut self, stage: usize, way: Way, c: Point) {
         let Way { gate, .. } = way;
-        let (line, u) = match (self.stages[gate].kind, self.end.along) {
-            (Kind::Gate(g) | Kind::Pass(g), _) => (
-                on_gate(g, self.curve.p[g.at]),
-                gate_direction(g, self.curve.t[g.at]),
-            ),
-            (Kind::End, Some(u)) => (self.end.at.point(), u),
-            _ => return,
+        let Some((line, u)) = self.rail(gate) else {
+            return;
         };
         let n = normal(u);
         let want = 0.5 * ((c - line).dot(n));
@@ -187,6 +238,6 @@ impl Search<'_> {
     pub(super) fn slide(&self, i: usize) -> f64 {
         let inside =
             |j: usize| self.curve.k[j.clamp(self.curve.first + 2, self.curve.last - 2)].abs();
-        (self.effort.limit / inside(i).max(1e-4)).sqrt()
+        (2.0 * self.effort.limit / inside(i).max(1e-4)).sqrt()
     }
 }

@@ -1,5 +1,6 @@
 //! The cheapest run of stored points along one span, by shortest path.
 
+mod care;
 mod gate;
 mod lattice;
 mod quad;
@@ -9,6 +10,7 @@ use super::Strictness;
 use super::curve::{Curve, Gate, Node, count};
 use super::glyf::{Pen, Stored};
 use crate::numeric::shortest::{Id, Labels};
+pub(super) use care::Care;
 use kurbo::{Point, Vec2};
 pub(super) use lattice::smooth;
 use lattice::{floor, normal};
@@ -16,6 +18,15 @@ use stage::{Kind, Stage, gate_direction, on_gate, stages};
 
 /// Cost of one byte; what is below it breaks ties by error.
 const BYTE: f64 = 4096.0;
+
+/// What is drawn where no path is found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Otherwise {
+    /// Nothing: another search will.
+    Nothing,
+    /// The curve's own pieces, rounded.
+    Pieces,
+}
 
 /// How finely the search looks.
 #[derive(Debug, Clone, Copy)]
@@ -30,6 +41,7 @@ pub(super) struct Effort {
     pub(super) slack: f64,
     /// Bytes that a unit of largest error, quadratic by quadratic, is worth.
     pub(super) lambda: f64,
+    pub(super) otherwise: Otherwise,
 }
 
 /// A join of two quadratics, and the control point before it.
@@ -82,10 +94,17 @@ pub(super) struct Search<'a> {
     ends: Vec<Point>,
     /// The gate at which a ring closes with an implied point.
     closing: Option<Gate>,
+    care: Care,
 }
 
 impl<'a> Search<'a> {
-    pub(super) fn new(curve: &'a Curve, effort: Effort, end: Node, closing: Option<Gate>) -> Self {
+    pub(super) fn new(
+        curve: &'a Curve,
+        effort: Effort,
+        end: Node,
+        closing: Option<Gate>,
+        care: Care,
+    ) -> Self {
         let stages = stages(curve, effort);
         let labels = Labels::new(stages.len());
         let mut search = Self {
@@ -98,12 +117,13 @@ impl<'a> Search<'a> {
             ahead: Vec::new(),
             nexts: Vec::new(),
             closing,
+            care,
         };
-        search.nexts = (0..search.stages.len())
-            .map(|s| search.nexts_of(s))
-            .collect();
         search.ahead = (0..search.stages.len())
             .map(|s| search.gates_after(s))
+            .collect();
+        search.nexts = (0..search.stages.len())
+            .map(|s| search.nexts_of(s))
             .collect();
         let beyond = curve.p.len() - 1 - curve.last;
         search.ends = if curve.is_ring() {
@@ -156,13 +176,11 @@ impl<'a> Search<'a> {
                 self.labels.offer((0, 0), 0, None, join);
             }
         }
-        let slack = self.effort.slack * BYTE;
         for stage in 0..self.stages.len() {
             let least = self.labels.least_from(stage);
+            let most = least.saturating_add(self.slack(stage));
             for id in self.labels.at(stage) {
-                #[expect(clippy::cast_precision_loss, reason = "costs stay below 2^52")]
-                let behind = (self.labels.cost(id) - least) as f64;
-                if behind <= slack {
+                if self.labels.cost(id) <= most {
                     self.expand(stage, id);
                 }
             }
@@ -221,6 +239,12 @@ impl<'a> Search<'a> {
         let own = join.along.unwrap_or(self.curve.t[here]);
         if join.c.is_none() {
             self.straight(way, join);
+        }
+        if let Some(c) = self.halved(stage, (join.m, own)) {
+            let gate = self.ahead[stage][0];
+            for c in self.around(join, c, stage + 1) {
+                self.towards_gate(stage, Way { gate, ..way }, c);
+            }
         }
         let mut misses = 0;
         for s in stage + 1..=gate {

@@ -1,6 +1,9 @@
 //! One quadratic more: the labels that it leads to.
 
-use super::super::{curve::whole, glyf::Stored};
+use super::super::{
+    curve::{count, whole},
+    glyf::Stored,
+};
 use super::lattice::{full, half, level, normal, smooth};
 use super::{BYTE, Join, Search, Way};
 use crate::numeric::shortest::Id;
@@ -17,10 +20,12 @@ impl Search<'_> {
             return;
         }
         let quad = [join.m, join.m.midpoint(to), to];
-        if let Some(f) = self
-            .curve
-            .follow(quad, join.at, self.until(last), self.effort.limit)
-        {
+        if let Some(f) = self.curve.follow(
+            quad,
+            join.at,
+            self.until(last),
+            self.limit(join.at, self.until(last)),
+        ) {
             let mut pen = join.pen;
             let bytes = pen.store(self.end.at);
             let item = Join {
@@ -59,6 +64,8 @@ impl Search<'_> {
     /// Offers what a quadratic with control point `c` and end `m` leads to.
     pub(super) fn quad(&mut self, s: usize, way: Way, [c, m]: [Point; 2]) -> bool {
         let Way { id, gate } = way;
+        /// Spacings of stages between which a reach counts as the same.
+        const REACH: f64 = 4.0;
         let i = self.stages[s].at;
         let (t, d) = (
             self.curve.t[i],
@@ -67,11 +74,9 @@ impl Search<'_> {
         let limit = self.effort.limit;
         let lean = level((c - m).dot(normal(t)) / limit, 2.0);
         let side = level(d / (0.7 * limit), 1.0);
-        let reach = whole(((m - c).hypot() / (3.0 * self.stages[s].spacing)).min(60.0));
-        let keys = [
-            (reach as u64) << 8 | lean << 4 | side | 1 << 16,
-            lean << 4 | side,
-        ];
+        // Half way to the next control point: where that comes to lie the rest of the run depends on.
+        let reach = whole(((m - c).hypot() / (REACH * self.stages[s].spacing)).min(60.0)) as u64;
+        let keys = [1 << 16 | reach << 8 | lean << 4 | side, lean << 4 | side];
         self.both(s, (id, self.until(gate)), [c, m], (keys, m - c))
     }
 
@@ -96,10 +101,8 @@ impl Search<'_> {
         if wants == [false, false] {
             return true;
         }
-        let Some(f) = self
-            .curve
-            .follow([from.m, c, m], from.at, until, self.effort.limit)
-        else {
+        let limit = self.limit(from.at, count(self.stages[s].at));
+        let Some(f) = self.curve.follow([from.m, c, m], from.at, until, limit) else {
             return false;
         };
         let item = Join {
@@ -128,10 +131,8 @@ impl Search<'_> {
     /// Whether a label of that many more bytes would be kept, and followed.
     pub(super) fn wants(&self, place: (usize, u64), prev: Id, bytes: u32) -> bool {
         let cost = self.labels.cost(prev) + whole(f64::from(bytes) * BYTE) as u64;
-        let most = self
-            .labels
-            .least_from(place.0)
-            .saturating_add(whole(self.effort.slack * BYTE) as u64);
+        let least = self.labels.least_from(place.0);
+        let most = least.saturating_add(self.slack(place.0));
         cost <= most && self.labels.wants(place, cost)
     }
 

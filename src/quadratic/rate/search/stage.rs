@@ -55,7 +55,7 @@ pub(super) fn stages(curve: &Curve, effort: Effort) -> Vec<Stage> {
         spacing: 1.0 / dense(first),
     }];
     let kind = match effort.keep {
-        Strictness::Extrema => Kind::Gate,
+        Strictness::Extrema | Strictness::Places => Kind::Gate,
         Strictness::Corners => Kind::Pass,
     };
     let gates = curve.gates.iter().map(|&g| (g.at, kind(g)));
