@@ -16,6 +16,8 @@
 //! sidebearings of 32 upright text fonts of 11 families, each family weighing as the root of its
 //! number; with a family held out, the median error of its advances is 17 thousandths of the em.
 //! Leaning fonts are set upright before they are measured.
+//!
+//! Letters of a joining script have the same room on every side that does not join, a part of alef's height.
 
 use super::features::is_arabic;
 use super::profile::{Profile, white};
@@ -59,10 +61,14 @@ const KINDS: [(f64, f64); 4] = [
 const WEIGHTS: [f64; 4] = [0.17, -1.023, 0.361, -0.296];
 /// How deep the two whites look, parts of the x-height.
 const DEPTHS: (f64, f64) = (0.3, 0.5);
-/// Room beside letters of a joining script, part of the thickness of its joining stroke: between what two fonts with
-/// little room and two with much have.
-const OF_STROKE: f64 = 0.68;
-/// Room where neither counters nor joining strokes tell, em.
+/// Room beside letters of a joining script that do not join, part of alef's height: by least absolute deviations over
+/// 13 fonts of six families, each family weighing the same. A bold font has no more room than its regular one, so
+/// strokes tell less: with a family held out a side is off by 14 thousandths of the em in the mean of medians, 18 by the
+/// joining stroke's thickness and 20 by the em. Neither teeth, counters nor white areas added to it tell more.
+const OF_ALEF: f64 = 0.082;
+/// The same of the joining stroke's thickness, where there is no alef.
+const OF_STROKE: f64 = 0.51;
+/// Room where neither counters, alef nor joining strokes tell, em.
 const UNKNOWN: f64 = 0.05;
 
 /// What a font's letters say about the room they want, font units.
@@ -157,18 +163,20 @@ impl Rhythm {
     }
 }
 
-/// Places every draft and sets its advance. `stroke` is the thickness of the joining strokes.
+/// Places every draft and sets its advance. `stroke` is the thickness of the joining strokes, font units.
 pub(super) fn set(drafts: &mut [Draft], info: &Info, stroke: Option<f64>, options: &Options) {
     let em = f64::from(info.units_per_em);
     let rhythm = Rhythm::of(drafts, info);
+    let joining = alef(drafts).map(|height| OF_ALEF * height);
+    let joining = joining.or(stroke.map(|s| OF_STROKE * s));
     let terms = Terms {
         em,
         rhythm,
-        stroke,
+        joining,
         room: &options.letters,
     };
-    let tails = match (options.letters.sidebearing, stroke) {
-        (None, Some(stroke)) => tails::ends(drafts, OF_STROKE * stroke, em),
+    let tails = match (options.letters.sidebearing, joining) {
+        (None, Some(side)) => tails::ends(drafts, side, em),
         _ => drafts.iter().map(|_| None).collect(),
     };
     for (draft, tail) in drafts.iter_mut().zip(tails) {
@@ -181,10 +189,18 @@ pub(super) fn set(drafts: &mut [Draft], info: &Info, stroke: Option<f64>, option
     }
 }
 
+/// Height of alef.
+fn alef(drafts: &[Draft]) -> Option<f64> {
+    let of = |d: &Draft| d.outline.bounds().filter(|_| d.id.chars == ['ا']);
+    let heights = drafts.iter().filter_map(of).map(|ink| ink.y1);
+    heights.reduce(f64::max).filter(|&h| h > 0.0)
+}
+
 struct Terms<'a> {
     em: f64,
     rhythm: Option<Rhythm>,
-    stroke: Option<f64>,
+    /// Room beside letters of a joining script.
+    joining: Option<f64>,
     room: &'a Room,
 }
 
@@ -222,7 +238,7 @@ impl Terms<'_> {
             .room
             .sidebearing
             .map(|s| s * self.em)
-            .or(self.stroke.map(|s| OF_STROKE * s))
+            .or(self.joining)
             .unwrap_or(UNKNOWN * self.em);
         let (left, right) = optical.unwrap_or((ink.x0 - same, ink.x1 + same));
         (left - add, right + add)
