@@ -82,6 +82,7 @@ fn help_is_approved() {
         "man",
         "match",
         "convert",
+        "designspace",
         "schema",
     ] {
         let args: Vec<&str> = [command, "--help"]

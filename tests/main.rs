@@ -7,6 +7,7 @@ mod common;
 mod compose;
 mod convert;
 mod demo;
+mod designspace;
 mod detectors;
 mod fitters;
 mod fonts;

@@ -12,6 +12,7 @@ mod cache;
 mod centerline;
 mod convert;
 mod cut;
+mod designspace;
 mod done;
 mod failure;
 mod features;
@@ -75,6 +76,7 @@ enum Command {
     Trace(trace::Trace),
     Features(features::Features),
     Convert(convert::Convert),
+    Designspace(designspace::Designspace),
     Match(match_letters::Match),
     Methods(methods::Methods),
     Init(init::Init),
@@ -115,6 +117,7 @@ fn run(args: &Khatt) -> Outcome {
         Command::Trace(trace) => trace.run(),
         Command::Features(features) => features.run(),
         Command::Convert(convert) => convert.run(&args.common),
+        Command::Designspace(family) => family.run(&args.common),
         Command::Match(letters) => letters.run(&args.common),
         Command::Methods(methods) => methods.run(),
         Command::Init(init) => init.run(),

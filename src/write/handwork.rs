@@ -63,7 +63,7 @@ pub fn merge(old: &Files, new: &Files) -> Result<(Files, Kept), WriteError> {
     Ok((files, merge.kept))
 }
 
-fn load(files: &Files) -> Result<Font, WriteError> {
+pub(super) fn load(files: &Files) -> Result<Font, WriteError> {
     let source = |path: &Path| {
         let name: Vec<_> = path.iter().map(|p| p.to_string_lossy()).collect();
         files

@@ -5,6 +5,7 @@
 
 mod cff;
 mod colour;
+pub mod designspace;
 pub mod handwork;
 pub mod layout;
 mod names;

@@ -1,0 +1,59 @@
+//! `khatt designspace`: the UFOs of several weights as one family.
+
+use super::failure::Failure;
+use super::staged::Staged;
+use super::{Common, Outcome, files};
+use clap::Args;
+use khatt::types::Files;
+use khatt::write::designspace::{Master, designspace};
+use std::path::{Component, Path, PathBuf};
+
+/// Makes a designspace of the UFOs of several weights
+#[derive(Debug, Args)]
+pub(crate) struct Designspace {
+    /// UFO folders of one family, each of its own weight
+    #[arg(value_name = "FONT.ufo", required = true)]
+    masters: Vec<PathBuf>,
+    /// Where it goes
+    #[arg(short, long, value_name = "FAMILY.designspace")]
+    output: PathBuf,
+}
+
+impl Designspace {
+    pub(crate) fn run(&self, common: &Common) -> Outcome {
+        let masters = self.masters.iter().map(|ufo| {
+            Ok(Master {
+                path: self.path_to(ufo)?,
+                files: files::folder(ufo)?,
+            })
+        });
+        let masters = masters.collect::<Result<Vec<_>, Failure>>()?;
+        let made = designspace(&masters).map_err(|e| Failure::at(files::name(&self.output), &e))?;
+        let mut staged = Staged::default();
+        staged.add(&self.output, &Files::single(made.document.into_bytes()))?;
+        staged.commit()?;
+        if !made.apart.is_empty() && !common.quiet {
+            eprintln!(
+                "{} glyphs are not built alike, so that the axis is discrete: no font between the masters can be made",
+                made.apart.len()
+            );
+            made.apart.iter().for_each(|line| eprintln!("  {line}"));
+        }
+        Ok(())
+    }
+
+    /// The way from the designspace's folder to a UFO, with `/` on every system.
+    fn path_to(&self, ufo: &Path) -> Result<String, Failure> {
+        let whole = |path: &Path| {
+            let found = path.canonicalize();
+            found.map_err(|e| Failure::at(path.display(), &e))
+        };
+        let (from, to) = (whole(super::staged::parent(&self.output))?, whole(ufo)?);
+        let shared = from.components().zip(to.components());
+        let shared = shared.take_while(|(a, b)| a == b).count();
+        let up = from.components().skip(shared).map(|_| "..".to_owned());
+        let down = to.components().skip(shared);
+        let down = down.map(|c: Component<'_>| c.as_os_str().to_string_lossy().into_owned());
+        Ok(up.chain(down).collect::<Vec<_>>().join("/"))
+    }
+}
