@@ -133,9 +133,12 @@ fn proof_page(
         })
     });
     let left_out: Vec<LeftOut> = pieces.collect();
+    let characters = built.font.glyphs().iter();
+    let characters = characters.flat_map(|g| g.codepoints.iter().copied());
     page::page(&Proof {
         info: &built.font.info,
         entries: &entries,
+        characters: &characters.collect(),
         left_out: &left_out,
         woff2: woff2.0.values().next().map_or(&[][..], Vec::as_slice),
         last,

@@ -16,6 +16,7 @@ use changes::Memory;
 use draw::{Drawn, picture};
 use kurbo::Point;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
+use std::collections::BTreeSet;
 
 /// A cell and the glyph that became of it.
 #[derive(Debug, Clone)]
@@ -65,6 +66,8 @@ pub struct Proof<'a> {
     pub entries: &'a [Entry],
     /// The ink that is in none of them.
     pub left_out: &'a [LeftOut],
+    /// The characters that it can set, composed ones too.
+    pub characters: &'a BTreeSet<char>,
     /// The font as WOFF2.
     pub woff2: &'a [u8],
     /// The page of the build before, where there was one: what has changed since is shown.
@@ -114,7 +117,7 @@ pub fn page(proof: &Proof<'_>) -> String {
                     p { "Version " (info.version.0) "." (format!("{:03}", info.version.1)) ", "
                         (proof.entries.len()) " glyphs from " (sheets(proof)) ", " (info.units_per_em) " units an em" }
                 }
-                (text::specimen(proof.entries))
+                (text::specimen(proof.entries, proof.characters))
                 (controls(&memory))
                 (memory.list())
                 main { @for entry in proof.entries { (cell(entry, info, &memory)) } }

@@ -48,9 +48,11 @@ fn since(last: Option<&str>, entries: &[Entry]) -> String {
         area_px: 77,
         reason: "dirt".to_owned(),
     }];
+    let characters = entries.iter().flat_map(|e| e.text.chars());
     page(&Proof {
         info: &info,
         entries,
+        characters: &characters.collect(),
         left_out: &left_out,
         woff2: b"wOF2",
         last,
@@ -63,6 +65,13 @@ fn what_a_user_wrote_is_escaped() {
     assert!(!page.contains("<script>alert"), "the family name is text");
     assert!(!page.contains("<b>page"), "the file name is text");
     assert!(page.contains("&lt;b&gt;page &amp; &quot;more&quot;.png"));
+}
+
+#[test]
+fn composed_letters_stand_in_the_lines() {
+    let known = "fox".chars().collect();
+    let lines = text::specimen(&[entry("f", "f")], &known).into_string();
+    assert!(lines.contains(">fox<"), "{lines}");
 }
 
 #[test]

@@ -38,8 +38,7 @@ fn direction(text: &str) -> &'static str {
 }
 
 /// The lines that the font can set, without the words that it cannot.
-fn lines(entries: &[Entry]) -> Vec<String> {
-    let known: BTreeSet<char> = entries.iter().flat_map(|e| e.text.chars()).collect();
+fn lines(known: &BTreeSet<char>) -> Vec<String> {
     let whole = |word: &&str| word.chars().all(|c| known.contains(&c));
     let cut = LINES.iter().map(|line| {
         let words: Vec<&str> = line.split(' ').filter(whole).collect();
@@ -59,8 +58,8 @@ fn every_character(entries: &[Entry]) -> String {
     each.join(" ")
 }
 
-pub(super) fn specimen(entries: &[Entry]) -> Markup {
-    let mut lines = lines(entries);
+pub(super) fn specimen(entries: &[Entry], known: &BTreeSet<char>) -> Markup {
+    let mut lines = lines(known);
     if lines.is_empty() {
         lines.push(every_character(entries));
     }
