@@ -11,6 +11,7 @@ mod recipes;
 
 use super::marks::{self, Place};
 use super::names::{self, Form};
+use super::profile::Profile;
 use super::{Anchors, Draft, Note, Part};
 use crate::types::{Anchor, Label, Outline};
 use kurbo::{Affine, Point, Rect, Vec2};
@@ -87,6 +88,9 @@ impl From<Letters> for String {
         letters.word
     }
 }
+
+/// How much of a letter's top a sign beside it looks at, where the letter ends below it, em.
+const TIP: f64 = 0.05;
 
 /// Overlap of a mark that grows from its letter, em.
 const ROOT: f64 = 0.01;
@@ -363,6 +367,11 @@ impl Work<'_> {
         let drawn = self.find_mark(mark)?;
         let draft = self.drafts.get(drawn)?;
         let ink = draft.outline.bounds()?;
+        if mark == recipes::BESIDE {
+            let corner = self.beside(base, ink)?;
+            let parts = self.parts(drawn);
+            return Some(Sign { parts, ink }.moved(corner - Point::new(ink.x0, ink.y1)));
+        }
         let automatic = marks::of_mark(place, ink, self.em);
         let near = self.by_hand(draft, own).or_else(|| at(&automatic, own))?;
         let last = before.last().map(|s| s.ink);
@@ -373,6 +382,24 @@ impl Work<'_> {
         };
         let parts = self.parts(drawn);
         Some(Sign { parts, ink }.moved(foot - near))
+    }
+
+    /// Where the top left corner of a sign stands at the right of a tall letter: as high as ascenders, clear of the stem.
+    fn beside(&self, base: &Draft, sign: Rect) -> Option<Point> {
+        let own = base.outline.bounds()?;
+        let tall = ['d', 'l', 'h', 'b', 'k'].into_iter();
+        let tall =
+            tall.filter_map(|c| self.drafts.get(self.find(c, Form::Isol)?)?.outline.bounds());
+        let top = match base.id.chars[..] {
+            ['t'] => tall.map(|ink| ink.y1).reduce(f64::max).unwrap_or(own.y1),
+            _ => own.y1,
+        };
+        // t may end below the sign
+        let foot = (top - sign.height()).min(own.y1 - TIP * self.em);
+        let profile = Profile::of(&base.outline, self.em, 0.0, 0.0)?;
+        let white = profile.right((foot, top)).into_iter().flatten();
+        let right = profile.extremes.1 - white.reduce(f64::min)?;
+        Some(Point::new(right + self.options.gap * self.em, top))
     }
 
     /// Where a letter carries its first mark; the last part of a ligature is the one that has it.
@@ -401,12 +428,13 @@ impl Work<'_> {
             [c] if c != mark => {
                 let mut parts = Vec::new();
                 decompose_compatible(c, |p| parts.push(p));
-                let shown = parts == [' ', mark] || recipes::SHOWN.contains(&(mark, c));
-                shown && d.id.suffixes.is_empty()
+                parts == [' ', mark] && d.id.suffixes.is_empty()
             }
             _ => false,
         };
+        let signs = recipes::SHOWN.iter().filter(|s| s.0 == mark);
         self.find(mark, Form::Isol)
+            .or_else(|| signs.into_iter().find_map(|s| self.find(s.1, Form::Isol)))
             .or_else(|| self.drafts.iter().position(shows))
     }
 

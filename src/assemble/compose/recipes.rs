@@ -53,11 +53,23 @@ const ARABIC: &[(char, &str, &str, &str)] = &[
 /// Farsi yeh has its dots inside words only.
 const DOTLESS_ENDS: char = 'ی';
 
-/// Letters whose háček or cedilla is drawn as an apostrophe or comma: their decompositions do not say how they look.
-const OTHERWISE: &str = "ďťľĽģĢķĶļĻņŅŗŖ";
+/// The sign that stands for a háček at the right of a tall letter: a comma above right.
+pub(super) const BESIDE: char = '\u{315}';
 
-/// Accents and the signs of their own that show them, where no decomposition says so.
-pub(super) const SHOWN: [(char, char); 3] = [('\u{300}', '`'), ('\u{302}', 'ˆ'), ('\u{30c}', 'ˇ')];
+/// Letters whose háček or cedilla is drawn as an apostrophe or a comma, and the sign that they look to have: their
+/// decompositions do not say it.
+const OTHERWISE: [(&str, char); 3] = [("ďťľĽ", BESIDE), ("ģ", '\u{312}'), ("ĢķĶļĻņŅŗŖ", '\u{326}')];
+
+/// Accents and the signs of their own that show them, best first, where no decomposition says so.
+pub(super) const SHOWN: [(char, char); 7] = [
+    ('\u{300}', '`'),
+    ('\u{302}', 'ˆ'),
+    ('\u{30c}', 'ˇ'),
+    (BESIDE, '’'),
+    (BESIDE, ','),
+    ('\u{312}', '‘'),
+    ('\u{326}', ','),
+];
 
 /// The letters that each alphabet needs.
 const ALPHABETS: [(&str, &str); 3] = [
@@ -99,9 +111,10 @@ fn decomposition(letter: char) -> Option<Recipe> {
     decompose_canonical(letter, |c| parts.push(c));
     let (body, signs) = parts.split_first()?;
     let marked = !signs.is_empty() && signs.iter().all(|&c| is_combining_mark(c));
-    (marked && !OTHERWISE.contains(letter)).then(|| Recipe {
+    let looks = OTHERWISE.iter().find(|(all, _)| all.contains(letter));
+    marked.then(|| Recipe {
         bodies: vec![*body],
-        signs: signs.to_vec(),
+        signs: looks.map_or_else(|| signs.to_vec(), |(_, sign)| vec![*sign]),
     })
 }
 
@@ -182,12 +195,15 @@ mod tests {
             ('ش', "س", "\u{fbb6}"),
             ('أ', "ا", "\u{654}"),
             ('ی', "ى", ""),
+            ('ď', "d", "\u{315}"),
+            ('ģ', "g", "\u{312}"),
+            ('ķ', "k", "\u{326}"),
         ];
         for (c, bodies, signs) in table {
             let want = (bodies.chars().collect(), signs.chars().collect());
             assert_eq!(made(c, Form::Isol), Some(want), "{c}");
         }
-        for c in ['e', 'ď', 'س', 'گ', '!'] {
+        for c in ['e', 'س', 'گ', '!'] {
             assert_eq!(made(c, Form::Isol), None, "{c}");
         }
         let medial = recipe('ی', Form::Medi).map(|r| r.signs);

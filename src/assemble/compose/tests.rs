@@ -212,6 +212,53 @@ fn accents_follow_the_decompositions() {
 }
 
 #[test]
+fn a_hacek_beside_a_tall_letter_is_an_apostrophe_and_a_comma_stands_below() {
+    let mut shapes = latin();
+    shapes.extend([
+        drawn(
+            "d",
+            &[[0.0, 0.0, 300.0, 480.0], [220.0, 480.0, 300.0, 720.0]],
+        ),
+        drawn("L", &[[0.0, 0.0, 400.0, 90.0], [0.0, 90.0, 90.0, 700.0]]),
+        drawn(
+            "t",
+            &[[60.0, 0.0, 140.0, 600.0], [0.0, 420.0, 220.0, 480.0]],
+        ),
+        drawn("comma", &[[0.0, -120.0, 80.0, 90.0]]),
+    ]);
+    let font = build(shapes, &["latin"]).font;
+    for (letter, stem, top) in [
+        ("dcaron", 300.0, 720.0),
+        ("Lcaron", 90.0, 700.0),
+        ("tcaron", 140.0, 720.0),
+    ] {
+        let found = boxes(&font, letter);
+        let (body, sign) = (found[0], found[1]);
+        assert_eq!(parts(&font, letter)[1], "comma", "{letter}");
+        assert!((sign.y1 - top).abs() < 1.5, "{letter}: {sign:?}");
+        assert!(
+            (sign.x0 - body.x0 - stem - 50.0).abs() < 1.5,
+            "{letter}: {sign:?}"
+        );
+        assert!(
+            sign.x1 <= glyph(&font, letter).advance,
+            "{letter}: inside its advance"
+        );
+    }
+    let found = font
+        .glyphs()
+        .iter()
+        .find(|g| g.codepoints == ['ņ'])
+        .unwrap();
+    let ink = boxes(&font, found.name.as_str());
+    assert!(ink[1].y1 < ink[0].y0, "clear below: {ink:?}");
+    assert!(
+        font.glyphs().iter().all(|g| g.codepoints != ['ģ']),
+        "no turned comma is drawn"
+    );
+}
+
+#[test]
 fn composed_letters_are_kerned_as_their_bodies() {
     let font = build(latin(), &["latin"]).font;
     let group = &font.kerning.second["a"];
