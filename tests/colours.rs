@@ -195,6 +195,9 @@ fn every_ink_is_a_layer_where_it_lay() {
     for key in ["colorLayers", "colorPalettes", "<string>A.color1</string>"] {
         assert!(lib.contains(key), "{key}: {lib}");
     }
+    let convert = khatt(dir.path(), &["convert", "t.ufo", "-o", "c.ttf"]);
+    let said = error(&convert);
+    assert!(said.contains("not carried over: colours"), "{said}");
     let svg = fs::read_to_string(dir.path().join("svg/A_.svg")).expect("a drawing");
     assert_eq!(svg.matches("fill=\"#").count(), 2, "{svg}");
     assert!(!dir.path().join("svg/A_.color1.svg").exists());

@@ -5,6 +5,9 @@ use crate::types::{Anchor, Component, Font, Glyph, Info, Kerning, Metrics, Name,
 use kurbo::{PathEl, Point};
 use std::path::Path;
 
+/// Key of the lib that says which glyphs are layers of which colour.
+const COLOURS: &str = "com.github.googlei18n.ufo2ft.colorLayers";
+
 /// The font in a UFO folder: its default layer, kerning, groups and features.
 ///
 /// # Errors
@@ -31,6 +34,10 @@ pub fn ufo(folder: &Path) -> Result<Reading, ReadError> {
     font.features.clone_from(&source.features);
     let layers = source.iter_layers().count();
     lost.extend((layers > 1).then(|| format!("{} layers beside the default one", layers - 1)));
+    let coloured = source.lib.contains_key(COLOURS);
+    lost.extend(
+        coloured.then(|| "colours of layers; fontmake builds them from the UFO".to_owned()),
+    );
     lost.extend(names.lost());
     Ok(Reading { font, lost })
 }
