@@ -17,6 +17,12 @@ struct Pair {
 /// Points on each piece of curve that the search measures.
 const LOOK: u32 = 8;
 
+/// Boundary points before a stage among which the piece that leaves it lies: its curve begins half a run back.
+const BACK: usize = 4 * RUN as usize;
+
+/// Boundary points that a step may pass: a longer way round lies farther from it than any bound.
+const AHEAD: usize = 8 * RUN as usize;
+
 /// Points on each piece of the answer: dense enough that their distances are the curve's.
 const DENSE: u32 = 64;
 
@@ -108,7 +114,7 @@ impl Coder<'_> {
                 } else {
                     i
                 };
-                if to <= stage || to > stage + 4 * n / 10 {
+                if to <= stage || to > stage + (4 * n / 10).min(AHEAD) {
                     continue;
                 }
                 let Some(rate) = bits(pair.step, step) else {
@@ -149,11 +155,12 @@ impl Coder<'_> {
         };
         // Up to the stage the piece before has been looked at: what it left is looked at here.
         let start = pieces.first().copied().unwrap_or(q);
-        let first = self.nearest(start, from.saturating_sub(n / 4), from);
+        let back = from.saturating_sub((n / 4).min(BACK));
+        let first = self.nearest(start, back, from);
         let last = self.nearest(pieces.last().copied().unwrap_or(r), from, to);
         let within = |d: f64, i: usize| d <= self.band.admissible[i % n] + 1e-9;
         let forth = pieces.iter().all(|c| {
-            let i = self.nearest(*c, from.saturating_sub(n / 4), to);
+            let i = self.nearest(*c, back, to);
             within(self.boundary[i % n].distance(*c), i)
         });
         forth && (first..=last).all(|i| within(to_polyline(self.boundary[i % n], &pieces), i))

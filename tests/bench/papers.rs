@@ -97,11 +97,19 @@ fn optimal(folder: &Path) {
         "first estimate",
     );
     row("africa.png", &fixed, "28 given");
+    row("africa-smooth.png", &fixed, "28 given");
     let single = Periodic {
         step: 0.0,
         ..Periodic::default()
     };
-    for name in ["africa.png", "key-1.png", "key-2.png", "key-3.png"] {
+    let names = [
+        "africa.png",
+        "africa-smooth.png",
+        "key-1.png",
+        "key-2.png",
+        "key-3.png",
+    ];
+    for name in names {
         row(name, &single, "until max < 1, one by one");
     }
     row(

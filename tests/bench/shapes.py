@@ -6,7 +6,7 @@ import json
 import sys
 from pathlib import Path
 
-from PIL import Image, ImageDraw, ImageFont
+from PIL import Image, ImageDraw, ImageFilter, ImageFont
 
 source, arabic, latin, out = (Path(a) for a in sys.argv[1:])
 out.mkdir(parents=True, exist_ok=True)
@@ -33,6 +33,9 @@ def africa(width=164, height=175):
     points = [((p[0] - min(xs)) * sx, (max(ys) - p[1]) * sy) for p in ring]
     ImageDraw.Draw(image).polygon(points, fill=0)
     image.save(out / "africa.png")
+    # a coast as smooth as the paper's: 521 boundary points of its 507, 548 without
+    soft = image.filter(ImageFilter.GaussianBlur(1.5))
+    soft.point(lambda v: 255 if v > 127 else 0).save(out / "africa-smooth.png")
 
 
 def word(text, font, size, name):

@@ -12,7 +12,8 @@
 //!          the quintics of five pieces around are solved, not of all: a foot on the far side of a stroke is
 //!          wrong even when nearer; control points are added in several places at once (step 0: in one), and
 //!          where their number is given taken out of more and moved as long as that helps;
-//!          a ring is settled by linear least squares before BFGS;
+//!          a ring is settled by linear least squares before BFGS; before control points are added to a spline
+//!          that nearly meets the tolerance, weights that grow with the error are tried;
 //!          open spans, which the paper leaves out, pass through their ends
 //! Cost     O(n + m^2) a BFGS step for n points, m control points      Fails  never; Verdict::Exhausted when
 //!          m reaches n beta / 2
@@ -253,6 +254,9 @@ impl<'a> Task<'a> {
             if self.meets(&state) || pieces >= most {
                 return state;
             }
+            if let Some(pressed) = self.pressed(&state) {
+                return pressed;
+            }
             match self.refine(&state, most - pieces) {
                 Some(finer) => state = finer,
                 None => return state,
@@ -323,8 +327,46 @@ impl<'a> Task<'a> {
         State { spline, feet }
     }
 
+    /// The spline drawn to where it misses most, by weights that grow with the error, if it meets the
+    /// tolerance so: the sum of squares is then no longer the least.
+    fn pressed(&self, state: &State) -> Option<State> {
+        /// A spline that misses by more, in tolerances, needs more pieces.
+        const NEAR: f64 = 1.6;
+        /// Rounds of weights.
+        const ROUNDS: usize = 8;
+        /// Least factor on a weight.
+        const LEAST: f64 = 0.3;
+        if self.error(state) > NEAR * self.tolerance {
+            return None;
+        }
+        let (mut state, mut weights) = (state.clone(), self.weights.clone());
+        for _ in 0..ROUNDS {
+            let far: Vec<f64> = self.distances(&state).collect();
+            for (w, d) in weights.iter_mut().zip(far) {
+                *w *= (d / self.tolerance).max(LEAST);
+            }
+            let sum: f64 = weights.iter().sum();
+            weights.iter_mut().for_each(|w| *w /= sum);
+            state = self.descend_by(&weights, state, STEPS_EACH, ROUGH).0;
+            if self.meets(&state) {
+                return Some(state);
+            }
+        }
+        None
+    }
+
     /// At most `steps` of BFGS.
     fn descend(&self, state: State, steps: usize, progress: f64) -> (State, Descent) {
+        self.descend_by(&self.weights, state, steps, progress)
+    }
+
+    fn descend_by(
+        &self,
+        weights: &[f64],
+        state: State,
+        steps: usize,
+        progress: f64,
+    ) -> (State, Descent) {
         let penalty = Penalty {
             weight: self.options.alpha * self.tolerance * self.tolerance,
             width: self.options.beta,
@@ -333,7 +375,7 @@ impl<'a> Task<'a> {
         let mut x = Distances::variables(&state.spline);
         // the sum of squares bends by about 1 / pieces along each control point
         let width = state.spline.pieces() as f64;
-        let mut f = Distances::new(self.points, &self.weights, penalty, state);
+        let mut f = Distances::new(self.points, weights, penalty, state);
         let limits = Limits { steps, progress };
         let descent = bfgs(&mut f, &mut x, width, limits);
         (f.into_state(), descent)
