@@ -67,7 +67,10 @@ fn open(curve: &Curve, effort: Effort, from: Node, to: Node) -> Option<Vec<Join>
             continue;
         };
         let joins = search.path(id);
-        let strays = strays(curve, &joins, effort.limit);
+        // Between corners all of the curve counts, wherever the ends' feet lie.
+        let first = from.along.is_none().then(|| count(curve.first));
+        let last = to.along.is_none().then(|| count(curve.last));
+        let strays = strays(curve, &joins, effort.limit, (first, last));
         if strays.is_empty() {
             return Some(joins);
         }
@@ -78,12 +81,19 @@ fn open(curve: &Curve, effort: Effort, from: Node, to: Node) -> Option<Vec<Join>
 
 /// Where a path lies farther from its curve than the limit: from sample to sample, and which part of
 /// the distance the limit is.
-fn strays(curve: &Curve, joins: &[Join], limit: f64) -> Vec<((f64, f64), f64)> {
+fn strays(
+    curve: &Curve,
+    joins: &[Join],
+    limit: f64,
+    (first, last): (Option<f64>, Option<f64>),
+) -> Vec<((f64, f64), f64)> {
     /// Part of the limit that the dense measure may use: it looks between its samples no closer.
     const SURE: f64 = 0.998;
-    let quads = joins.windows(2).filter_map(|w| {
+    let end = joins.len().saturating_sub(2);
+    let quads = joins.windows(2).enumerate().filter_map(|(i, w)| {
         let c = w[1].c.unwrap_or(w[0].m.midpoint(w[1].m));
-        let (from, to) = (w[0].at(), w[1].at());
+        let from = first.filter(|_| i == 0).unwrap_or(w[0].at());
+        let to = last.filter(|_| i == end).unwrap_or(w[1].at());
         let far = curve.strays(QuadBez::new(w[0].m, c, w[1].m), from, to);
         (far > SURE * limit).then_some(((from, to), limit / far))
     });
@@ -170,7 +180,7 @@ fn closed(
         );
         joins[n - 1].m = meet;
         joins[0].m = meet;
-        let fits = opens.is_some() && strays(curve, &joins, effort.limit).is_empty();
+        let fits = opens.is_some() && strays(curve, &joins, effort.limit, (None, None)).is_empty();
         let mut out = stored(&joins);
         // The last join is implied by the first control point.
         out.pop();
