@@ -32,6 +32,17 @@ fn along(spans: &[(Node, Span, Node)], effort: Effort) -> Option<Vec<Stored>> {
             continue;
         };
         let last = i + 1 == spans.len();
+        // The only corner of a contour is met again before it could be known where it has moved.
+        let from = &if spans.len() == 1 {
+            from.held(from.at)
+        } else {
+            *from
+        };
+        let to = &if spans.len() == 1 {
+            to.held(to.at)
+        } else {
+            *to
+        };
         let from = met.map_or(*from, |m| from.held(m));
         let to = begun.filter(|_| last).map_or(*to, |m| to.held(m));
         let (start, points) = match open(curve, effort, from, to) {

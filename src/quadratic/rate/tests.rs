@@ -3,7 +3,9 @@ use crate::{
     quadratic::split::Split,
     types::{Contour, Outline},
 };
-use kurbo::{Affine, BezPath, Circle, Ellipse, ParamCurve, PathEl, Point, Shape};
+use kurbo::{
+    Affine, BezPath, Circle, Ellipse, ParamCurve, ParamCurveNearest, PathEl, PathSeg, Point, Shape,
+};
 use write_fonts::{dump_table, tables::glyf::SimpleGlyph};
 
 /// The bytes write-fonts makes of it, without padding.
@@ -128,6 +130,28 @@ fn a_corner_moves_along_its_level_line_only() {
         let stored = points(&free.contours()[0]);
         let level = stored.iter().filter(|p| p.on && p.y == y).count();
         assert_eq!(level, 2, "{y} of {stored:?}");
+    }
+}
+
+#[test]
+fn a_contour_of_one_corner_stays_within_the_tolerance() {
+    let svg = "M82 -134C82 -118 89 -100 106 -80C119 -67 144 -42 156 -34C162 -32 172 -34 179 -34C202 -35 252 -39 277 -44C310 -51 357 -72 357 -109C357 -192 287 -250 209 -250C130 -250 82 -200 82 -134Z";
+    let drop = Outline::new(vec![BezPath::from_svg(svg).unwrap()]).unwrap();
+    for (keep, tolerance) in [(Strictness::Corners, 1.2), (Strictness::Extrema, 2.15)] {
+        let rate = Rate {
+            keep,
+            ..Rate::default()
+        };
+        let q = rate.convert(&drop, tolerance).unwrap();
+        let quads: Vec<_> = q.contours()[0].segments().collect();
+        let dots = drop.contours()[0]
+            .segments()
+            .flat_map(|s| (0..20).map(move |i| s.eval(f64::from(i) / 20.0)));
+        for p in dots {
+            let off = |s: &PathSeg| s.nearest(p, 1e-6).distance_sq;
+            let near = quads.iter().map(off).fold(f64::INFINITY, f64::min).sqrt();
+            assert!(near <= tolerance, "{near} at {p:?}");
+        }
     }
 }
 
