@@ -13,6 +13,11 @@ const GLOBAL_WEIGHT: f32 = 0.004;
 /// Ink and paper closer than this are no edge, coverage.
 const CONTRAST: f32 = 0.2;
 
+/// A block is surely ink or paper from this part of its pixels on.
+const SURE: f32 = 0.99;
+/// Blocks this near to one that is not sure have levels of their own, blocks: further from an edge none is felt.
+const NEAR: usize = 6;
+
 /// What a pixel says of the levels: ink value times weight, ink weight, paper value times weight, paper
 /// weight. Also sums of these over pixels.
 pub type Votes = [f32; 4];
@@ -20,17 +25,22 @@ pub type Votes = [f32; 4];
 /// Where each value lies between the paper's level (0) and the ink's (1) around it.
 ///
 /// `values` run row by row, `width` a row; `votes` are asked once for each index. A level is the Gaussian
-/// mean of the votes around, and where there are next to none, of all.
+/// mean of the votes around, and where there are next to none, of all. Far from pixels whose votes leave it open what
+/// they are nothing is asked: there ink is 1 and paper 0.
 #[must_use]
 pub fn normalised(values: &[f32], width: usize, votes: impl Fn(usize) -> Votes) -> Vec<f32> {
     let w = width.max(1);
     let h = values.len() / w;
-    let (columns, rows) = (w.div_ceil(BLOCK), h.div_ceil(BLOCK));
-    let mut sums = vec![[0.0f32; 4]; columns * rows];
-    for i in 0..w * h {
-        let s = &mut sums[i / w / BLOCK * columns + i % w / BLOCK];
-        let v = votes(i);
-        (0..4).for_each(|k| s[k] += v[k]);
+    let columns = w.div_ceil(BLOCK);
+    let mut sums = vec![[0.0f32; 4]; columns * h.div_ceil(BLOCK)];
+    for y in 0..h {
+        let row = &mut sums[y / BLOCK * columns..][..columns];
+        for (c, s) in row.iter_mut().enumerate() {
+            for x in BLOCK * c..(BLOCK * (c + 1)).min(w) {
+                let v = votes(y * w + x);
+                (0..4).for_each(|k| s[k] += v[k]);
+            }
+        }
     }
     let total = sums.iter().fold([0.0f64; 4], |t, s| {
         std::array::from_fn(|i| t[i] + f64::from(s[i]))
@@ -41,27 +51,50 @@ pub fn normalised(values: &[f32], width: usize, votes: impl Fn(usize) -> Votes) 
     if ink - paper < CONTRAST {
         return values.to_vec();
     }
-    let sums = blurred(&sums, columns, rows);
     let full = (BLOCK * BLOCK) as f32;
-    let levels: Vec<(f32, f32)> = sums
-        .iter()
-        .map(|s| {
-            let local = |sum: f32, count: f32, global: f32| {
-                (sum / full + GLOBAL_WEIGHT * global) / (count / full + GLOBAL_WEIGHT)
-            };
-            let (i, p) = (local(s[0], s[1], ink), local(s[2], s[3], paper));
-            if i - p < CONTRAST {
-                (ink, paper)
-            } else {
-                (i, p)
-            }
-        })
-        .collect();
-    between(values, w, &levels)
+    let open = sums.iter().map(|s| s[1].max(s[3]) < SURE * full);
+    let near = dilated(&open.collect::<Vec<_>>(), columns, NEAR);
+    let local = |sum: f32, count: f32, global: f32| {
+        (sum / full + GLOBAL_WEIGHT * global) / (count / full + GLOBAL_WEIGHT)
+    };
+    let levels = blurred(&sums, columns, &near);
+    let levels = levels.iter().zip(&near).map(|(s, near)| {
+        let (i, p) = (local(s[0], s[1], ink), local(s[2], s[3], paper));
+        if *near && i - p >= CONTRAST {
+            (i, p)
+        } else {
+            (ink, paper)
+        }
+    });
+    let levels: Vec<(f32, f32)> = levels.collect();
+    let far =
+        |block: usize| (!near[block]).then(|| f32::from(u8::from(sums[block][1] > sums[block][3])));
+    between(values, w, &levels, far)
 }
 
-/// Gaussian sums over the blocks of a picture.
-fn blurred(sums: &[Votes], columns: usize, rows: usize) -> Vec<Votes> {
+/// Bits, rows of `width`, that are set or have a set one in the square of `reach` around them.
+#[must_use]
+pub fn dilated(bits: &[bool], width: usize, reach: usize) -> Vec<bool> {
+    let across = smeared(bits, (width, 1), reach);
+    smeared(&across, (bits.len(), width), reach)
+}
+
+/// Bits that are set or have a set one within `reach` steps of `step` in their line of `line` bits.
+fn smeared(bits: &[bool], (line, step): (usize, usize), reach: usize) -> Vec<bool> {
+    let set = |to: &mut [bool], from: &[bool]| to.iter_mut().zip(from).for_each(|(t, f)| *t |= f);
+    let mut out = bits.to_vec();
+    let lines = out.chunks_exact_mut(line.max(1));
+    for (to, from) in lines.zip(bits.chunks_exact(line.max(1))) {
+        for d in (1..=reach).map(|d| (d * step).min(line)) {
+            set(&mut to[d..], from);
+            set(to, &from[d..]);
+        }
+    }
+    out
+}
+
+/// Gaussian sums over the blocks of a picture where they are wanted, 0 elsewhere.
+fn blurred(sums: &[Votes], columns: usize, wanted: &[bool]) -> Vec<Votes> {
     let sigma = SPREAD_PX / BLOCK as f64;
     let radius = index((4.0 * sigma).ceil());
     let kernel: Vec<f32> = (0..=radius)
@@ -73,29 +106,44 @@ fn blurred(sums: &[Votes], columns: usize, rows: usize) -> Vec<Votes> {
             (0..4).for_each(|i| t[i] += k * f[i]);
         }
     };
-    // along rows, then along columns: `step` apart within lines of `len`
-    let pass = |from: &[Votes], line: usize, step: usize| {
+    // `step` apart within lines of `line`
+    let pass = |from: &[Votes], wanted: &[bool], (line, step): (usize, usize)| {
         let mut to = vec![[0.0f32; 4]; from.len()];
-        for (to, from) in to
-            .chunks_exact_mut(line.max(1))
-            .zip(from.chunks_exact(line.max(1)))
-        {
-            for (d, k) in kernel.iter().map(|k| k * norm).enumerate() {
-                let d = (d * step).min(line);
-                add(&mut to[d..], from, k);
-                if d > 0 {
-                    add(to, &from[d..], k);
+        let lines = to.chunks_exact_mut(line.max(1));
+        let from = from.chunks_exact(line.max(1));
+        for ((to, from), wanted) in lines.zip(from).zip(wanted.chunks_exact(line.max(1))) {
+            let mut end = 0;
+            for run in wanted.chunk_by(|a, b| a == b) {
+                let start = end;
+                end += run.len();
+                for (d, k) in kernel.iter().map(|k| k * norm).enumerate() {
+                    let d = d * step;
+                    let (first, last) = (start.max(d), end.min(line.saturating_sub(d)));
+                    if run[0] && first < end {
+                        add(&mut to[first..end], &from[first - d..end - d], k);
+                    }
+                    if run[0] && d > 0 && start < last {
+                        add(&mut to[start..last], &from[start + d..last + d], k);
+                    }
                 }
             }
         }
         to
     };
-    let across = pass(sums, columns, 1);
-    pass(&across, columns * rows, columns)
+    let (rows, all) = ((columns, 1), (sums.len(), columns));
+    // along rows as far up and down as the sums along columns look
+    let across = pass(sums, &smeared(wanted, all, radius), rows);
+    pass(&across, wanted, all)
 }
 
-/// Where each value lies between the levels around it, which are read between the blocks' centres.
-fn between(values: &[f32], w: usize, levels: &[(f32, f32)]) -> Vec<f32> {
+/// Where each value lies between the levels around it, which are read between the blocks' centres; or what `far` says of
+/// its block.
+fn between(
+    values: &[f32],
+    w: usize,
+    levels: &[(f32, f32)],
+    far: impl Fn(usize) -> Option<f32>,
+) -> Vec<f32> {
     let columns = w.div_ceil(BLOCK);
     let place = |i: usize, n: usize| {
         let f = (i as f32 + 0.5) / BLOCK as f32 - 0.5;
@@ -105,17 +153,21 @@ fn between(values: &[f32], w: usize, levels: &[(f32, f32)]) -> Vec<f32> {
     let mix = |a: (f32, f32), b: (f32, f32), t: f32| (a.0 + t * (b.0 - a.0), a.1 + t * (b.1 - a.1));
     let across: Vec<_> = (0..w).map(|x| place(x, columns)).collect();
     let mut out = Vec::with_capacity(values.len());
-    let mut row = vec![(0.0, 0.0); columns];
     for (y, line) in values.chunks_exact(w).enumerate() {
         let (y0, y1, ty) = place(y, levels.len() / columns);
         let [above, below] = [y0, y1].map(|y| &levels[y * columns..(y + 1) * columns]);
-        for ((to, a), b) in row.iter_mut().zip(above).zip(below) {
-            *to = mix(*a, *b, ty);
+        for (block, line) in line.chunks(BLOCK).enumerate() {
+            if let Some(known) = far(y / BLOCK * columns + block) {
+                out.extend(line.iter().map(|_| known));
+                continue;
+            }
+            let across = &across[BLOCK * block..];
+            out.extend(line.iter().zip(across).map(|(v, &(x0, x1, tx))| {
+                let row = |x: usize| mix(above[x], below[x], ty);
+                let (ink, paper) = mix(row(x0), row(x1), tx);
+                (v - paper) / (ink - paper)
+            }));
         }
-        out.extend(line.iter().zip(&across).map(|(v, &(x0, x1, tx))| {
-            let (ink, paper) = mix(row[x0], row[x1], tx);
-            (v - paper) / (ink - paper)
-        }));
     }
     out
 }

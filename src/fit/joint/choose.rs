@@ -39,11 +39,21 @@ pub(super) fn choose(s: &Samples, marks: &[Candidate], sigma: f64) -> (Chain, Ve
             }
             let (a, b) = (&marks[i], &marks[j]);
             let line = lines.cost(s, sigma, a, b);
+            let mut known = false;
             // No cubic is worth its handles where a line does.
             let cubic = if line < cost::kind(Kind::Cubic) {
                 line
             } else {
-                cubic_cost(s, sigma, (a, b), HOPELESS) + over
+                let reached = start.map(|before| arrive(&best, marks, (i, before), Kind::Cubic));
+                let before = reached[0].min(reached[1]) + cost::kind(Kind::Cubic) + over;
+                match best[j][1].cost - before {
+                    room if room > 0.0 => cubic_cost(s, sigma, (a, b), room.min(HOPELESS)) + over,
+                    // however well it fits, another way to `j` is cheaper already
+                    _ => {
+                        known = true;
+                        f64::INFINITY
+                    }
+                }
             };
             for (kind, fit) in [(Kind::Line, line), (Kind::Cubic, cubic)] {
                 let fit = fit + cost::kind(kind);
@@ -62,7 +72,7 @@ pub(super) fn choose(s: &Samples, marks: &[Candidate], sigma: f64) -> (Chain, Ve
             if matches!(b.join, Join::Horizontal | Join::Vertical) {
                 over += cost::OVER_EXTREMUM;
             }
-            hopeless = if line.min(cubic) > HOPELESS {
+            hopeless = if !known && line.min(cubic) > HOPELESS {
                 hopeless + 1
             } else {
                 0

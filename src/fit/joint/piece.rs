@@ -136,6 +136,25 @@ struct Sums {
     g: [f64; 6],
 }
 
+impl Sums {
+    /// Adds one row of the Jacobian; the lower half in pairs of columns.
+    fn add(&mut self, row: &[f64; 6], weight: f64, distance: f64) {
+        fn line<const N: usize>(to: &mut [f64; 6], row: &[f64; 6], by: f64) {
+            for l in 0..N {
+                to[l] += by * row[l];
+            }
+        }
+        let by = row.map(|r| weight * r);
+        line::<6>(&mut self.g, &by, distance);
+        line::<2>(&mut self.h[0], row, by[0]);
+        line::<2>(&mut self.h[1], row, by[1]);
+        line::<4>(&mut self.h[2], row, by[2]);
+        line::<4>(&mut self.h[3], row, by[3]);
+        line::<6>(&mut self.h[4], row, by[4]);
+        line::<6>(&mut self.h[5], row, by[5]);
+    }
+}
+
 /// Cost of the best cubic from `a` to `b`. Both may give way as far as they are uncertain, so that no node
 /// is bought to mend an estimate. Given up where `enough` is out of reach.
 pub(super) fn cubic_cost(
@@ -235,13 +254,7 @@ impl<'a> Trial<'a> {
                 b1 * u.dot(n),
                 -b2 * w.dot(n),
             ];
-            let weight = weight * pull / (self.sigma * self.sigma);
-            for (k, rk) in row.iter().enumerate() {
-                sums.g[k] += weight * rk * d;
-                for (h, rl) in sums.h[k].iter_mut().zip(&row[..=k]) {
-                    *h += weight * rk * rl;
-                }
-            }
+            sums.add(&row, weight * pull / (self.sigma * self.sigma), d);
         }
     }
 
