@@ -1,8 +1,8 @@
 //! The files that a project names, each of them hashed once.
 
-use khatt::pipeline::digest;
+use khatt::pipeline::{digest, digest_of};
 use std::collections::BTreeMap;
-use std::fs;
+use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
@@ -15,11 +15,7 @@ pub(crate) struct Digests {
 impl Digests {
     /// A file's content, or why there is none.
     pub(crate) fn read(&self, path: &Path) -> Result<Vec<u8>, String> {
-        // a pipe or a device could go on for ever
-        let file = fs::metadata(path).map_err(|e| e.to_string())?;
-        if !file.is_file() {
-            return Err("this is no regular file".to_owned());
-        }
+        regular(path)?;
         let bytes = fs::read(path).map_err(|e| e.to_string())?;
         self.is(path, &bytes);
         Ok(bytes)
@@ -27,7 +23,10 @@ impl Digests {
 
     /// Remembers what a file was read as.
     pub(crate) fn is(&self, path: &Path, bytes: &[u8]) {
-        let digest = digest(bytes);
+        self.remember(path, digest(bytes));
+    }
+
+    fn remember(&self, path: &Path, digest: String) {
         let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
         known.insert(path.to_owned(), digest);
     }
@@ -38,9 +37,23 @@ impl Digests {
             let known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
             known.get(path).cloned()
         };
-        if known().is_none() {
-            self.read(path)?;
+        if let Some(known) = known() {
+            return Ok(known);
         }
-        known().ok_or_else(|| "it cannot be read".to_owned())
+        regular(path)?;
+        let file = File::open(path).map_err(|e| e.to_string())?;
+        let digest = digest_of(file).map_err(|e| e.to_string())?;
+        self.remember(path, digest.clone());
+        Ok(digest)
+    }
+}
+
+/// An error for what is no file: a pipe or a device could go on for ever.
+fn regular(path: &Path) -> Result<(), String> {
+    let file = fs::metadata(path).map_err(|e| e.to_string())?;
+    if file.is_file() {
+        Ok(())
+    } else {
+        Err("this is no regular file".to_owned())
     }
 }

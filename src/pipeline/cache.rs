@@ -9,8 +9,9 @@ use super::build::{Traced, World};
 use super::page::Source;
 use super::project::Project;
 use super::record;
+use blake3::Hasher;
 use serde_json::json;
-use sha2::{Digest, Sha256};
+use std::io::{self, Read};
 use std::path::Path;
 
 /// Where results are kept between runs.
@@ -91,9 +92,16 @@ fn key(
     Ok(digest(all.to_string().as_bytes()))
 }
 
-/// SHA-256, hexadecimal.
+/// [`digest`] of all that can be read, which need not fit into memory.
+///
+/// # Errors
+/// It cannot be read.
+pub fn digest_of(from: impl Read) -> io::Result<String> {
+    Ok(Hasher::new().update_reader(from)?.finalize().to_string())
+}
+
+/// BLAKE3, hexadecimal.
 #[must_use]
 pub fn digest(bytes: &[u8]) -> String {
-    let hex = Sha256::digest(bytes);
-    hex.iter().map(|b| format!("{b:02x}")).collect()
+    blake3::hash(bytes).to_string()
 }

@@ -28,7 +28,7 @@ mod watch;
 
 pub use budget::Budget;
 pub use build::{Built, Inputs, World, build, pages, sheet_letters, sheets_without_result};
-pub use cache::{Nothing, Store, digest};
+pub use cache::{Nothing, Store, digest, digest_of};
 pub use doubt::Doubt;
 pub use letter::Letter;
 pub use letters::{Matched, match_letters};

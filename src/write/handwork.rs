@@ -11,7 +11,6 @@ use super::ufo::{self, failed};
 use crate::types::Files;
 use norad::{Anchor, Contour, DataRequest, Font, Glyph, Name};
 use plist::{Dictionary, Value};
-use sha2::{Digest, Sha256};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 use std::io;
@@ -174,8 +173,7 @@ fn pairs(font: &Font) -> BTreeMap<(Name, Name), f64> {
 }
 
 fn digest(text: &str) -> String {
-    let hash = Sha256::digest(text.as_bytes());
-    hash.iter().take(16).map(|b| format!("{b:02x}")).collect()
+    blake3::hash(text.as_bytes()).to_string()
 }
 
 #[derive(Default)]

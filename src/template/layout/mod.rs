@@ -6,7 +6,6 @@ mod tests;
 use super::TemplateError;
 use kurbo::{Point, Rect, Size};
 use serde::{Deserialize, Serialize};
-use sha2::{Digest, Sha256};
 use std::fmt;
 
 /// Paper to print on.
@@ -408,24 +407,18 @@ impl Layout {
     /// pages printed once are known as long as these stay the same.
     #[must_use]
     pub fn id(&self, project: &str, places: &[Vec<Place>]) -> String {
-        let mut hash = Sha256::new();
         let paper = self.paper_mm();
-        hash.update(format!(
-            "{project}\n{:.2} {:.2}\n",
-            paper.width, paper.height
-        ));
-        hash.update(format!("{:.2}\n", self.em()));
-        for (page, place) in places
-            .iter()
-            .zip(1..)
-            .flat_map(|(p, n)| p.iter().map(move |p| (n, p)))
-        {
-            let (f, page): (Rect, usize) = (place.field, page);
+        let mut text = format!("{project}\n{:.2} {:.2}\n", paper.width, paper.height);
+        text += &format!("{:.2}\n", self.em());
+        let pages = places.iter().zip(1_usize..);
+        for (place, page) in pages.flat_map(|(places, n)| places.iter().map(move |p| (p, n))) {
+            let f = place.field;
             let field = [f.x0, f.y0, f.x1, f.y1, place.baseline].map(|v| format!("{v:.2}"));
-            hash.update(format!("{page} {} {}\n", place.label, field.join(" ")));
+            text += &format!("{page} {} {}\n", place.label, field.join(" "));
         }
-        let digits = hash.finalize();
-        digits.iter().take(4).map(|b| format!("{b:02X}")).collect()
+        let hash = blake3::hash(text.as_bytes());
+        let digits = hash.as_bytes().iter().take(4);
+        digits.map(|b| format!("{b:02X}")).collect()
     }
 }
 
