@@ -54,13 +54,15 @@ pub fn normalised(values: &[f32], width: usize, votes: impl Fn(usize) -> Votes) 
     let full = (BLOCK * BLOCK) as f32;
     let open = sums.iter().map(|s| s[1].max(s[3]) < SURE * full);
     let near = dilated(&open.collect::<Vec<_>>(), columns, NEAR);
+    // and one block further, since levels are read between blocks
+    let told = dilated(&near, columns, 1);
     let local = |sum: f32, count: f32, global: f32| {
         (sum / full + GLOBAL_WEIGHT * global) / (count / full + GLOBAL_WEIGHT)
     };
-    let levels = blurred(&sums, columns, &near);
-    let levels = levels.iter().zip(&near).map(|(s, near)| {
+    let levels = blurred(&sums, columns, &told);
+    let levels = levels.iter().zip(&told).map(|(s, told)| {
         let (i, p) = (local(s[0], s[1], ink), local(s[2], s[3], paper));
-        if *near && i - p >= CONTRAST {
+        if *told && i - p >= CONTRAST {
             (i, p)
         } else {
             (ink, paper)
