@@ -83,6 +83,7 @@ impl Draft {
                 robust: ROBUST,
             },
             refit: Refit::default(),
+            held: Vec::new(),
             stale: Vec::new(),
         };
         work.settle(8, 0.1);

@@ -29,9 +29,14 @@ pub(super) struct Work<'a> {
     pub(super) samples: &'a [Sample],
     pub(super) scale: Scale,
     pub(super) refit: Refit,
+    /// While changes are tried, in place of `feet`: the samples of each segment, with their feet there.
+    pub(super) held: Vec<Held>,
     /// Nodes around which nothing was tried since the last change there.
     pub(super) stale: Vec<bool>,
 }
+
+/// Indices of samples and parameters of their feet, on one segment.
+pub(super) type Held = Vec<(usize, f64)>;
 
 /// A change of structure. Indices of nodes and segments are those of the window.
 #[derive(Debug, Clone, Copy)]
@@ -73,6 +78,7 @@ impl Work<'_> {
     /// Tries all changes until none helps.
     pub(super) fn improve(&mut self) {
         self.stale = vec![true; self.chain.nodes.len()];
+        self.held = held(self.chain.kinds.len(), (0..).zip(self.feet.iter().copied()));
         for _ in 0..SWEEPS {
             let mut i = 0;
             while i < self.chain.nodes.len() {
@@ -83,6 +89,11 @@ impl Work<'_> {
             }
             if !self.stale.contains(&true) {
                 break;
+            }
+        }
+        for (segment, held) in std::mem::take(&mut self.held).into_iter().enumerate() {
+            for (k, t) in held {
+                self.feet[k] = Foot { segment, t };
             }
         }
     }
@@ -169,13 +180,12 @@ impl Work<'_> {
         let n = self.chain.nodes.len();
         let size = 2 * AROUND + 2;
         if self.chain.is_ring() && n <= size {
-            return Window {
+            let mut w = Window {
                 chain: self.chain.clone(),
-                start: 0,
-                samples: self.samples.to_vec(),
-                feet: self.feet.clone(),
-                of: (0..self.samples.len()).collect(),
+                ..Window::default()
             };
+            (0..n).for_each(|segment| self.show(&mut w, segment, segment));
+            return w;
         }
         let start = if self.chain.is_ring() {
             (i + n - AROUND) % n
@@ -195,24 +205,27 @@ impl Work<'_> {
             w.chain.nodes.push(node);
             if k + 1 < count {
                 w.chain.kinds.push(self.chain.kinds[(start + k) % n]);
-            }
-        }
-        for (k, (&sample, foot)) in self.samples.iter().zip(&self.feet).enumerate() {
-            let segment = (foot.segment + n - start) % n;
-            if segment + 1 < count {
-                w.samples.push(sample);
-                w.feet.push(Foot { segment, t: foot.t });
-                w.of.push(k);
+                self.show(&mut w, (start + k) % n, k);
             }
         }
         w
     }
 
+    /// Puts the samples of a segment into a window, where its number is `there`.
+    fn show(&self, w: &mut Window, segment: usize, there: usize) {
+        for &(k, t) in &self.held[segment] {
+            w.samples.push(self.samples[k]);
+            w.feet.push(Foot { segment: there, t });
+            w.of.push(k);
+        }
+    }
+
     /// Puts a changed window in the place of what it was made from.
     fn put_back(&mut self, from: &Window, w: Window) {
+        let now = held(w.chain.kinds.len(), w.of.into_iter().zip(w.feet));
         if w.chain.is_ring() {
             self.chain = w.chain;
-            self.feet = w.feet;
+            self.held = now;
             self.stale = vec![true; self.chain.nodes.len()];
             return;
         }
@@ -226,6 +239,7 @@ impl Work<'_> {
         self.stale.rotate_left(shift);
         if wraps {
             self.chain.kinds.rotate_left(shift);
+            self.held.rotate_left(shift);
         }
         let start = from.start - shift;
         let mut nodes = w.chain.nodes;
@@ -245,19 +259,18 @@ impl Work<'_> {
         self.chain
             .kinds
             .splice(start..start + old - 1, w.chain.kinds);
-        let m = self.chain.nodes.len();
-        for foot in &mut self.feet {
-            let s = (foot.segment + n - shift) % n;
-            foot.segment = if s >= start + old - 1 { s + m - n } else { s };
-        }
-        for (k, foot) in w.of.into_iter().zip(w.feet) {
-            self.feet[k] = Foot {
-                segment: foot.segment + start,
-                t: foot.t,
-            };
-        }
+        self.held.splice(start..start + old - 1, now);
         self.chain.settle();
     }
+}
+
+/// Samples and their feet by the segments these lie on.
+fn held(segments: usize, feet: impl Iterator<Item = (usize, Foot)>) -> Vec<Held> {
+    let mut held = vec![Held::new(); segments];
+    for (k, foot) in feet {
+        held[foot.segment].push((k, foot.t));
+    }
+    held
 }
 
 impl Window {
