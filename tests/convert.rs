@@ -5,7 +5,7 @@ use khatt::quadratic::{Method, merge::merge, rate::Rate, split::Split};
 use khatt::read::{self, ReadError, Reading};
 use khatt::types::{Font, Glyph, Info, Metrics, Name, Outline};
 use khatt::write::format;
-use kurbo::{Affine, BezPath, Circle, ParamCurve, ParamCurveNearest, PathSeg, Shape};
+use kurbo::{Affine, BezPath, Circle, ParamCurve, ParamCurveNearest, PathSeg, Rect, Shape};
 use proptest::prelude::*;
 use skrifa::MetadataProvider;
 use std::{fs, io::Write};
@@ -106,6 +106,30 @@ fn compiled_fonts_come_back() {
 }
 
 /// The small font with an axis along which the stem moves 60 units to the right.
+#[test]
+fn fractions_of_cff_come_back() {
+    let mut font = font();
+    let far = "M1234 777L1300 777L1300 840L1234 840Z";
+    font = Font::new(font.info.clone(), {
+        let mut glyphs = font.glyphs().to_vec();
+        glyphs.push(glyph("far", &['q'], vec![path(far)]));
+        glyphs
+    })
+    .expect("a font");
+    let files = (format("otf").expect("otf").write)(&font).expect("files");
+    let mut bytes = files.0[""].clone();
+    // 1234 777 rmoveto, and as many bytes that say 1234.25 hmoveto
+    let (whole, parts) = ([28, 4, 210, 249, 157, 21], [255, 4, 210, 64, 0, 22]);
+    let places: Vec<usize> = (0..bytes.len() - 6)
+        .filter(|&i| bytes[i..i + 6] == whole)
+        .collect();
+    assert_eq!(places.len(), 1, "one contour begins there");
+    bytes[places[0]..places[0] + 6].copy_from_slice(&parts);
+    let read = read::font(&bytes, &[]).expect("a font").font;
+    let bounds = read.glyph("far").expect("far").outline.bounds();
+    assert_eq!(bounds, Some(Rect::new(1234.25, 0.0, 1300.25, 63.0)));
+}
+
 fn variable() -> Vec<u8> {
     let ttf = written("ttf");
     let source = FontRef::new(&ttf).expect("a font");

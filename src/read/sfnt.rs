@@ -1,6 +1,6 @@
 //! TTF, OTF, WOFF2 → Font, with every table that is not an outline carried along.
 
-use super::{Names, ReadError, Reading};
+use super::{Names, ReadError, Reading, cff::Charstrings};
 use crate::types::{Component, Font, Glyph, Info, Metrics, Outline};
 use kurbo::{Affine, BezPath};
 use skrifa::instance::{Location, Size};
@@ -133,7 +133,10 @@ fn glyphs(font: &FontRef<'_>, at: &Location, names: &mut Names) -> Result<Vec<Gl
         font.glyph_metrics(Size::unscaled(), at),
     );
     let given = font.glyph_names();
-    let upem = font.head().map_or(0, |h| h.units_per_em());
+    let charstrings = match outlines.format() {
+        Some(OutlineGlyphFormat::Cff | OutlineGlyphFormat::Cff2) => Some(Charstrings::of(font)?),
+        _ => None,
+    };
     let glyph = |n: u16| {
         let id = GlyphId::from(n);
         let wanted = given
@@ -153,7 +156,10 @@ fn glyphs(font: &FontRef<'_>, at: &Location, names: &mut Names) -> Result<Vec<Gl
             chars.remove(&id).unwrap_or_default(),
             advance(&metrics, id),
         );
-        glyph.outline = outline((&outlines, upem), id, at)?;
+        glyph.outline = match &charstrings {
+            Some(all) => closed(all.draw(id, at.coords())?.into_iter(), id)?,
+            None => outline(&outlines, id, at)?,
+        };
         Ok(glyph)
     };
     let mut glyphs = (0..count)
@@ -218,37 +224,24 @@ fn advance(metrics: &GlyphMetrics<'_>, id: GlyphId) -> f64 {
     metrics.advance_width(id).map_or(0.0, f64::from).max(0.0)
 }
 
-/// A glyph's outline, outer contours counter-clockwise; nothing where the file has none. Unscaled, the
-/// library cuts the fractions of CFF off, so those are drawn larger and made small again.
+/// A glyph's outline, outer contours counter-clockwise; nothing where the file has none.
 fn outline(
-    (all, upem): (&OutlineGlyphCollection<'_>, u16),
+    all: &OutlineGlyphCollection<'_>,
     id: GlyphId,
     at: &Location,
 ) -> Result<Outline, ReadError> {
-    /// Times that CFF is drawn larger: coordinates come in sixty-fourths of that.
-    const LARGER: f32 = 4.0;
-    /// Units an em beyond which a glyph drawn so large could leave the library's numbers.
-    const EM: u16 = 2048;
     let Some(glyph) = all.get(id) else {
         return Ok(Outline::EMPTY);
     };
-    let clockwise = all.format() == Some(OutlineGlyphFormat::Glyf);
-    let (size, scale) = if clockwise || !(16..=EM).contains(&upem) {
-        (Size::unscaled(), 1.0)
-    } else {
-        (
-            Size::new(LARGER * f32::from(upem)),
-            f64::from(LARGER).recip(),
-        )
-    };
     let mut pen = Pen::default();
-    let drawn = glyph.draw(DrawSettings::unhinted(size, at), &mut pen);
+    let drawn = glyph.draw(DrawSettings::unhinted(Size::unscaled(), at), &mut pen);
     drawn.map_err(|e| ReadError::damaged("a font", format!("glyph {id}: {e}")))?;
-    let contours = pen.0.into_iter().filter(|p| p.segments().next().is_some());
-    let contours = contours.map(|p| {
-        let p = if clockwise { p.reverse_subpaths() } else { p };
-        Affine::scale(scale) * p
-    });
+    closed(pen.0.iter().map(BezPath::reverse_subpaths), id)
+}
+
+/// The contours that draw something.
+fn closed(contours: impl Iterator<Item = BezPath>, id: GlyphId) -> Result<Outline, ReadError> {
+    let contours = contours.filter(|p| p.segments().next().is_some());
     Outline::new(contours.collect())
         .map_err(|e| ReadError::damaged("a font", format!("glyph {id}: {e}")))
 }
