@@ -24,6 +24,7 @@ mod record;
 pub mod reference;
 mod repeats;
 mod report;
+mod review;
 mod watch;
 
 pub use budget::Budget;

@@ -1,5 +1,6 @@
 //! One picture → closed curves: trace, corner, cut, fit, refine.
 
+use super::review;
 use crate::{
     corner,
     fit::{self, FitError},
@@ -54,23 +55,19 @@ impl Default for Options {
 /// An option of the fitter is outside its range.
 pub fn trace_picture(gray: &Gray, options: &Options) -> Result<Vec<BezPath>, FitError> {
     let (coverage, found) = found(gray, options);
-    let fitter = options.fit.fitter();
-    let fit =
-        |(contour, corners): &Cornered| fitter.contour(&contour.cut(corners), options.tolerance_px);
-    let edges = sharp(&coverage, &found, options);
-    let mut paths: Vec<BezPath> = edges.iter().map(fit).collect::<Result<_, _>>()?;
-    let fewer = doubted(&coverage, &found, &paths, options);
-    if fewer != found {
-        // corners that are drawn round: their contours once more without them
-        let edges = sharp(&coverage, &fewer, options);
-        let changed = found.iter().zip(&fewer).map(|(a, b)| a != b);
-        for ((path, edge), changed) in paths.iter_mut().zip(&edges).zip(changed) {
-            if changed {
-                *path = fit(edge)?;
-            }
-        }
+    let paths = fit(&sharp(&coverage, &found, options), options)?;
+    if matches!(options.fit, fit::Method::Joint(_)) {
+        review::reviewed(&coverage, &found, paths, options)
+    } else {
+        Ok(paths)
     }
-    Ok(paths)
+}
+
+/// The curves of some contours.
+pub(super) fn fit(edges: &[Cornered], options: &Options) -> Result<Vec<BezPath>, FitError> {
+    let fitter = options.fit.fitter();
+    let fit = |(c, at): &Cornered| fitter.contour(&c.cut(at), options.tolerance_px);
+    edges.iter().map(fit).collect()
 }
 
 /// The contours of a picture's ink with their corners sharp, and the corners' indices.
@@ -95,7 +92,7 @@ fn found(gray: &Gray, options: &Options) -> (Gray, Vec<Cornered>) {
 }
 
 /// The contours with their corners sharp, moved to where the picture has its edges.
-fn sharp(coverage: &Gray, found: &[Cornered], options: &Options) -> Vec<Cornered> {
+pub(super) fn sharp(coverage: &Gray, found: &[Cornered], options: &Options) -> Vec<Cornered> {
     if options.trace.boundary == trace::Boundary::Chain {
         // the boundary that the papers start from is taken as it is
         return found.to_vec();
@@ -126,31 +123,6 @@ fn decided(coverage: &Gray, found: Vec<Cornered>, options: &Options) -> Vec<Corn
     });
     let contours = found.iter().map(|(c, _)| c.clone());
     contours.zip(chosen).collect()
-}
-
-/// The contours without the corners that the fitted paths show to be none.
-fn doubted(
-    coverage: &Gray,
-    found: &[Cornered],
-    paths: &[BezPath],
-    options: &Options,
-) -> Vec<Cornered> {
-    let mut found = found.to_vec();
-    let joint = matches!(options.fit, fit::Method::Joint(_));
-    let Some(blur) = found.first().map(|(c, _)| c.blur_px()).filter(|_| joint) else {
-        return found;
-    };
-    let bad = refine::undrawn(coverage, paths, blur);
-    for ((contour, at), bad) in found.iter_mut().zip(bad) {
-        for p in bad {
-            let off = |i: &usize| contour.points()[*i].distance_squared(p);
-            let nearest = (0..at.len()).min_by(|a, b| off(&at[*a]).total_cmp(&off(&at[*b])));
-            nearest.into_iter().for_each(|k| {
-                at.remove(k);
-            });
-        }
-    }
-    found
 }
 
 /// The map from the curves' space (y up) to that of a picture so many px high (y down).

@@ -14,7 +14,7 @@ mod residual;
 #[cfg(test)]
 mod tests;
 
-pub use corners::{confirmed, undrawn};
+pub use corners::{Doubts, Overlooked, borne_out, confirmed, doubts};
 
 use crate::{
     numeric::side::{Place, Side, scatter_px},

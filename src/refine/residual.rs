@@ -5,10 +5,11 @@ use crate::{
         cast::index,
         coverage::{Coverage, blurred},
         levels::{Votes, normalised},
+        median::median,
     },
     types::{Contour, Gray},
 };
-use kurbo::Point;
+use kurbo::{Point, Vec2};
 use std::f64::consts::TAU;
 
 /// The neighbourhood that moves an edge is at least this wide, px: narrower, it would hang on the one
@@ -17,8 +18,56 @@ const MIN_SPREAD_PX: f64 = 0.6;
 
 /// Deviation of the average along the contour, in points a pixel of the lens' blur.
 const AVERAGE: f64 = 5.0;
+/// Mean of the squares of a normal number by their median.
+const MEDIAN_OF_SQUARES: f64 = 2.198;
 /// A pixel whose model is within this of ink or paper tells their level, coverage.
 const SURE: f32 = 0.1;
+
+/// A patch of ink before the lens: how much, px², where, and its variances along a direction and across it, px².
+pub(super) struct Blot {
+    ink: f64,
+    at: Point,
+    along: Vec2,
+    variance: [f64; 2],
+}
+
+/// How much of a blot the model lacks, as a part, and the sum of squares of the whole of it.
+pub(super) struct Weighed {
+    pub(super) part: f64,
+    pub(super) squares: f64,
+}
+
+impl Blot {
+    /// What lies between a tip and the chords that cut it off, whose first and last points are on its sides;
+    /// `along` is a unit vector.
+    pub(super) fn between(tip: Point, cut: &[Point], along: Vec2) -> Self {
+        let across = perp(along);
+        let local = |p: &Point| ((*p - tip).dot(along), (*p - tip).dot(across));
+        let (mut area, mut first, mut second) = (0.0, (0.0, 0.0), (0.0, 0.0));
+        // triangles that the tip makes with the chords
+        for (a, b) in cut.iter().map(local).zip(cut.iter().skip(1).map(local)) {
+            let part = 0.5 * (a.0 * b.1 - a.1 * b.0);
+            let square = |a: f64, b: f64| (a * a + b * b + (a + b) * (a + b)) / 12.0;
+            area += part;
+            first.0 += part * (a.0 + b.0) / 3.0;
+            first.1 += part * (a.1 + b.1) / 3.0;
+            second.0 += part * square(a.0, b.0);
+            second.1 += part * square(a.1, b.1);
+        }
+        let whole = if area.abs() > 1e-12 { area } else { 1.0 };
+        let mean = (first.0 / whole, first.1 / whole);
+        Self {
+            ink: area.abs(),
+            at: tip + mean.0 * along + mean.1 * across,
+            along,
+            variance: [
+                second.0 / whole - mean.0 * mean.0,
+                second.1 / whole - mean.1 * mean.1,
+            ]
+            .map(|v| v.max(0.0)),
+        }
+    }
+}
 
 /// Picture minus model.
 pub(super) struct Residual {
@@ -98,15 +147,48 @@ impl Residual {
         self.lens
     }
 
-    /// Sum of the differences within `reach` px of `p`: ink that the model lacks, px².
-    pub(super) fn sum(&self, p: Point, reach: f64) -> f64 {
+    /// What the picture says of a blot of ink that the model lacks.
+    pub(super) fn weigh(&self, blot: &Blot) -> Weighed {
+        let (along, across) = (blot.along, perp(blot.along));
+        let pixel = Contour::PIXEL_BLUR_PX;
+        let [va, vc] = blot
+            .variance
+            .map(|v| v + self.lens * self.lens + pixel * pixel);
+        let height = blot.ink / (TAU * (va * vc).sqrt());
+        let reach = 3.0 * va.max(vc).sqrt();
+        let (cx, cy) = (blot.at.x - 0.5, self.height as f64 - blot.at.y - 0.5);
+        let span = |c: f64, n: usize| index((c - reach).ceil())..index(c + reach + 1.0).min(n);
+        let (mut seen, mut whole) = (0.0, 0.0);
+        for y in span(cy, self.height) {
+            for x in span(cx, self.width) {
+                let d = Vec2::new(x as f64 - cx, cy - y as f64);
+                let (a, c) = (d.dot(along), d.dot(across));
+                let pattern = height * (-0.5 * (a * a / va + c * c / vc)).exp();
+                seen += pattern * f64::from(self.off[y * self.width + x]);
+                whole += pattern * pattern;
+            }
+        }
+        Weighed {
+            part: seen / whole.max(1e-12),
+            squares: whole,
+        }
+    }
+
+    /// Sum of the squared differences within `reach` px of `p`.
+    pub(super) fn squares(&self, p: Point, reach: f64) -> f64 {
         let (cx, cy) = (p.x - 0.5, self.height as f64 - p.y - 0.5);
         let span = |c: f64, n: usize| index((c - reach).ceil())..index(c + reach + 1.0).min(n);
-        let places = span(cy, self.height).flat_map(|y| span(cx, self.width).map(move |x| (x, y)));
-        let inside = places.filter(|&(x, y)| (x as f64 - cx).hypot(y as f64 - cy) <= reach);
-        inside
-            .map(|(x, y)| f64::from(self.off[y * self.width + x]))
-            .sum()
+        let rows = span(cy, self.height).map(|y| y * self.width);
+        let pixels = rows.flat_map(|row| span(cx, self.width).map(move |x| row + x));
+        pixels.map(|i| f64::from(self.off[i] * self.off[i])).sum()
+    }
+
+    /// Mean square of the differences at edges: the grain, and what the model misses.
+    pub(super) fn grain(&self) -> f64 {
+        let pairs = self.off.iter().zip(&self.seen);
+        let edge = pairs.filter(|(off, seen)| (0.1..0.9).contains(&(**seen - **off)));
+        let squares = edge.map(|(off, _)| f64::from(off * off));
+        MEDIAN_OF_SQUARES * median(squares).unwrap_or(0.0)
     }
 
     /// Radius of the neighbourhood that moves an edge, px.
@@ -137,6 +219,10 @@ impl Residual {
             0.0
         }
     }
+}
+
+fn perp(v: Vec2) -> Vec2 {
+    Vec2::new(-v.y, v.x)
 }
 
 /// What a pixel of value `seen` says of ink and paper, the model's part of the other taken off.
