@@ -3,6 +3,7 @@
 use crate::numeric::median::median;
 use crate::types::Outline;
 use kurbo::{Affine, PathEl, Point, flatten};
+use std::ops::Range;
 
 /// Distance between scan lines, em.
 const STEP: f64 = 0.01;
@@ -70,6 +71,12 @@ impl Profile {
         self.zone(zone)
             .map(|(_, xs)| xs.last().map(|x| self.extremes.1 - x))
             .collect()
+    }
+
+    /// The places among all rows of those between two heights.
+    pub(super) fn band(&self, (low, high): (f64, f64)) -> Range<usize> {
+        let start = self.rows.partition_point(|(y, _)| *y < low);
+        start..self.rows.partition_point(|(y, _)| *y <= high).max(start)
     }
 
     /// The leftmost ink between two heights, x.

@@ -2,23 +2,27 @@
 //! ones their designers set, and what joining does to their forms.
 //!
 //!     cargo bench --bench fonts -- [--forms] [--out DIR] FONT…
+//!     cargo bench --bench fonts -- --kerning FONT…
 //!
 //! Takes the shapes alone: letters, digits and signs by default, Arabic letters in all their forms with
 //! `--forms`. Prints for each font the median error of the advances in thousandths of the em, and that
 //! of the best constant sidebearing, chosen knowing the answer. With `--out` it leaves the fonts there.
+//! With `--kerning` letters stand in their fonts' own advances, and the kerning is compared.
 
 #![expect(clippy::print_stdout, reason = "a benchmark prints its table")]
 
-use harfrust::{ShapeOptions, ShaperData, UnicodeBuffer};
+use harfrust::{Feature, ShapeOptions, ShaperData, Tag, UnicodeBuffer};
 use khatt::assemble::{self, Drawn, Options};
 use khatt::finish::{place, round};
 use khatt::quadratic::Method;
-use khatt::types::{Font, Frame, Info, Label, Outline};
+use khatt::types::{Font, Frame, Info, Label, Name, Outline};
 use khatt::write;
 use kurbo::{Affine, BezPath};
 use skrifa::outline::{DrawSettings, OutlinePen};
 use skrifa::prelude::{LocationRef, Size};
+use skrifa::raw::TableProvider;
 use skrifa::{FontRef, GlyphId, MetadataProvider};
+use std::collections::BTreeMap;
 use std::error::Error;
 use std::path::{Path, PathBuf};
 
@@ -198,6 +202,95 @@ fn write_all(font: &Font, stem: &Path) -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
+/// By how much the font's own kerning changes the advance of two letters.
+fn kerned(shaper: &harfrust::Shaper<'_>, text: &str) -> f64 {
+    let advance = |kern: u32| {
+        let plain = [b"liga", b"clig", b"calt"].map(|tag| Feature::new(Tag::new(tag), 0, ..));
+        let mut features = plain.to_vec();
+        features.push(Feature::new(Tag::new(b"kern"), kern, ..));
+        let mut buffer = UnicodeBuffer::new();
+        buffer.push_str(text);
+        buffer.guess_segment_properties();
+        let shaped = shaper.shape(buffer, ShapeOptions::default().features(&features));
+        let advances = shaped.glyph_positions().iter().map(|p| p.x_advance);
+        f64::from(advances.sum::<i32>())
+    };
+    advance(1) - advance(0)
+}
+
+/// The kerning of letters that stand in the font's own advances beside that of the font.
+fn kerning(path: &Path) -> Result<(), Box<dyn Error>> {
+    let bytes = std::fs::read(path)?;
+    let face = FontRef::new(&bytes)?;
+    let em = f64::from(face.head()?.units_per_em());
+    let truth = text_glyphs(&face);
+    let drawn = truth.iter().map(|t| Drawn {
+        label: Label(t.label.clone()),
+        outline: t.outline.clone(),
+        plates: Vec::new(),
+        advance: Some((0.0, t.advance)),
+    });
+    let info = Info {
+        family: "Khatt".to_owned(),
+        ..Info::default()
+    };
+    let font = assemble::font(drawn.collect(), info, &Options::default())?.font;
+    let data = ShaperData::new(&face);
+    let shaper = data.shaper(&face).build();
+    let sets = &font.kerning;
+    let side = |name: &str, groups: &BTreeMap<String, Vec<Name>>| {
+        let holds = |g: &(&String, &Vec<Name>)| g.1.iter().any(|n| n.as_str() == name);
+        groups
+            .iter()
+            .find(holds)
+            .map_or_else(|| name.to_owned(), |g| format!("@{}", g.0))
+    };
+    let ours = |a: &str, b: &str| {
+        let (a, b) = (name_of(a), name_of(b));
+        let pair = (side(&a, &sets.first), side(&b, &sets.second));
+        sets.pairs.get(&pair).copied().unwrap_or(0.0)
+    };
+    let (mut theirs, mut kept, mut other, mut count) = (Vec::new(), Vec::new(), Vec::new(), 0);
+    let letters: Vec<char> = TEXT.chars().filter(|c| c.is_alphabetic()).collect();
+    for a in &letters {
+        for b in letters
+            .iter()
+            .filter(|b| !(a.is_lowercase() && b.is_uppercase()))
+        {
+            let own = 1000.0 / em * kerned(&shaper, &format!("{a}{b}"));
+            let value = ours(&a.to_string(), &b.to_string());
+            count += usize::from(value < 0.0);
+            if own.abs() < 5.0 {
+                other.push(value.abs());
+            } else {
+                theirs.push(own.abs());
+                kept.push((value - own).abs());
+            }
+        }
+    }
+    let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len().max(1) as f64;
+    let ttf = write::FORMATS
+        .iter()
+        .find(|f| f.name == "ttf")
+        .ok_or("no TTF")?;
+    let quadratic = font.try_map_outlines(|g| Method::default().convert(&g.outline, 0.5))?;
+    let files = (ttf.write)(&quadratic)?.0;
+    let file = files.values().next().ok_or("no file")?;
+    let table = FontRef::new(file)?.data_for_tag(Tag::new(b"GPOS"));
+    println!(
+        "| {} | {} | {:.1} | {:.1} | {:.1} | {count} | {} × {} | {} |",
+        path.file_stem().unwrap_or_default().to_string_lossy(),
+        theirs.len(),
+        mean(&theirs),
+        mean(&kept),
+        mean(&other),
+        sets.first.len(),
+        sets.second.len(),
+        table.map_or(0, |t| t.len()),
+    );
+    Ok(())
+}
+
 fn run(path: &Path, glyphs: Glyphs, out: Option<&Path>) -> Result<(), Box<dyn Error>> {
     let bytes = std::fs::read(path)?;
     let face = FontRef::new(&bytes)?;
@@ -247,9 +340,11 @@ fn name_of(label: &str) -> String {
 fn main() -> Result<(), Box<dyn Error>> {
     let mut args = std::env::args().skip(1);
     let (mut fonts, mut glyphs, mut out) = (Vec::new(), text_glyphs as Glyphs, None);
+    let mut kern = false;
     while let Some(arg) = args.next() {
         match arg.as_str() {
             "--forms" => glyphs = arabic_glyphs,
+            "--kerning" => kern = true,
             "--out" => out = args.next().map(PathBuf::from),
             // what cargo itself passes
             "--bench" => {}
@@ -257,7 +352,11 @@ fn main() -> Result<(), Box<dyn Error>> {
         }
     }
     for font in &fonts {
-        run(font, glyphs, out.as_deref())?;
+        if kern {
+            kerning(font)?;
+        } else {
+            run(font, glyphs, out.as_deref())?;
+        }
     }
     Ok(())
 }
