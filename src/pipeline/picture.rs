@@ -57,7 +57,7 @@ pub fn trace_picture(gray: &Gray, options: &Options) -> Result<Vec<BezPath>, Fit
     let (coverage, found) = found(gray, options);
     let paths = fit(&sharp(&coverage, &found, options), options)?;
     if matches!(options.fit, fit::Method::Joint(_)) {
-        review::reviewed(&coverage, &found, paths, options)
+        review::reviewed(&coverage, &found, &paths, options)
     } else {
         Ok(paths)
     }

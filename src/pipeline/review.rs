@@ -3,7 +3,7 @@
 use super::picture::{Options, fit, sharp};
 use crate::{
     fit::FitError,
-    refine::{self, Cornered, Doubts},
+    refine::{Cornered, Doubts, Fitted},
     types::Gray,
 };
 use kurbo::{BezPath, Point};
@@ -11,34 +11,28 @@ use kurbo::{BezPath, Point};
 /// A corner so near to a node that is gone is gone with it, px.
 const SAME_PX: f64 = 1.5;
 
-/// The paths of contours, those with doubtful corners fit again; a corner that was added stays where the picture
-/// bears it out.
+/// The paths of contours, those with doubtful corners fit again, and all nodes settled in the picture. A corner that was
+/// added stays where the picture bears it out.
 pub(super) fn reviewed(
     coverage: &Gray,
     found: &[Cornered],
-    mut paths: Vec<BezPath>,
+    paths: &[BezPath],
     options: &Options,
 ) -> Result<Vec<BezPath>, FitError> {
-    let Some(blur) = found.first().map(|(c, _)| c.blur_px()) else {
-        return Ok(paths);
-    };
-    let mut doubts = refine::doubts(coverage, &paths, blur);
-    let again = refit(coverage, found, (&paths, &doubts), options)?;
+    let blur = found.first().map_or(0.0, |(c, _)| c.blur_px());
+    let fitted = Fitted::new(coverage, paths, blur);
+    let mut doubts = fitted.doubts(paths);
+    let mut again = refit(coverage, found, (paths, &doubts), options)?;
     let corners: Vec<_> = doubts.iter().map(|d| d.sharp.clone()).collect();
-    if corners.iter().all(Vec::is_empty) {
-        return Ok(again);
-    }
-    let better = refine::borne_out(coverage, (&paths, &again), &corners, blur);
-    if better.iter().all(|b| *b) {
-        return Ok(again);
-    }
-    for (doubts, better) in doubts.iter_mut().zip(&better) {
-        if !better {
-            doubts.sharp.clear();
+    if corners.iter().any(|c| !c.is_empty()) {
+        let kept = fitted.borne_out(&again, &corners);
+        if kept.contains(&false) {
+            let dropped = doubts.iter_mut().zip(&kept).filter(|(_, kept)| !**kept);
+            dropped.for_each(|(doubts, _)| doubts.sharp.clear());
+            again = refit(coverage, found, (paths, &doubts), options)?;
         }
     }
-    paths = refit(coverage, found, (&paths, &doubts), options)?;
-    Ok(paths)
+    Ok(fitted.settled(&again))
 }
 
 /// The paths, those anew whose corners are doubted.

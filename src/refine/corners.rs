@@ -4,7 +4,7 @@
 //! blot of known place and shape. Picture minus model is weighed by that blot, the most that can be told under grain.
 
 use super::{
-    Cornered,
+    Cornered, nodes,
     residual::{Blot, Residual},
 };
 use crate::types::{Contour, Gray};
@@ -23,6 +23,8 @@ const DOUBT: [f64; 2] = [0.8, 1.3];
 /// A fitted corner may reach further than its tip is drawn by this, px, and by this for each px of the lens' deviation.
 const LONG_PX: (f64, f64) = (1.0, 1.2);
 
+/// Chords leave a path that is compared with the picture by no more than this, px.
+const CHORD_PX: f64 = 0.01;
 /// Longest curve that may stand for a corner, px, and what each px of the lens' deviation adds.
 const SHORT_PX: f64 = 4.0;
 const SHORT_LENS: f64 = 3.0;
@@ -86,42 +88,55 @@ pub struct Overlooked {
 }
 
 /// What the picture says against the corners of fitted paths.
-#[must_use]
-pub fn doubts(gray: &Gray, paths: &[BezPath], blur_px: f64) -> Vec<Doubts> {
-    let rings: Vec<Vec<Point>> = paths.iter().map(polygon).collect();
-    let residual = Residual::new(gray, rings.iter().map(Vec::as_slice), blur_px);
-    let of = |path: &BezPath| {
-        let segments: Vec<CubicBez> = path.segments().map(|s| s.to_cubic()).collect();
-        Doubts {
-            round: undrawn(&residual, &segments),
-            sharp: overlooked(&residual, &segments),
-        }
-    };
-    paths.iter().map(of).collect()
+#[derive(Debug)]
+pub struct Fitted {
+    residual: Residual,
 }
 
-/// Whether the picture bears out each of some paths with new `corners` as well as it did the path before it.
-#[must_use]
-pub fn borne_out(
-    gray: &Gray,
-    (before, after): (&[BezPath], &[BezPath]),
-    corners: &[Vec<Overlooked>],
-    blur_px: f64,
-) -> Vec<bool> {
-    let residual = |paths: &[BezPath]| {
-        let rings: Vec<Vec<Point>> = paths.iter().map(polygon).collect();
-        Residual::new(gray, rings.iter().map(Vec::as_slice), blur_px)
-    };
-    let (before, after) = (residual(before), residual(after));
-    let grain = GRAIN * before.grain();
-    let reach = SHORT_PX + SHORT_LENS * before.lens_px();
-    let gain = |c: &Overlooked| before.squares(c.tip, reach) - after.squares(c.tip, reach);
-    let better = |corners: &Vec<Overlooked>| {
-        corners
-            .iter()
-            .all(|c| 0.5 * gain(c) + SIMPLER * grain >= 0.0)
-    };
-    corners.iter().map(better).collect()
+impl Fitted {
+    /// The picture against the fill of `paths`, both blurred by `blur_px`.
+    #[must_use]
+    pub fn new(gray: &Gray, paths: &[BezPath], blur_px: f64) -> Self {
+        let rings = polygons(paths);
+        Self {
+            residual: Residual::new(gray, rings.iter().map(Vec::as_slice), blur_px),
+        }
+    }
+
+    /// What it says against the corners of those paths.
+    #[must_use]
+    pub fn doubts(&self, paths: &[BezPath]) -> Vec<Doubts> {
+        let of = |path: &BezPath| {
+            let segments: Vec<CubicBez> = path.segments().map(|s| s.to_cubic()).collect();
+            Doubts {
+                round: undrawn(&self.residual, &segments),
+                sharp: overlooked(&self.residual, &segments),
+            }
+        };
+        paths.iter().map(of).collect()
+    }
+
+    /// Whether it bears out each of some paths with new `corners` as well as it did the path before it.
+    #[must_use]
+    pub fn borne_out(&self, paths: &[BezPath], corners: &[Vec<Overlooked>]) -> Vec<bool> {
+        let before = &self.residual;
+        let after = before.against(polygons(paths).iter().map(Vec::as_slice));
+        let grain = GRAIN * before.grain();
+        let reach = SHORT_PX + SHORT_LENS * before.lens_px();
+        let gain = |c: &Overlooked| before.squares(c.tip, reach) - after.squares(c.tip, reach);
+        let kept = |c: &Overlooked| 0.5 * gain(c) + SIMPLER * grain >= 0.0;
+        corners.iter().map(|c| c.iter().all(kept)).collect()
+    }
+
+    /// Paths like those, with nodes and handles where their blurred fill is most like the picture.
+    #[must_use]
+    pub fn settled(&self, paths: &[BezPath]) -> Vec<BezPath> {
+        nodes::settled(&self.residual, paths)
+    }
+}
+
+fn polygons(paths: &[BezPath]) -> Vec<Vec<Point>> {
+    paths.iter().map(|p| polygon(p, CHORD_PX)).collect()
 }
 
 /// The corners of a closed path that are drawn round.
@@ -258,10 +273,10 @@ fn turned(v: Vec2, by: f64) -> Vec2 {
     Vec2::new(cos * v.x - sin * v.y, sin * v.x + cos * v.y)
 }
 
-/// A closed path as chords that leave it by no more than a hundredth of a pixel.
-fn polygon(path: &BezPath) -> Vec<Point> {
+/// A closed path as chords that leave it by no more than `tolerance_px`.
+pub(super) fn polygon(path: &BezPath, tolerance_px: f64) -> Vec<Point> {
     let mut out = Vec::new();
-    flatten(path, 0.01, |el| match el {
+    flatten(path, tolerance_px, |el| match el {
         PathEl::MoveTo(p) | PathEl::LineTo(p) => out.push(p),
         _ => {}
     });

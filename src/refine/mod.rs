@@ -10,11 +10,12 @@
 //! what the difference around it says. Nothing is approximated but the linear step, which is repeated.
 
 mod corners;
+mod nodes;
 mod residual;
 #[cfg(test)]
 mod tests;
 
-pub use corners::{Doubts, Overlooked, borne_out, confirmed, doubts};
+pub use corners::{Doubts, Fitted, Overlooked, confirmed};
 
 use crate::{
     numeric::side::{Place, Side, scatter_px},

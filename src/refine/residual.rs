@@ -70,6 +70,7 @@ impl Blot {
 }
 
 /// Picture minus model.
+#[derive(Debug, Clone)]
 pub(super) struct Residual {
     /// picture minus model, row by row from the top
     off: Vec<f32>,
@@ -111,6 +112,13 @@ impl Residual {
             votes(gray.samples()[i], model[i])
         });
         residual.compare(&model);
+        residual
+    }
+
+    /// The same picture and levels against other rings.
+    pub(super) fn against<'r>(&self, rings: impl Iterator<Item = &'r [Point]>) -> Self {
+        let mut residual = self.clone();
+        residual.update(rings);
         residual
     }
 
@@ -183,6 +191,21 @@ impl Residual {
         pixels.map(|i| f64::from(self.off[i] * self.off[i])).sum()
     }
 
+    /// Mean square of the differences in the pixels along a polygon.
+    pub(super) fn along(&self, ring: &[Point]) -> f64 {
+        let (mut sum, mut length) = (0.0, 0.0);
+        for (a, b) in ring.iter().zip(ring.iter().cycle().skip(1)) {
+            let d = a.distance(*b);
+            let (x, y) = (a.midpoint(*b).x, self.height as f64 - a.midpoint(*b).y);
+            let x = index(x).min(self.width.saturating_sub(1));
+            let off = self.off.get(index(y) * self.width + x);
+            let off = off.map_or(0.0, |off| f64::from(*off));
+            sum += d * off * off;
+            length += d;
+        }
+        sum / f64::max(length, 1e-12)
+    }
+
     /// Mean square of the differences at edges: the grain, and what the model misses.
     pub(super) fn grain(&self) -> f64 {
         let pairs = self.off.iter().zip(&self.seen);
@@ -225,14 +248,16 @@ fn perp(v: Vec2) -> Vec2 {
     Vec2::new(-v.y, v.x)
 }
 
-/// What a pixel of value `seen` says of ink and paper, the model's part of the other taken off.
+/// What a pixel of value `seen` says of ink and paper, the model's part of the other taken off: all where the model
+/// is ink or paper alone, less the more it holds of the other.
 fn votes(seen: f32, model: f32) -> Votes {
-    let weight = |away: f32| (1.0 - away / SURE).clamp(0.0, 1.0);
-    let (ink, paper) = (weight(1.0 - model), weight(model));
-    [
-        ink * (seen + 1.0 - model),
-        ink,
-        paper * (seen - model),
-        paper,
-    ]
+    if model > 1.0 - SURE {
+        let ink = (1.0 - (1.0 - model) / SURE).min(1.0);
+        [ink * (seen + 1.0 - model), ink, 0.0, 0.0]
+    } else if model < SURE {
+        let paper = (1.0 - model / SURE).min(1.0);
+        [0.0, 0.0, paper * (seen - model), paper]
+    } else {
+        [0.0; 4]
+    }
 }

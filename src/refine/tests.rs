@@ -3,6 +3,7 @@ use crate::numeric::{
     cast::index,
     coverage::{Coverage, blurred},
 };
+use kurbo::{BezPath, ParamCurve};
 
 /// The picture of a polygon through a lens.
 fn picture(ring: &[Point], size: usize, lens: f64) -> Gray {
@@ -114,4 +115,103 @@ fn nothing_runs_away() {
         assert!(off(got[0].0.points(), centre, 6.0) <= REACH_PX + 1e-9);
     }
     assert!(contours(&Gray::from_fn(0, 0, |_, _| 0.0), &[]).is_empty());
+}
+
+/// A square whose last corner is an arc of `radius` px.
+fn rounded(radius: f64) -> BezPath {
+    let mut path = BezPath::new();
+    let k = 0.5523 * radius;
+    path.move_to((8.2, 8.4));
+    path.line_to((40.3, 8.4));
+    path.line_to((40.3, 40.1 - radius));
+    path.curve_to(
+        (40.3, 40.1 - radius + k),
+        (40.3 - radius + k, 40.1),
+        (40.3 - radius, 40.1),
+    );
+    path.line_to((8.2, 40.1));
+    path.close_path();
+    path
+}
+
+fn square() -> BezPath {
+    BezPath::from_svg("M8.2 8.4L40.3 8.4L40.3 40.1L8.2 40.1Z").unwrap()
+}
+
+fn photograph(path: &BezPath, lens: f64) -> Gray {
+    picture(&corners::polygon(path, 0.001), 48, lens)
+}
+
+fn doubts(gray: &Gray, path: &BezPath, blur: f64) -> Vec<Doubts> {
+    let path = std::slice::from_ref(path);
+    Fitted::new(gray, path, blur).doubts(path)
+}
+
+fn settled(gray: &Gray, path: &BezPath, blur: f64) -> BezPath {
+    let path = std::slice::from_ref(path);
+    Fitted::new(gray, path, blur).settled(path).remove(0)
+}
+
+#[test]
+fn a_short_curve_in_a_corners_place_is_doubted() {
+    for lens in [0.0, 0.9] {
+        let blur = Contour::PIXEL_BLUR_PX.hypot(lens);
+        let doubts = doubts(&photograph(&square(), lens), &rounded(2.0), blur);
+        assert!(doubts[0].round.is_empty(), "{doubts:?}");
+        assert_eq!(doubts[0].sharp.len(), 1, "{doubts:?}");
+        assert!(doubts[0].sharp[0].tip.distance(Point::new(40.3, 40.1)) < 1e-6);
+    }
+}
+
+#[test]
+fn a_corner_that_is_drawn_round_is_doubted_and_one_that_is_not_is_left() {
+    for lens in [0.0, 0.9] {
+        let blur = Contour::PIXEL_BLUR_PX.hypot(lens);
+        let round = photograph(&rounded(5.0), lens);
+        let sharp = photograph(&square(), lens);
+        let at = |gray: &Gray, path: &BezPath| doubts(gray, path, blur);
+        let found = at(&round, &square());
+        assert_eq!(found[0].round, [Point::new(40.3, 40.1)], "lens {lens}");
+        assert_eq!(at(&round, &rounded(5.0)), [Doubts::default()]);
+        assert_eq!(at(&sharp, &square()), [Doubts::default()]);
+    }
+}
+
+#[test]
+fn nodes_go_where_the_picture_has_them() {
+    let truth = "M8.2 8.4L40.3 8.4C40.3 22.4 30.1 40.1 8.2 40.1Z";
+    let start = "M8.6 8.1L39.9 8.2C40.5 22.1 30.2 40.4 8.5 40.5Z";
+    let [truth, start] = [truth, start].map(|s| BezPath::from_svg(s).unwrap());
+    for lens in [0.0, 0.9] {
+        let blur = Contour::PIXEL_BLUR_PX.hypot(lens);
+        let got = settled(&photograph(&truth, lens), &start, blur);
+        let places = |p: &BezPath| p.segments().map(|s| s.start()).collect::<Vec<_>>();
+        let (before, after, want) = (places(&start), places(&got), places(&truth));
+        for (k, want) in want.iter().enumerate() {
+            // each comparison leaves some two thirds of a corner's error
+            let left = 0.35 * before[k].distance(*want);
+            assert!(
+                after[k].distance(*want) < left,
+                "lens {lens}: {:?} {want:?}",
+                after[k]
+            );
+        }
+    }
+}
+
+#[test]
+fn nodes_stay_where_the_picture_tells_nothing() {
+    for gray in [
+        Gray::from_fn(48, 48, |_, _| 0.0),
+        Gray::from_fn(48, 48, |x, y| ((x * 7 + y * 13) % 5) as f32 / 4.0),
+    ] {
+        let start = rounded(5.0);
+        let got = settled(&gray, &start, 0.6);
+        let pairs = got.segments().zip(start.segments());
+        for (a, b) in pairs {
+            assert!(a.start().distance(b.start()) <= 2.0 + 1e-9);
+        }
+    }
+    let nothing = Fitted::new(&Gray::from_fn(0, 0, |_, _| 0.0), &[], 0.6);
+    assert!(nothing.settled(&[]).is_empty());
 }

@@ -4,6 +4,7 @@ use super::found::Draft;
 use super::samples::Samples;
 use super::{Joint, STRAY, judge, tidy};
 use crate::numeric::chain::{Chain, Join, Node};
+use crate::numeric::joins::level_ends;
 use crate::numeric::refit::Foot;
 use crate::types::{Span, Spans};
 use kurbo::{BezPath, Point};
@@ -32,7 +33,7 @@ pub(super) fn welded(joint: &Joint, spans: &Spans, tolerance_px: f64) -> Option<
         && keeps(chain, &corners, &spans, STRAY * tolerance_px);
     kept.then(|| {
         tidy::smooth(&mut found);
-        tidy::level_ends(&mut found.chain);
+        level_ends(&mut found.chain);
         found.chain.to_path()
     })
 }

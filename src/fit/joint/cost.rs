@@ -1,8 +1,9 @@
 //! What a structure costs, in nats: the prior of one who draws letters.
 
-use crate::numeric::chain::{Chain, Join, Kind};
-use kurbo::CubicBez;
-use kurbo::common::solve_quadratic;
+use crate::numeric::{
+    chain::{Chain, Join, Kind},
+    joins::inner_extrema,
+};
 
 /// Steps of contour that count as one measurement: neighbouring points share pixels.
 pub(super) const CORRELATION: f64 = 5.0;
@@ -69,29 +70,4 @@ pub(super) fn structure(chain: &Chain, before: Option<Kind>, after: Option<Kind>
         }
     }
     sum
-}
-
-/// Parameters inside a cubic where it turns back in y (`Horizontal`) or x (`Vertical`).
-pub(super) fn inner_extrema(c: &CubicBez) -> impl Iterator<Item = (f64, Join)> + use<> {
-    let d = [
-        3.0 * (c.p1 - c.p0),
-        3.0 * (c.p2 - c.p1),
-        3.0 * (c.p3 - c.p2),
-    ];
-    let axes = [
-        (Join::Horizontal, d.map(|v| v.y)),
-        (Join::Vertical, d.map(|v| v.x)),
-    ];
-    axes.into_iter().flat_map(|(join, [a, b, c])| {
-        // a (1−t)² + 2 b t (1−t) + c t²
-        let (q2, q1, q0) = (a - 2.0 * b + c, 2.0 * (b - a), a);
-        let roots = solve_quadratic(q0, q1, q2);
-        let size = a.abs().max(b.abs()).max(c.abs());
-        roots.into_iter().filter_map(move |t| {
-            let inside = t > 1e-3 && t < 1.0 - 1e-3;
-            // It must turn back, not only touch, and not by rounding alone.
-            let turns = (2.0 * q2 * t + q1).abs() > 1e-6 * size;
-            (inside && turns).then_some((t, join))
-        })
-    })
 }

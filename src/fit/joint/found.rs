@@ -9,6 +9,8 @@ use kurbo::{ParamCurve, Point};
 
 /// Distance, in sigmas, from which a point counts as an outlier.
 const ROBUST: f64 = 4.0;
+/// How far a node may go from where it was, in shorter sides.
+const FREEDOM: f64 = 0.5;
 /// A line so near to an axis is meant to be parallel to it, radians.
 const UPRIGHT: f64 = 0.006;
 
@@ -81,6 +83,7 @@ impl Draft {
             scale: Scale {
                 sigma,
                 robust: ROBUST,
+                freedom: FREEDOM,
             },
             refit: Refit::default(),
             held: Vec::new(),
@@ -108,6 +111,7 @@ impl Found {
         let scale = Scale {
             sigma: self.sigma,
             robust: ROBUST,
+            freedom: FREEDOM,
         };
         let stop = Stop {
             rounds,

@@ -3,6 +3,7 @@
 
 use super::cost;
 use crate::numeric::chain::{Chain, Join, Kind, Node};
+use crate::numeric::joins::inner_extrema;
 use crate::numeric::refit::{Foot, Refit, Sample, Scale, Stop};
 use kurbo::{CubicBez, ParamCurve, ParamCurveDeriv, Vec2};
 
@@ -317,7 +318,7 @@ fn changes(w: &Window, at: usize) -> Vec<Change> {
         if !bars(p.leave, p.join, chain.before(a)) && !bars(q.arrive, q.join, chain.after(b)) {
             out.push(Change::Straighten(at));
         }
-        for (t, join) in cost::inner_extrema(&chain.cubic(at)) {
+        for (t, join) in inner_extrema(&chain.cubic(at)) {
             if w.told(at, t) {
                 out.push(Change::Split(at, t, join));
             }

@@ -40,6 +40,8 @@ pub struct Scale {
     pub sigma: f64,
     /// Distance, in deviations of a sample, from which the cost grows linearly only.
     pub robust: f64,
+    /// How far a node may go from where it was, in shorter sides: only what the samples leave open is held by it.
+    pub freedom: f64,
 }
 
 /// When a refinement ends.
@@ -57,8 +59,6 @@ pub struct Stop {
 const HOPE: f64 = 4.0;
 /// A free direction leaves the chord by no more than this, radians: further, the curve would hook back.
 const HOOK: f64 = 1.75;
-/// How far a node may go from where it was, in shorter sides: only what the samples leave open is held by it.
-const FREEDOM: f64 = 0.5;
 /// How far a loose end may go, in deviations of a sample: as far as a corner is found astray.
 const LOOSE: f64 = 16.0;
 /// How far in one step, in shorter sides.
@@ -147,7 +147,7 @@ impl Refit {
     ) -> f64 {
         chain.settle();
         let free = self.lay_out(chain);
-        self.drop_anchors(chain, scale.sigma);
+        self.drop_anchors(chain, scale);
         let mut cost = self.evaluate(chain, samples, feet, scale);
         let mut lambda = 1e-3;
         for _ in 0..stop.rounds {
@@ -401,12 +401,12 @@ impl Refit {
         })
     }
 
-    fn drop_anchors(&mut self, chain: &Chain, sigma: f64) {
+    fn drop_anchors(&mut self, chain: &Chain, scale: Scale) {
         self.anchors.clear();
         for (i, node) in chain.nodes.iter().enumerate() {
-            let side = FREEDOM * shorter_side(chain, i);
+            let side = scale.freedom * shorter_side(chain, i);
             let reach = if node.join == Join::Loose {
-                side.min(LOOSE * sigma)
+                side.min(LOOSE * scale.sigma)
             } else {
                 side
             };

@@ -1,0 +1,170 @@
+//! Joins that a fit leaves undecided: curves that turn back just before their end, corners that hardly turn, and smooth
+//! nodes that turn at once.
+
+use super::chain::{Chain, Join, Kind, Node};
+use kurbo::common::solve_quadratic;
+use kurbo::{CubicBez, ParamCurve, Vec2};
+
+/// A corner that turns less after a fit is a smooth join, radians: below, designers mean one.
+const SOFT: f64 = 0.44;
+/// Directions so near to an axis are on it, radians.
+const LEVEL: f64 = 0.02;
+/// A curve that leaves its direction within so short a handle, px, and turns more than this there, radians, has a corner.
+const AT_ONCE: (f64, f64) = (0.5, 1.0);
+/// A curve that turns back so near to its corner is meant to end where it is level: chords, and px.
+const BESIDE: (f64, f64) = (0.25, 6.0);
+/// By how much it turns back at most, px.
+const DEPTH_PX: f64 = 0.3;
+
+/// Parameters inside a cubic where it turns back in y (`Horizontal`) or x (`Vertical`).
+pub fn inner_extrema(c: &CubicBez) -> impl Iterator<Item = (f64, Join)> + use<> {
+    let d = [
+        3.0 * (c.p1 - c.p0),
+        3.0 * (c.p2 - c.p1),
+        3.0 * (c.p3 - c.p2),
+    ];
+    let axes = [
+        (Join::Horizontal, d.map(|v| v.y)),
+        (Join::Vertical, d.map(|v| v.x)),
+    ];
+    axes.into_iter().flat_map(|(join, [a, b, c])| {
+        // a (1−t)² + 2 b t (1−t) + c t²
+        let (q2, q1, q0) = (a - 2.0 * b + c, 2.0 * (b - a), a);
+        let roots = solve_quadratic(q0, q1, q2);
+        let size = a.abs().max(b.abs()).max(c.abs());
+        roots.into_iter().filter_map(move |t| {
+            let inside = t > 1e-3 && t < 1.0 - 1e-3;
+            // It must turn back, not only touch, and not by rounding alone.
+            let turns = (2.0 * q2 * t + q1).abs() > 1e-6 * size;
+            (inside && turns).then_some((t, join))
+        })
+    })
+}
+
+/// Turns curves that pass an extremum just before a corner so that they end in it: nothing was measured there.
+pub fn level_ends(chain: &mut Chain) {
+    for i in 0..chain.kinds.len() {
+        if chain.kinds[i] == Kind::Cubic {
+            level_end(chain, i);
+        }
+    }
+}
+
+fn level_end(chain: &mut Chain, i: usize) {
+    let c = chain.cubic(i);
+    let (a, b) = chain.ends(i);
+    for (t, join) in inner_extrema(&c) {
+        let at = c.eval(t);
+        let (node, end) = if t > 0.5 { (b, c.p3) } else { (a, c.p0) };
+        let off = end - at;
+        let (depth, along) = match join {
+            Join::Horizontal => (off.y.abs(), Vec2::new(1.0, 0.0)),
+            _ => (off.x.abs(), Vec2::new(0.0, 1.0)),
+        };
+        let near = (BESIDE.0 * c.p0.distance(c.p3)).min(BESIDE.1);
+        let node = &mut chain.nodes[node];
+        if node.join != Join::Corner || depth > DEPTH_PX || off.hypot() > near {
+            continue;
+        }
+        if t > 0.5 {
+            node.arrive = along * 1f64.copysign(node.arrive.dot(along));
+        } else {
+            node.leave = along * 1f64.copysign(node.leave.dot(along));
+        }
+    }
+}
+
+/// Whether a corner of which one side at least is curved turns too little to be one: the blur hid a smooth join.
+#[must_use]
+pub fn is_soft(chain: &Chain, i: usize) -> bool {
+    let curved = |s| chain.kind(s) == Some(Kind::Cubic);
+    let direction = |s: Option<usize>, own: Vec2| match s {
+        Some(s) if chain.kinds[s] == Kind::Line => chain.direction(s),
+        _ => own,
+    };
+    let (before, after) = (chain.before(i), chain.after(i));
+    let node = &chain.nodes[i];
+    let (u, v) = (direction(before, node.arrive), direction(after, node.leave));
+    node.join == Join::Corner
+        && (curved(before) || curved(after))
+        && u.cross(v).atan2(u.dot(v)).abs() < SOFT
+}
+
+/// Makes a corner smooth, level or upright if it is so already but for a little.
+pub fn soften(node: &mut Node) {
+    let along = node.arrive + node.leave;
+    let along = along / along.hypot().max(1e-12);
+    node.join = if along.y.abs() < LEVEL {
+        Join::Horizontal
+    } else if along.x.abs() < LEVEL {
+        Join::Vertical
+    } else {
+        Join::Smooth
+    };
+    (node.arrive, node.leave) = (along, along);
+}
+
+/// Makes a smooth node a corner where a curve beside it turns away at once.
+pub fn sharpen(chain: &mut Chain, i: usize) {
+    if !chain.nodes[i].join.is_smooth() {
+        return;
+    }
+    let curve = |s: Option<usize>| s.filter(|s| chain.kinds[*s] == Kind::Cubic);
+    let (before, after) = (curve(chain.before(i)), curve(chain.after(i)));
+    let node = chain.nodes[i];
+    let turns = |along: Vec2, handle: f64, on: Vec2| {
+        let turn = along.cross(on).atan2(along.dot(on)).abs();
+        (handle < AT_ONCE.0 && turn > AT_ONCE.1).then(|| on / on.hypot())
+    };
+    let (p, third) = (node.point, |c: CubicBez| c.p0.distance(c.p3) / 3.0);
+    let leaving = after.map(|s| chain.cubic(s));
+    let arriving = before.map(|s| chain.cubic(s));
+    let leave = leaving.and_then(|c| Some((turns(node.leave, node.ahead, c.p2 - p)?, third(c))));
+    let arrive = arriving.and_then(|c| Some((turns(node.arrive, node.back, p - c.p1)?, third(c))));
+    let node = &mut chain.nodes[i];
+    if let Some((along, handle)) = leave {
+        (node.leave, node.ahead, node.join) = (along, handle, Join::Corner);
+    }
+    if let Some((along, handle)) = arrive {
+        (node.arrive, node.back, node.join) = (along, handle, Join::Corner);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use kurbo::Point;
+
+    #[test]
+    fn an_arch_turns_back_at_its_top() {
+        let c = CubicBez::new((0.0, 0.0), (0.0, 4.0), (4.0, 4.0), (4.0, 0.0));
+        let found: Vec<(f64, Join)> = inner_extrema(&c).collect();
+        assert_eq!(found.len(), 1, "{found:?}");
+        assert!((found[0].0 - 0.5).abs() < 1e-12 && found[0].1 == Join::Horizontal);
+    }
+
+    #[test]
+    fn a_curve_ends_level_where_it_all_but_did() {
+        let path = kurbo::BezPath::from_svg("M0 0C0 30 20 50.1 50 50L50 0Z").unwrap();
+        let mut chain = Chain::from_path(&path, 0.001).unwrap();
+        level_ends(&mut chain);
+        let end = chain.cubic(0);
+        assert_eq!(end.p2.y, end.p3.y);
+        assert_eq!(end.p3, Point::new(50.0, 50.0));
+    }
+
+    #[test]
+    fn a_node_that_turns_at_once_is_a_corner() {
+        let path = kurbo::BezPath::from_svg("M0 0L0 99.9C0 100 30 100 90 100L90 0Z").unwrap();
+        let mut chain = Chain::from_path(&path, 0.001).unwrap();
+        assert_eq!(chain.nodes[1].join, Join::Vertical);
+        sharpen(&mut chain, 1);
+        assert_eq!(chain.nodes[1].join, Join::Corner);
+        assert!(chain.nodes[1].leave.y.abs() < 0.01 && chain.nodes[1].ahead > 29.0);
+        let round = kurbo::BezPath::from_svg("M0 0L0 90C0 96 4 100 10 100L90 0Z").unwrap();
+        let mut chain = Chain::from_path(&round, 0.001).unwrap();
+        let before = chain.clone();
+        (0..chain.nodes.len()).for_each(|i| sharpen(&mut chain, i));
+        assert_eq!(chain, before);
+    }
+}

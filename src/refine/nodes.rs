@@ -1,0 +1,122 @@
+//! The last step: all nodes and handles of fitted paths against the grey picture.
+//!
+//! Along each path the difference between the picture and its blurred fill says how far the edge should move; nodes,
+//! directions and handles follow by least squares, joins kept. This is the gradient of the squared difference itself,
+//! corners included, which the contour only knows from their sides.
+
+use super::corners::polygon;
+use super::residual::Residual;
+use crate::numeric::{
+    cast::index,
+    chain::Chain,
+    joins::{is_soft, level_ends, sharpen, soften},
+    refit::{Foot, Refit, Sample, Scale, Stop},
+};
+use kurbo::{BezPath, ParamCurve, ParamCurveDeriv, Point, Vec2};
+
+/// Comparisons with the picture.
+const ROUNDS: usize = 3;
+/// Steps of the least squares after each.
+const STEPS: usize = 8;
+/// Directions that differ by less are one, radians.
+const SMOOTH: f64 = 0.0175;
+/// Way along a path for one sample, px, and samples of the shortest curve.
+const STEP_PX: f64 = 1.5;
+const FEWEST: usize = 4;
+/// Deviation of a sample, px, and the number of neighbours that share pixels with it.
+const SIGMA_PX: f64 = 0.06;
+const SHARED: f64 = 5.0;
+/// No edge moves further in a step, px: the picture says little of what is further off.
+const MOST_PX: f64 = 1.0;
+/// How far a node may go in a step where the picture leaves it open, in shorter sides.
+const FREEDOM: f64 = 0.03;
+/// And no node further in all, px.
+const REACH_PX: f64 = 2.0;
+
+/// The paths moved to where their blurred fill is most like the picture; each stays as it was if none of its steps makes
+/// it more like.
+pub(super) fn settled(levels: &Residual, paths: &[BezPath]) -> Vec<BezPath> {
+    let chains = paths.iter().map(|p| Chain::from_path(p, SMOOTH));
+    let start: Vec<Option<Chain>> = chains.collect();
+    let mut now = start.clone();
+    let mut rings: Vec<Vec<Point>> = paths.iter().map(fine).collect();
+    let mut residual = levels.against(rings.iter().map(Vec::as_slice));
+    let mut least: Vec<f64> = rings.iter().map(|r| residual.along(r)).collect();
+    let mut best = paths.to_vec();
+    let mut refit = Refit::default();
+    for _ in 0..ROUNDS {
+        for (chain, ring) in now.iter_mut().zip(&mut rings) {
+            if let Some(chain) = chain {
+                step(chain, &residual, &mut refit);
+                *ring = fine(&chain.to_path());
+            }
+        }
+        residual.update(rings.iter().map(Vec::as_slice));
+        for (k, chains) in now.iter().zip(&start).enumerate() {
+            let (Some(chain), Some(start)) = chains else {
+                continue;
+            };
+            let off = residual.along(&rings[k]);
+            if off < least[k] && near(chain, start) {
+                least[k] = off;
+                best[k] = chain.to_path();
+            }
+        }
+    }
+    best
+}
+
+/// A path as chords that cut off next to nothing, for the fill of chords is what is compared.
+fn fine(path: &BezPath) -> Vec<Point> {
+    polygon(path, 0.001)
+}
+
+/// Moves a chain by what the differences along it say.
+fn step(chain: &mut Chain, residual: &Residual, refit: &mut Refit) {
+    for i in 0..chain.nodes.len() {
+        if is_soft(chain, i) {
+            soften(&mut chain.nodes[i]);
+        }
+        sharpen(chain, i);
+    }
+    let (mut samples, mut feet) = (Vec::new(), Vec::new());
+    for segment in 0..chain.kinds.len() {
+        let c = chain.cubic(segment);
+        let length = c.p0.distance(c.p1) + c.p1.distance(c.p2) + c.p2.distance(c.p3);
+        let count = index((length / STEP_PX).ceil()).max(FEWEST);
+        for k in 0..count {
+            let t = (k as f64 + 0.5) / count as f64;
+            let (p, along) = (c.eval(t), c.deriv().eval(t).to_vec2());
+            if along.hypot() < 1e-9 {
+                continue;
+            }
+            // ink lies to the left
+            let outward = Vec2::new(along.y, -along.x).normalize();
+            let shift = residual.shift(p).clamp(-MOST_PX, MOST_PX);
+            samples.push(Sample {
+                at: p + shift * outward,
+                weight: length / (count as f64 * SHARED),
+                sigma: SIGMA_PX,
+            });
+            feet.push(Foot { segment, t });
+        }
+    }
+    let scale = Scale {
+        sigma: SIGMA_PX,
+        robust: f64::INFINITY,
+        freedom: FREEDOM,
+    };
+    let stop = Stop {
+        rounds: STEPS,
+        gain: 0.01,
+        enough: f64::INFINITY,
+    };
+    refit.run(chain, (&samples, &mut feet), scale, stop);
+    level_ends(chain);
+}
+
+/// Whether no node went far from where it started, and all are places.
+fn near(chain: &Chain, start: &Chain) -> bool {
+    let mut pairs = chain.nodes.iter().zip(&start.nodes);
+    chain.to_path().is_finite() && pairs.all(|(a, b)| a.point.distance(b.point) <= REACH_PX)
+}
