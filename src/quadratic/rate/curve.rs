@@ -1,7 +1,7 @@
 //! A contour as spans between the nodes that must stay, each sampled evenly by arc length.
 
 use super::glyf::Stored;
-use kurbo::{BezPath, ParamCurve, ParamCurveDeriv, PathSeg, Point, QuadBez, Vec2};
+use kurbo::{BezPath, ParamCurve, ParamCurveDeriv, PathSeg, Point, Vec2};
 
 /// A node that stays: where, and the direction the curve must have there, if any.
 #[derive(Debug, Clone, Copy)]
@@ -53,13 +53,20 @@ pub(super) struct Gate {
     pub(super) level: i32,
 }
 
+/// A sample of a curve.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Dot {
+    pub(super) p: Point,
+    /// Unit tangent.
+    pub(super) t: Vec2,
+    /// Curvature, 1/units, positive to the left.
+    pub(super) k: f64,
+}
+
 /// Even samples of a smooth curve.
 #[derive(Debug, Clone)]
 pub(super) struct Curve {
-    pub(super) p: Vec<Point>,
-    pub(super) t: Vec<Vec2>,
-    /// Curvature, 1/units, positive to the left.
-    pub(super) k: Vec<f64>,
+    pub(super) dots: Vec<Dot>,
     /// Distance between samples, units.
     pub(super) step: f64,
     pub(super) gates: Vec<Gate>,
@@ -80,13 +87,6 @@ pub(super) struct Keep {
     pub(super) least: f64,
     /// How far a corner may move, units.
     pub(super) free: f64,
-}
-
-/// A quadratic beside the curve: the sample where it ends, and its largest distance on the way.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Followed {
-    pub(super) at: f64,
-    pub(super) worst: f64,
 }
 
 impl Course {
@@ -194,7 +194,7 @@ impl Curve {
         }
         let n = whole((length / spacing).ceil().clamp(16.0, 60_000.0));
         let step = length / count(n);
-        let (mut p, mut t, mut at) = (Vec::with_capacity(n + 1), Vec::with_capacity(n + 1), 0);
+        let (mut dots, mut at) = (Vec::with_capacity(n + 1), 0);
         for i in 0..=n {
             let s = step * count(i);
             while at + 2 < table.len() && (table[at + 1].0 < s || table[at + 1].1 != table[at].1) {
@@ -207,13 +207,15 @@ impl Curve {
                 0.0
             };
             let u = a.2 + f * (b.2 - a.2);
-            p.push(segs[a.1].eval(u));
-            t.push(direction(&segs[a.1], u));
+            let t = direction(&segs[a.1], u);
+            dots.push(Dot {
+                p: segs[a.1].eval(u),
+                t,
+                k: 0.0,
+            });
         }
         let mut curve = Self {
-            p,
-            t,
-            k: Vec::new(),
+            dots,
             step,
             gates: Vec::new(),
             first: 0,
@@ -226,39 +228,38 @@ impl Curve {
 
     /// Whether it closes on itself.
     pub(super) fn is_ring(&self) -> bool {
-        self.p[self.first] == self.p[self.last]
+        self.dots[self.first].p == self.dots[self.last].p
     }
 
     fn bend(&mut self) {
-        let n = self.t.len();
-        let turn = |i: usize, j: usize| self.t[i].cross(self.t[j]).atan2(self.t[i].dot(self.t[j]));
-        self.k = (0..n)
-            .map(|i| {
-                let (a, b) = (i.saturating_sub(1), (i + 1).min(n - 1));
-                turn(a, b) / (self.step * count(b - a))
-            })
-            .collect();
+        let n = self.dots.len();
+        let turn = |curve: &Self, i: usize, j: usize| {
+            let (t, u) = (curve.dots[i].t, curve.dots[j].t);
+            t.cross(u).atan2(t.dot(u))
+        };
+        for i in 0..n {
+            let (a, b) = (i.saturating_sub(1), (i + 1).min(n - 1));
+            self.dots[i].k = turn(self, a, b) / (self.step * count(b - a));
+        }
     }
 
     /// A span that may begin and end up to `room` (units) beyond its ends, along their lines.
     fn open(segs: &[PathSeg], room: [f64; 2], [from, to]: [Node; 2], keep: Keep) -> Self {
         let mut curve = Self::sampled(segs, keep.tolerance);
-        let beyond = room.map(|r| whole((r / curve.step).min(count(curve.p.len()))));
-        let (p, t) = (curve.p.clone(), curve.t.clone());
-        let (u, v) = (
-            from.along.unwrap_or(t[0]),
-            to.along.unwrap_or(t[t.len() - 1]),
-        );
+        let n = curve.dots.len();
+        let beyond = room.map(|r| whole((r / curve.step).min(count(n))));
+        let (head, tail) = (curve.dots[0], curve.dots[n - 1]);
+        let (u, v) = (from.along.unwrap_or(head.t), to.along.unwrap_or(tail.t));
         let step = curve.step;
-        let before = (1..=beyond[0]).rev().map(|i| p[0] - u * (count(i) * step));
-        let end = p[p.len() - 1];
-        let after = (1..=beyond[1]).map(|i| end + v * (count(i) * step));
-        curve.p = before.chain(p.iter().copied()).chain(after).collect();
-        curve.t = std::iter::repeat_n(u, beyond[0])
-            .chain(t)
-            .chain(std::iter::repeat_n(v, beyond[1]))
-            .collect();
-        (curve.first, curve.last) = (beyond[0], beyond[0] + p.len() - 1);
+        let line = |from: Point, t: Vec2, i: f64| Dot {
+            p: from + t * (i * step),
+            t,
+            k: 0.0,
+        };
+        let before = (1..=beyond[0]).rev().map(|i| line(head.p, u, -count(i)));
+        let after = (1..=beyond[1]).map(|i| line(tail.p, v, count(i)));
+        curve.dots = before.chain(curve.dots).chain(after).collect();
+        (curve.first, curve.last) = (beyond[0], beyond[0] + n - 1);
         curve.bend();
         curve.gates = curve.extrema(keep.least);
         curve
@@ -267,17 +268,16 @@ impl Curve {
     /// A ring, turned so that it begins at its most prominent extremum.
     fn ring(segs: &[PathSeg], keep: Keep) -> Option<(Self, Gate)> {
         let mut curve = Self::sampled(segs, keep.tolerance);
-        let n = curve.p.len() - 1;
+        let n = curve.dots.len() - 1;
         // The highest sample is an extremum of any ring.
-        let top = (0..n).max_by(|&a, &b| curve.p[a].y.total_cmp(&curve.p[b].y))?;
+        let top = (0..n).max_by(|&a, &b| curve.dots[a].p.y.total_cmp(&curve.dots[b].p.y))?;
         let pad = n / 3;
         let from = |i: usize| (top + n - pad + i) % n;
-        curve.p = (0..=n + 2 * pad).map(|i| curve.p[from(i)]).collect();
-        curve.t = (0..=n + 2 * pad).map(|i| curve.t[from(i)]).collect();
+        curve.dots = (0..=n + 2 * pad).map(|i| curve.dots[from(i)]).collect();
         (curve.first, curve.last) = (pad, pad + n);
         curve.bend();
         curve.gates = curve.extrema(keep.least);
-        let level = Stored::on(curve.p[pad]).y;
+        let level = Stored::on(curve.dots[pad].p).y;
         let gate = Gate {
             at: pad,
             horizontal: true,
@@ -290,7 +290,13 @@ impl Curve {
     fn extrema(&self, tolerance: f64) -> Vec<Gate> {
         let mut gates = Vec::new();
         for horizontal in [true, false] {
-            let value = |i: usize| if horizontal { self.p[i].y } else { self.p[i].x };
+            let value = |i: usize| {
+                if horizontal {
+                    self.dots[i].p.y
+                } else {
+                    self.dots[i].p.x
+                }
+            };
             let (first, last) = (self.first, self.last);
             let mut found: Vec<usize> = Vec::new();
             for i in first + 1..last {
@@ -305,7 +311,7 @@ impl Curve {
             }
             prominent(&mut found, value, (first, last), tolerance);
             gates.extend(found.into_iter().map(|at| {
-                let s = Stored::on(self.p[at]);
+                let s = Stored::on(self.dots[at].p);
                 Gate {
                     at,
                     horizontal,
@@ -316,109 +322,6 @@ impl Curve {
         gates.sort_by_key(|g| g.at);
         gates.dedup_by_key(|g| g.at);
         gates
-    }
-
-    /// The foot of a point near sample `guess`: the sample as a fraction, and the signed distance, left positive.
-    pub(super) fn foot(&self, q: Point, guess: f64) -> (f64, f64) {
-        let last = self.p.len() - 1;
-        let mut j = whole(guess + 0.5).min(last);
-        let per = 1.0 / self.step;
-        let mut along = 0.0;
-        for _ in 0..6 {
-            let r = q - self.p[j];
-            along = r.dot(self.t[j]) * per;
-            if along.abs() <= 1.0 {
-                break;
-            }
-            let next = if along >= 0.0 {
-                (j + whole(along + 0.5)).min(last)
-            } else {
-                j.saturating_sub(whole(0.5 - along))
-            };
-            if next == j {
-                break;
-            }
-            j = next;
-        }
-        let r = q - self.p[j];
-        let d = self.t[j].cross(r);
-        if along.abs() > 1.0 {
-            // Beyond an end, or no foot found: the plain distance.
-            return (count(j), r.hypot() * if d < 0.0 { -1.0 } else { 1.0 });
-        }
-        let s = along * self.step;
-        (count(j) + along, d - 0.5 * self.k[j] * s * s)
-    }
-
-    /// Follows a quadratic from sample `from`; none if it strays farther than `limit` (units),
-    /// turns back, or passes sample `until`.
-    pub(super) fn follow(
-        &self,
-        [a, c, b]: [Point; 3],
-        from: f64,
-        until: f64,
-        limit: f64,
-    ) -> Option<Followed> {
-        /// Places at which a quadratic is measured, in eighths, the likeliest failure first.
-        const LOOK: [usize; 7] = [4, 2, 6, 1, 7, 3, 5];
-        /// The curve's arc between two feet may be so many times the quadratic's mean.
-        const DETOUR: f64 = 1.0;
-        /// A foot may lie so many limits behind the start or beyond the end: what rounding moves it.
-        const BEYOND: f64 = 0.6;
-        let beyond = BEYOND * limit / self.step;
-        let (ca, bc) = (c - a, b - c);
-        let chord = ca.hypot() + bc.hypot();
-        // Between its chord and its legs, as a quadratic's arc does.
-        let arc = (2.0 * a.distance(b) + chord) / 3.0;
-        let (end, d) = self.foot(b, from + arc / self.step);
-        if d.abs() > limit || end > until + beyond || end <= from {
-            return None;
-        }
-        let mut worst = d.abs();
-        let mut feet = [from; 9];
-        feet[8] = end;
-        for i in LOOK {
-            let u = 0.125 * count(i);
-            let q = a + ca * (2.0 * u * (1.0 - u) + u * u) + bc * (u * u);
-            // Arc length along a quadratic grows about as a blend of its two legs.
-            let part = (2.0 * u - u * u) * ca.hypot() + u * u * bc.hypot();
-            let (at, d) = self.foot(q, from + (end - from) * part / chord.max(1e-9));
-            worst = worst.max(d.abs());
-            if worst > limit || at < from - beyond || at > end + beyond {
-                return None;
-            }
-            feet[i] = at;
-        }
-        // A bend that the quadratic leaves out: the curve goes on much farther than the quadratic does.
-        let longest = 0.25 * DETOUR * chord + 2.0 * limit;
-        let skips = feet.windows(2).any(|f| (f[1] - f[0]) * self.step > longest);
-        (!skips).then_some(Followed { at: end, worst })
-    }
-
-    /// The largest distance, units, either way, between a quadratic and the samples from `from` to `to`.
-    pub(super) fn strays(&self, quad: QuadBez, from: f64, to: f64) -> f64 {
-        /// Chords that stand for a quadratic.
-        const CHORDS: usize = 32;
-        /// Chords that are looked at beyond the one nearest to the sample before.
-        const AHEAD: usize = 6;
-        let dots: Vec<Point> = (0..=CHORDS)
-            .map(|i| quad.eval(count(i) / count(CHORDS)))
-            .collect();
-        let (mut worst, mut at): (f64, f64) = (0.0, from);
-        for pair in dots.windows(2) {
-            at = self
-                .foot(pair[1], at + pair[0].distance(pair[1]) / self.step)
-                .0;
-            let near = whole(at).min(self.p.len() - 1);
-            let around = &self.p[near.saturating_sub(2)..(near + 4).min(self.p.len())];
-            worst = worst.max(beside(pair[1], around, 0, around.len()).1);
-        }
-        let mut k = 0;
-        for q in &self.p[whole(from.ceil().max(0.0))..=whole(to.max(0.0)).min(self.p.len() - 1)] {
-            let (nearest, d) = beside(*q, &dots, k, AHEAD);
-            (k, worst) = (nearest, worst.max(d));
-        }
-        worst
     }
 
     /// Control and on-curve points of the curve's own pieces, cut finely and rounded: the plain
@@ -437,20 +340,6 @@ impl Curve {
                 .collect(),
         )
     }
-}
-
-/// The chord of a polygon nearest to a point, of `many` from `first` on, and its distance.
-fn beside(q: Point, dots: &[Point], first: usize, many: usize) -> (usize, f64) {
-    let off = |pair: &[Point]| {
-        let (a, v) = (pair[0], pair[1] - pair[0]);
-        let u = ((q - a).dot(v) / v.hypot2().max(1e-12)).clamp(0.0, 1.0);
-        (a + v * u).distance_squared(q)
-    };
-    let chords = dots.windows(2).enumerate().skip(first).take(many);
-    let nearest = chords
-        .map(|(k, pair)| (k, off(pair)))
-        .min_by(|a, b| a.1.total_cmp(&b.1));
-    nearest.map_or((first, 0.0), |(k, d)| (k, d.sqrt()))
 }
 
 /// Leaves the extrema that rise at least `least` over both neighbours; ends count as neighbours.

@@ -66,13 +66,13 @@ impl State {
 
 /// Points of the grid that lie within `reach` of the curve.
 fn near(curve: &Curve, reach: f64) -> Vec<Point> {
-    let start = Rect::from_points(curve.p[0], curve.p[0]);
-    let bounds = curve.p.iter().fold(start, |r, &p| r.union_pt(p));
+    let start = Rect::from_points(curve.dots[0].p, curve.dots[0].p);
+    let bounds = curve.dots.iter().fold(start, |r, o| r.union_pt(o.p));
     let bounds = bounds.inset(reach).expand();
     let mut out = Vec::new();
     let mut q = bounds.origin();
     while q.y <= bounds.y1 {
-        if curve.p.iter().any(|p| p.distance(q) <= reach) {
+        if curve.dots.iter().any(|o| o.p.distance(q) <= reach) {
             out.push(q);
         }
         q.x += 1.0;
@@ -141,7 +141,7 @@ fn steps(curve: &Curve, s: State, controls: &[Point], joins: &[Point]) -> Vec<(u
 /// joins smooth: what the search looks for, without its short cuts.
 fn optimum(curve: &Curve, to: Node, start: Point) -> u32 {
     /// How far outside the curve control points are tried, units.
-    const OUTSIDE: f64 = 7.0;
+    const OUTSIDE: f64 = 8.0;
     let begin = State {
         from: start,
         control: None,

@@ -22,9 +22,14 @@ impl Stored {
         reason = "`as` saturates, and the writer refuses what exceeds 16 bits"
     )]
     pub(super) fn on(p: Point) -> Self {
+        // `f64::floor` is a call here: truncated, and one less where that went up.
+        let near = |v: f64| {
+            let cut = (v + 0.5) as i32;
+            cut.saturating_sub(i32::from(f64::from(cut) > v + 0.5))
+        };
         Self {
-            x: (p.x + 0.5).floor() as i32,
-            y: (p.y + 0.5).floor() as i32,
+            x: near(p.x),
+            y: near(p.y),
             on: true,
         }
     }

@@ -12,6 +12,7 @@
 //! Cost     O(stages * labels * reach), some ms a glyph    Fails  where whole units cannot come so close
 
 mod assemble;
+mod beside;
 mod curve;
 mod glyf;
 mod search;

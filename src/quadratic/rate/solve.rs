@@ -91,7 +91,7 @@ fn open(curve: &Curve, effort: Effort, from: Node, to: Node) -> Option<Vec<Join>
 }
 
 /// Where a path lies farther from its curve than the limit: from sample to sample, and which part of
-/// the distance the limit is.
+/// the true distance the search had measured.
 fn strays(
     curve: &Curve,
     joins: &[Join],
@@ -106,7 +106,7 @@ fn strays(
         let from = first.filter(|_| i == 0).unwrap_or(w[0].at());
         let to = last.filter(|_| i == end).unwrap_or(w[1].at());
         let far = curve.strays(QuadBez::new(w[0].m, c, w[1].m), from, to);
-        (far > SURE * limit).then_some(((from, to), limit / far))
+        (far > SURE * limit).then_some(((from, to), SURE * w[1].worst() / far))
     });
     quads.collect()
 }
@@ -140,9 +140,9 @@ fn plain(curve: &Curve, effort: Effort, to: Stored) -> Option<Vec<Stored>> {
 }
 
 fn ring(curve: &Curve, gate: Gate, effort: Effort) -> Option<Vec<Stored>> {
-    let top = curve.p[curve.first];
+    let top = curve.dots[curve.first].p;
     let m = Point::new(top.x.round(), f64::from(gate.level));
-    let along = Some(Vec2::new(curve.t[curve.first].x.signum(), 0.0));
+    let along = Some(Vec2::new(curve.dots[curve.first].t.x.signum(), 0.0));
     let node = Node {
         at: Stored::on(m),
         along,
@@ -182,7 +182,7 @@ fn closed(
         let n = joins.len();
         let meet = joins.last()?.c?.midpoint(next);
         let second = joins.get(1).filter(|_| n > 2)?.m;
-        let begin = count(curve.first) + (meet - m).x * curve.t[curve.first].x / curve.step;
+        let begin = count(curve.first) + (meet - m).x * curve.dots[curve.first].t.x / curve.step;
         let opens = curve.follow(
             [meet, next, second],
             begin - 1.0,

@@ -16,19 +16,21 @@ struct Stretch {
 #[derive(Debug, Clone, Default)]
 pub(in super::super) struct Care(Vec<Stretch>);
 
-impl Search<'_> {
-    /// What a label at a stage may cost more than the cheapest beyond it.
-    pub(super) fn slack(&self, stage: usize) -> u64 {
-        whole(self.wider(stage) * self.effort.slack * BYTE) as u64
+impl Care {
+    /// What a label at a sample may cost more than the cheapest beyond it, of so many bytes elsewhere.
+    pub(super) fn slack(&self, at: usize, bytes: f64) -> u64 {
+        whole(self.wider(at) * bytes * BYTE) as u64
     }
 
-    /// How many times the slack at a stage.
-    fn wider(&self, stage: usize) -> f64 {
-        let at = count(self.stages[stage].at);
-        let here = self.care.0.iter().filter(|c| (c.from..=c.to).contains(&at));
+    /// How many times the slack at a sample.
+    fn wider(&self, at: usize) -> f64 {
+        let at = count(at);
+        let here = self.0.iter().filter(|c| (c.from..=c.to).contains(&at));
         here.map(|c| c.slack).fold(1.0, f64::max)
     }
+}
 
+impl Search<'_> {
     /// Largest distance between two samples, units.
     pub(super) fn limit(&self, from: f64, to: f64) -> f64 {
         let here = self.care.0.iter().filter(|c| c.from < to && c.to > from);
@@ -48,7 +50,7 @@ impl Search<'_> {
             .unwrap_or(0);
         let at = |s: usize| count(self.stages[s.min(last)].at);
         let mut care = self.care.clone();
-        let slack = MORE * self.wider(stuck);
+        let slack = MORE * self.care.wider(self.stages[stuck].at);
         let from = at(stuck.saturating_sub(AROUND.0));
         care.0.push(Stretch {
             from,
@@ -59,20 +61,20 @@ impl Search<'_> {
         care
     }
 
-    /// Less room where a path strayed.
+    /// Less room where a path strayed: what the search measures there is only so large a part of the truth.
     pub(in super::super) fn tightened(&self, strays: &[((f64, f64), f64)]) -> Care {
-        /// Factors on the limit, each time.
-        const LESS: (f64, f64) = (0.7, 0.97);
+        /// Part of the limit that is left at least.
+        const LEAST: f64 = 0.3;
+        /// How many times the slack.
+        const MORE: f64 = 2.0;
         let mut care = self.care.clone();
-        for &((from, to), part) in strays {
-            let limit = part.clamp(LESS.0, LESS.1) * self.limit(from, to) / self.effort.limit;
-            care.0.push(Stretch {
+        care.0
+            .extend(strays.iter().map(|&((from, to), part)| Stretch {
                 from,
                 to,
-                slack: 2.0,
-                limit,
-            });
-        }
+                slack: MORE,
+                limit: part.max(LEAST),
+            }));
         care
     }
 }

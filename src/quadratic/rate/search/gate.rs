@@ -5,28 +5,29 @@ use super::super::{
     glyf::Stored,
 };
 use super::lattice::{floor, full, half, normal, smooth};
+use super::quad::price;
 use super::stage::{Kind, gate_direction, on_gate};
-use super::{Join, Search, Way};
+use super::{Join, Leg, Search};
 use kurbo::{Point, Vec2};
 
 impl Search<'_> {
     /// The quadratic that ends at the gate or the span's end, if `c` allows one.
-    pub(super) fn reach_gate(&mut self, way: Way, c: Point) -> bool {
-        let Way { id, gate } = way;
+    pub(super) fn reach_gate(&mut self, leg: &Leg) -> bool {
+        let Leg { gate, c, .. } = *leg;
         let i = self.stages[gate].at;
         let g = match self.stages[gate].kind {
             Kind::Gate(g) | Kind::Pass(g) => g,
             Kind::End => match self.closing {
                 Some(g) => g,
-                None => return self.reach_end(way, c),
+                None => return self.reach_end(leg),
             },
             Kind::Free => return false,
         };
         if on_gate(g, c) != c {
             return false;
         }
-        let (p, slide) = (on_gate(g, self.curve.p[i]), self.slide(i));
-        let ahead = gate_direction(g, self.curve.t[i]);
+        let (p, slide) = (on_gate(g, self.curve.dots[i].p), self.slide(i));
+        let ahead = gate_direction(g, self.curve.dots[i].t);
         let until = self.until(gate) + slide / self.curve.step;
         let mut hit = false;
         // Inside a run the join lies half way to a control point that the curve ahead asks for.
@@ -34,18 +35,16 @@ impl Search<'_> {
             let next = self.nexts[gate][k];
             let m = c.midpoint(next);
             if (m - c).dot(ahead) > 0.25 && (m - p).hypot() <= slide {
-                hit |= self.both(
-                    gate,
-                    (id, until),
-                    [c, m],
-                    ([k as u64 | 1 << 16, u64::MAX], ahead),
-                );
+                let foot = self.curve.foot(m, count(i));
+                let keys = [k as u64 | 1 << 16, u64::MAX];
+                hit |= self.both(gate, leg, (m, foot, until), (keys, ahead));
             }
         }
         for k in [0.0, -0.35, 0.35, -0.7, 0.7, -1.0, 1.0] {
             let m = full(p + ahead * (k * slide));
             if (m - c).dot(ahead) > 0.25 && self.closing.is_none() {
-                hit |= self.both(gate, (id, until), [c, m], ([u64::MAX, 0], ahead));
+                let foot = self.curve.foot(m, count(i));
+                hit |= self.both(gate, leg, (m, foot, until), ([u64::MAX, 0], ahead));
             }
         }
         hit
@@ -56,8 +55,8 @@ impl Search<'_> {
         let Some(g) = self.stages[gate].kind.gate() else {
             return Vec::new();
         };
-        let p = on_gate(g, self.curve.p[g.at]);
-        let ahead = gate_direction(g, self.curve.t[g.at]);
+        let p = on_gate(g, self.curve.dots[g.at].p);
+        let ahead = gate_direction(g, self.curve.dots[g.at].t);
         let mut out = Vec::new();
         if let Some(c) = self.halved(gate, (p, ahead)) {
             let low = floor(c);
@@ -88,7 +87,7 @@ impl Search<'_> {
         let (from, to) = (self.stages[stage].at, self.stages[gate].at);
         let mut last = None;
         for i in from + 1..to {
-            let (o, t) = (self.curve.p[i], self.curve.t[i]);
+            let (o, t) = (self.curve.dots[i].p, self.curve.dots[i].t);
             let (before, after) = (u.cross(t), v.cross(t));
             if before.abs() < 1e-3 || after.abs() < 1e-3 {
                 continue;
@@ -108,19 +107,16 @@ impl Search<'_> {
     fn rail(&self, stage: usize) -> Option<(Point, Vec2)> {
         match self.stages[stage].kind {
             Kind::Gate(g) | Kind::Pass(g) => {
-                let along = gate_direction(g, self.curve.t[g.at]);
-                Some((on_gate(g, self.curve.p[g.at]), along))
+                let along = gate_direction(g, self.curve.dots[g.at].t);
+                Some((on_gate(g, self.curve.dots[g.at].p), along))
             }
             Kind::End => self.end.along.map(|u| (self.end.at.point(), u)),
             Kind::Free => None,
         }
     }
 
-    pub(super) fn reach_end(&mut self, way: Way, c: Point) -> bool {
-        let Way { id, gate } = way;
-        let from = *self.labels.item(id);
-        let mut pen = from.pen;
-        let bytes = pen.store(Stored::off(c));
+    fn reach_end(&mut self, leg: &Leg) -> bool {
+        let Leg { gate, c, .. } = *leg;
         let along = self.end.along;
         let mut hit = false;
         for k in 0..self.ends.len() {
@@ -128,27 +124,28 @@ impl Search<'_> {
             if m == c || along.is_some_and(|u| !smooth(u, m - c)) {
                 continue;
             }
-            let mut pen = pen;
-            let bytes = bytes + pen.store(Stored::on(m));
-            if !self.wants((gate, 0), id, bytes) {
+            let mut pen = leg.pen;
+            let cost = leg.cost + price(pen.store(Stored::on(m)));
+            if !self.wants((gate, 0), cost) {
                 continue;
             }
             let beyond = (m - self.end.at.point()).dot(along.unwrap_or_default()) / self.curve.step;
             if let Some(f) = self.curve.follow(
-                [from.m, c, m],
-                from.at,
+                [leg.from, c, m],
+                leg.at,
                 self.until(gate) + beyond,
-                self.limit(from.at, self.until(gate)),
+                self.limit(leg.at, self.until(gate)),
             ) {
                 let item = Join {
                     m,
                     c: Some(c),
                     at: f.at,
+                    worst: f.worst,
                     next: None,
                     along: None,
                     pen,
                 };
-                self.offer((gate, 0), id, (bytes, f.worst), item);
+                self.offer((gate, 0), leg.id, (cost, f.worst), item);
                 hit = true;
             }
         }
@@ -184,7 +181,7 @@ impl Search<'_> {
 
     /// Where a corner may move.
     fn moved(&self, node: Node, i: usize) -> Vec<Point> {
-        let (p, exact) = (node.at.point(), self.curve.p[i]);
+        let (p, exact) = (node.at.point(), self.curve.dots[i].p);
         let most = node.free.x.max(node.free.y);
         let reach = Stored::on(Point::new(most, 0.0)).x + 1;
         let around = (-reach..=reach).flat_map(|x| (-reach..=reach).map(move |y| (x, y)));
@@ -196,8 +193,8 @@ impl Search<'_> {
     }
 
     /// Joins after which the next control point lies on the gate's line.
-    pub(super) fn towards_gate(&mut self, stage: usize, way: Way, c: Point) {
-        let Way { gate, .. } = way;
+    pub(super) fn towards_gate(&mut self, stage: usize, leg: &Leg) {
+        let Leg { gate, c, .. } = *leg;
         let Some((line, u)) = self.rail(gate) else {
             return;
         };
@@ -205,7 +202,7 @@ impl Search<'_> {
         let want = 0.5 * ((c - line).dot(n));
         let (mut before, mut found) = (f64::NAN, None);
         for s in stage + 1..=gate {
-            let p = self.curve.p[self.stages[s].at];
+            let p = self.curve.dots[self.stages[s].at].p;
             let now = (p - line).dot(n) - want;
             if before * now <= 0.0 {
                 found = Some((s, before / (before - now)));
@@ -215,7 +212,7 @@ impl Search<'_> {
         }
         let Some((s, part)) = found else { return };
         let (i, j) = (self.stages[s - 1].at, self.stages[s].at);
-        let p = self.curve.p[i].lerp(self.curve.p[j], part);
+        let p = self.curve.dots[i].p.lerp(self.curve.dots[j].p, part);
         let near = if part < 0.5 { s - 1 } else { s };
         if near <= stage || near >= gate {
             return;
@@ -230,14 +227,17 @@ impl Search<'_> {
             } else {
                 m
             };
-            self.quad(near, way, [c, m]);
+            self.quad(near, leg, m);
         }
     }
 
     /// How far along a gate its join may slide: where the curve has left the tangent by the tolerance's half.
     pub(super) fn slide(&self, i: usize) -> f64 {
-        let inside =
-            |j: usize| self.curve.k[j.clamp(self.curve.first + 2, self.curve.last - 2)].abs();
+        let inside = |j: usize| {
+            self.curve.dots[j.clamp(self.curve.first + 2, self.curve.last - 2)]
+                .k
+                .abs()
+        };
         (2.0 * self.effort.limit / inside(i).max(1e-4)).sqrt()
     }
 }

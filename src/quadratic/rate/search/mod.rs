@@ -12,8 +12,10 @@ use super::glyf::{Pen, Stored};
 use crate::numeric::shortest::{Id, Labels};
 pub(super) use care::Care;
 use kurbo::{Point, Vec2};
+use lattice::floor;
+use lattice::normal;
 pub(super) use lattice::smooth;
-use lattice::{floor, normal};
+use quad::{LEVELS, Place, places};
 use stage::{Kind, Stage, gate_direction, on_gate, stages};
 
 /// Cost of one byte; what is below it breaks ties by error.
@@ -51,6 +53,8 @@ pub(super) struct Join {
     /// The control point of the quadratic that ends here; none at the start.
     pub(super) c: Option<Point>,
     at: f64,
+    /// The largest distance on the way here from the join before, as the search measures.
+    worst: f64,
     /// The control point that follows, if it is implied by this join.
     next: Option<Point>,
     /// The direction the next quadratic must have.
@@ -62,6 +66,11 @@ impl Join {
     /// The sample where it stands.
     pub(super) const fn at(&self) -> f64 {
         self.at
+    }
+
+    /// The largest distance of the quadratic that ends here, as the search measured it.
+    pub(super) const fn worst(&self) -> f64 {
+        self.worst
     }
 }
 
@@ -79,14 +88,31 @@ struct Way {
     gate: usize,
 }
 
+/// A label and the control point after it: what all quadratics that leave so share.
+#[derive(Debug, Clone, Copy)]
+struct Leg {
+    id: Id,
+    gate: usize,
+    from: Point,
+    at: f64,
+    c: Point,
+    /// With the control point stored.
+    pen: Pen,
+    cost: u64,
+}
+
 /// The labels of one span, and what bounds them.
 pub(super) struct Search<'a> {
     curve: &'a Curve,
     effort: Effort,
     stages: Vec<Stage>,
+    /// For each stage, where joins are tried whatever comes before.
+    places: Vec<Vec<Place>>,
+    /// For each stage, what a label may cost more than the cheapest beyond it.
+    slacks: Vec<u64>,
     labels: Labels<Join>,
     end: Node,
-    /// For each gate, the control points that may follow it.
+    /// For each gate, the control points that may follow it, in the order of the curve.
     nexts: Vec<Vec<Point>>,
     /// For each stage, the gates that one quadratic may reach: the next two, none beyond one that blocks.
     ahead: Vec<Vec<usize>>,
@@ -107,9 +133,13 @@ impl<'a> Search<'a> {
     ) -> Self {
         let stages = stages(curve, effort);
         let labels = Labels::new(stages.len());
+        let places = stages.iter().map(|s| places(curve, s.at, effort.limit));
+        let slacks = stages.iter().map(|s| care.slack(s.at, effort.slack));
         let mut search = Self {
             curve,
             effort,
+            places: places.collect(),
+            slacks: slacks.collect(),
             stages,
             labels,
             end,
@@ -125,7 +155,7 @@ impl<'a> Search<'a> {
         search.nexts = (0..search.stages.len())
             .map(|s| search.nexts_of(s))
             .collect();
-        let beyond = curve.p.len() - 1 - curve.last;
+        let beyond = curve.dots.len() - 1 - curve.last;
         search.ends = if curve.is_ring() {
             vec![end.at.point()]
         } else {
@@ -152,6 +182,7 @@ impl<'a> Search<'a> {
                     let join = Join {
                         m,
                         c: None,
+                        worst: 0.0,
                         at: at_sample,
                         next: None,
                         along: n.along,
@@ -168,6 +199,7 @@ impl<'a> Search<'a> {
                 let join = Join {
                     m,
                     c: None,
+                    worst: 0.0,
                     at: begin,
                     next: Some(next),
                     along: None,
@@ -178,7 +210,7 @@ impl<'a> Search<'a> {
         }
         for stage in 0..self.stages.len() {
             let least = self.labels.least_from(stage);
-            let most = least.saturating_add(self.slack(stage));
+            let most = least.saturating_add(self.slacks[stage]);
             for id in self.labels.at(stage) {
                 if self.labels.cost(id) <= most {
                     self.expand(stage, id);
@@ -212,19 +244,27 @@ impl<'a> Search<'a> {
         const BESIDE: f64 = 2.5;
         let Way { gate, .. } = way;
         let reach = BESIDE * self.effort.limit;
+        let leg = self.leg(way, c);
         for k in 0..self.ahead[stage].len() {
-            let gate = self.ahead[stage][k];
-            self.reach_gate(Way { gate, ..way }, c);
-            self.towards_gate(stage, Way { gate, ..way }, c);
+            let to_gate = Leg {
+                gate: self.ahead[stage][k],
+                ..leg
+            };
+            self.reach_gate(&to_gate);
+            self.towards_gate(stage, &to_gate);
         }
         let mut inside = false;
         for s in stage + 1..gate {
             let i = self.stages[s].at;
-            let beside = self.curve.t[i].cross(c - self.curve.p[i]);
-            let ahead = (self.curve.p[i] - c).dot(self.curve.t[i]) > 0.0;
+            let beside = self.curve.dots[i].t.cross(c - self.curve.dots[i].p);
+            let ahead = (self.curve.dots[i].p - c).dot(self.curve.dots[i].t) > 0.0;
             if beside.abs() <= reach && ahead {
                 inside = true;
-                self.joins(s, way, c);
+                for k in 0..self.places[s].len() {
+                    if self.places[s][k].is_usual {
+                        self.join(s, &leg, k);
+                    }
+                }
             } else if inside {
                 break;
             }
@@ -236,23 +276,26 @@ impl<'a> Search<'a> {
         let Way { gate, .. } = way;
         let limit = self.effort.limit;
         let here = self.stages[stage].at;
-        let own = join.along.unwrap_or(self.curve.t[here]);
+        let own = join.along.unwrap_or(self.curve.dots[here].t);
         if join.c.is_none() {
             self.straight(way, join);
         }
         if let Some(c) = self.halved(stage, (join.m, own)) {
             let gate = self.ahead[stage][0];
             for c in self.around(join, c, stage + 1) {
-                self.towards_gate(stage, Way { gate, ..way }, c);
+                self.towards_gate(stage, &self.leg(Way { gate, ..way }, c));
             }
         }
         let mut misses = 0;
         for s in stage + 1..=gate {
-            let i = self.stages[s].at;
             let mut hit = false;
             let is_gate = !matches!(self.stages[s].kind, Kind::Free);
-            let levels: &[f64] = if is_gate { &[0.0] } else { &[0.0, 0.6, -0.6] };
-            for &level in levels {
+            let to = Way {
+                gate: if is_gate { s } else { gate },
+                ..way
+            };
+            let levels: &[f64] = if is_gate { &[0.0] } else { &LEVELS };
+            for (k, &level) in levels.iter().enumerate() {
                 let (target, dir) = self.target(s, level * limit);
                 let turn = own.cross(dir);
                 let c = if turn.abs() < 1e-3 {
@@ -261,18 +304,15 @@ impl<'a> Search<'a> {
                     join.m + own * ((target - join.m).cross(dir) / turn)
                 };
                 let through = self.through(join, here, s);
-                for c in through
-                    .into_iter()
-                    .chain([c])
-                    .flat_map(|c| self.around(join, c, s))
-                    .collect::<Vec<_>>()
-                {
-                    hit |= if is_gate {
-                        self.reach_gate(Way { gate: s, ..way }, c)
-                    } else {
-                        let aside = normal(self.curve.t[i]) * (level * limit);
-                        self.join(s, way, c, self.curve.p[i] + aside)
-                    };
+                for c in through.into_iter().chain([c]) {
+                    for c in self.around(join, c, s) {
+                        let leg = self.leg(to, c);
+                        hit |= if is_gate {
+                            self.reach_gate(&leg)
+                        } else {
+                            self.joins(s, &leg, k)
+                        };
+                    }
                 }
             }
             misses = if hit { 0 } else { misses + 1 };
@@ -289,7 +329,7 @@ impl<'a> Search<'a> {
         let from_corner = join.c.is_none() && join.along.is_none();
         (to_corner || from_corner).then(|| {
             let i = self.stages[s].at;
-            let middle = self.curve.p[here.midpoint(i)];
+            let middle = self.curve.dots[here.midpoint(i)].p;
             let ends = join.m.midpoint(self.target(s, 0.0).0);
             middle + (middle - ends)
         })
@@ -300,22 +340,22 @@ impl<'a> Search<'a> {
         let i = self.stages[s].at;
         match self.stages[s].kind {
             Kind::Free => (
-                self.curve.p[i] + normal(self.curve.t[i]) * aside,
-                self.curve.t[i],
+                self.curve.dots[i].p + normal(self.curve.dots[i].t) * aside,
+                self.curve.dots[i].t,
             ),
             Kind::Gate(g) | Kind::Pass(g) => (
-                on_gate(g, self.curve.p[i]),
-                gate_direction(g, self.curve.t[i]),
+                on_gate(g, self.curve.dots[i].p),
+                gate_direction(g, self.curve.dots[i].t),
             ),
             Kind::End => (
                 self.end.at.point(),
-                self.end.along.unwrap_or(self.curve.t[i]),
+                self.end.along.unwrap_or(self.curve.dots[i].t),
             ),
         }
     }
 
     /// Lattice points near `c` that keep the join smooth.
-    fn around(&self, join: Join, c: Point, s: usize) -> Vec<Point> {
+    fn around(&self, join: Join, c: Point, s: usize) -> impl Iterator<Item = Point> + use<> {
         let low = floor(c);
         let mut xs = [low.x, low.x + 1.0];
         let mut ys = [low.y, low.y + 1.0];
@@ -331,7 +371,7 @@ impl<'a> Search<'a> {
         }
         match self.stages[s].kind {
             Kind::Gate(g) | Kind::Pass(g) => {
-                fixed(gate_direction(g, self.curve.t[g.at]), on_gate(g, c))
+                fixed(gate_direction(g, self.curve.dots[g.at].t), on_gate(g, c))
             }
             Kind::End => self
                 .end
@@ -340,19 +380,13 @@ impl<'a> Search<'a> {
                 .for_each(|u| fixed(u, self.end.at.point())),
             Kind::Free => {}
         }
-        let mut out: Vec<Point> = Vec::with_capacity(4);
-        for x in xs {
-            for y in ys {
-                let q = Point::new(x, y);
-                if !out.contains(&q)
-                    && q != join.m
-                    && join.along.is_none_or(|u| smooth(u, q - join.m))
-                {
-                    out.push(q);
-                }
-            }
-        }
-        out
+        let all = [(0, 0), (0, 1), (1, 0), (1, 1)].map(|(i, j)| Point::new(xs[i], ys[j]));
+        let fits = move |&k: &usize| {
+            let q = all[k];
+            let smooth = join.along.is_none_or(|u| smooth(u, q - join.m));
+            smooth && q != join.m && !all[..k].contains(&q)
+        };
+        (0..all.len()).filter(fits).map(move |k| all[k])
     }
 
     fn gates_after(&self, stage: usize) -> Vec<usize> {

@@ -1,11 +1,11 @@
 //! One quadratic more: the labels that it leads to.
 
 use super::super::{
-    curve::{count, whole},
+    curve::{Curve, count, whole},
     glyf::Stored,
 };
 use super::lattice::{full, half, level, normal, smooth};
-use super::{BYTE, Join, Search, Way};
+use super::{BYTE, Join, Leg, Search, Way};
 use crate::numeric::shortest::Id;
 use kurbo::{Point, Vec2};
 
@@ -32,119 +32,190 @@ impl Search<'_> {
                 m: to,
                 c: None,
                 at: f.at,
+                worst: f.worst,
                 next: None,
                 along: self.end.along,
                 pen,
             };
-            self.offer((last, 0), id, (bytes, f.worst), item);
+            let cost = self.labels.cost(id) + price(bytes);
+            self.offer((last, 0), id, (cost, f.worst), item);
         }
     }
 
-    /// Joins near stage `s`, across the band.
-    pub(super) fn joins(&mut self, s: usize, way: Way, c: Point) {
-        let i = self.stages[s].at;
-        let (p, n) = (self.curve.p[i], normal(self.curve.t[i]));
-        self.join(s, way, c, p);
-        for level in [0.6, -0.6] {
-            self.quad(s, way, [c, half(p + n * (level * self.effort.limit))]);
+    /// A control point laid after a label.
+    pub(super) fn leg(&self, way: Way, c: Point) -> Leg {
+        let from = self.labels.item(way.id);
+        let mut pen = from.pen;
+        let cost = self.labels.cost(way.id) + price(pen.store(Stored::off(c)));
+        Leg {
+            id: way.id,
+            gate: way.gate,
+            from: from.m,
+            at: from.at,
+            c,
+            pen,
+            cost,
         }
     }
 
-    /// The join nearest to `p` whose next control point lies on the lattice, and the on-curve point there.
-    pub(super) fn join(&mut self, s: usize, way: Way, c: Point, p: Point) -> bool {
-        let near = half(p);
-        let full = full(p);
-        let mut hit = self.quad(s, way, [c, near]);
-        if full != near {
-            hit |= self.quad(s, way, [c, full]);
+    /// Joins at stage `s` on one level; whether any quadratic came so far.
+    pub(super) fn joins(&mut self, s: usize, leg: &Leg, level: usize) -> bool {
+        let mut hit = false;
+        for k in 0..self.places[s].len() {
+            if self.places[s][k].level == level {
+                hit |= self.join(s, leg, k);
+            }
         }
         hit
     }
 
-    /// Offers what a quadratic with control point `c` and end `m` leads to.
-    pub(super) fn quad(&mut self, s: usize, way: Way, [c, m]: [Point; 2]) -> bool {
-        let Way { id, gate } = way;
+    /// Offers what a quadratic that ends at a place of stage `s` leads to; whether it comes so far.
+    pub(super) fn join(&mut self, s: usize, leg: &Leg, place: usize) -> bool {
+        if leg.cost > self.most(s) {
+            return true;
+        }
+        let Place { m, foot, side, .. } = self.places[s][place];
+        let keys = self.keys(s, (leg.c, m), side);
+        self.both(s, leg, (m, foot, self.until(leg.gate)), (keys, m - leg.c))
+    }
+
+    /// Kinds of the futures of an implied and of an on-curve join.
+    fn keys(&self, s: usize, (c, m): (Point, Point), side: u64) -> [u64; 2] {
         /// Spacings of stages between which a reach counts as the same.
         const REACH: f64 = 4.0;
-        let i = self.stages[s].at;
-        let (t, d) = (
-            self.curve.t[i],
-            (m - self.curve.p[i]).dot(normal(self.curve.t[i])),
-        );
-        let limit = self.effort.limit;
-        let lean = level((c - m).dot(normal(t)) / limit, 2.0);
-        let side = level(d / (0.7 * limit), 1.0);
+        let n = normal(self.curve.dots[self.stages[s].at].t);
+        let lean = level((c - m).dot(n) / self.effort.limit, 2.0);
         // Half way to the next control point: where that comes to lie the rest of the run depends on.
         let reach = whole(((m - c).hypot() / (REACH * self.stages[s].spacing)).min(60.0)) as u64;
-        let keys = [1 << 16 | reach << 8 | lean << 4 | side, lean << 4 | side];
-        self.both(s, (id, self.until(gate)), [c, m], (keys, m - c))
+        [1 << 16 | reach << 8 | lean << 4 | side, lean << 4 | side]
+    }
+
+    /// The same at a place that depends on the control point.
+    pub(super) fn quad(&mut self, s: usize, leg: &Leg, m: Point) -> bool {
+        if leg.cost > self.most(s) {
+            return true;
+        }
+        let i = self.stages[s].at;
+        let side = side(self.curve, i, m, self.effort.limit);
+        let keys = self.keys(s, (leg.c, m), side);
+        let foot = self.curve.foot(m, count(i));
+        self.both(s, leg, (m, foot, self.until(leg.gate)), (keys, m - leg.c))
     }
 
     /// Offers the implied and, on the lattice, the on-curve join after one quadratic.
     pub(super) fn both(
         &mut self,
         s: usize,
-        (id, until): (Id, f64),
-        [c, m]: [Point; 2],
+        leg: &Leg,
+        (m, foot, until): (Point, (f64, f64), f64),
         (keys, along): ([u64; 2], Vec2),
     ) -> bool {
-        let from = *self.labels.item(id);
-        let mut pen = from.pen;
-        let implied = pen.store(Stored::off(c));
-        let mut on_pen = pen;
-        let on = implied + on_pen.store(Stored::on(m));
-        let may_on = m == full(m) && s + 1 < self.stages.len();
-        let wants = [
-            keys[0] != u64::MAX && self.wants((s, keys[0]), id, implied),
-            keys[1] != u64::MAX && may_on && self.wants((s, keys[1]), id, on),
-        ];
-        if wants == [false, false] {
+        let mut on_pen = leg.pen;
+        let may_on = keys[1] != u64::MAX && s + 1 < self.stages.len() && m == full(m);
+        let wants_implied = keys[0] != u64::MAX && self.wants((s, keys[0]), leg.cost);
+        let on = may_on
+            .then(|| leg.cost + price(on_pen.store(Stored::on(m))))
+            .filter(|&cost| self.wants((s, keys[1]), cost));
+        if !wants_implied && on.is_none() {
             return true;
         }
-        let limit = self.limit(from.at, count(self.stages[s].at));
-        let Some(f) = self.curve.follow([from.m, c, m], from.at, until, limit) else {
+        let limit = self.limit(leg.at, count(self.stages[s].at));
+        let quad = [leg.from, leg.c, m];
+        let Some(f) = self.curve.measure(quad, (leg.at, foot), until, limit) else {
             return false;
         };
         let item = Join {
             m,
-            c: Some(c),
+            c: Some(leg.c),
             at: f.at,
-            next: Some(m + (m - c)),
+            worst: f.worst,
+            next: Some(m + (m - leg.c)),
             along: None,
-            pen,
+            pen: leg.pen,
         };
-        if wants[0] {
-            self.offer((s, keys[0]), id, (implied, f.worst), item);
+        if wants_implied {
+            self.offer((s, keys[0]), leg.id, (leg.cost, f.worst), item);
         }
-        if wants[1] {
+        if let Some(cost) = on {
             let item = Join {
                 next: None,
                 along: Some(along.normalize()),
                 pen: on_pen,
                 ..item
             };
-            self.offer((s, keys[1]), id, (on, f.worst), item);
+            self.offer((s, keys[1]), leg.id, (cost, f.worst), item);
         }
         true
     }
 
-    /// Whether a label of that many more bytes would be kept, and followed.
-    pub(super) fn wants(&self, place: (usize, u64), prev: Id, bytes: u32) -> bool {
-        let cost = self.labels.cost(prev) + whole(f64::from(bytes) * BYTE) as u64;
-        let least = self.labels.least_from(place.0);
-        let most = least.saturating_add(self.slack(place.0));
-        cost <= most && self.labels.wants(place, cost)
+    /// What a label may cost at a stage.
+    pub(super) fn most(&self, s: usize) -> u64 {
+        self.labels.least_from(s).saturating_add(self.slacks[s])
+    }
+
+    /// Whether a label of that cost would be kept, and followed.
+    pub(super) fn wants(&self, place: (usize, u64), cost: u64) -> bool {
+        /// A gain below it is not worth a measurement: a twenty-fifth of a byte.
+        const GAIN: u64 = 160;
+        cost <= self.most(place.0) && self.labels.wants(place, cost + GAIN)
     }
 
     pub(super) fn offer(
         &mut self,
         place: (usize, u64),
         prev: Id,
-        (bytes, worst): (u32, f64),
+        (cost, worst): (u64, f64),
         item: Join,
     ) {
-        let cost = f64::from(bytes) * BYTE + self.effort.lambda * worst * BYTE;
-        let cost = self.labels.cost(prev) + whole(cost) as u64;
+        let cost = cost + whole(self.effort.lambda * worst * BYTE) as u64;
         self.labels.offer(place, cost, Some(prev), item);
     }
+}
+
+/// Cost of bytes.
+pub(super) fn price(bytes: u32) -> u64 {
+    whole(f64::from(bytes) * BYTE) as u64
+}
+
+/// Where joins are tried across the band, limits.
+pub(super) const LEVELS: [f64; 3] = [0.0, 0.6, -0.6];
+
+/// Where joins of a stage are tried whatever comes before.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Place {
+    m: Point,
+    /// The sample beside it, and its distance, left positive.
+    foot: (f64, f64),
+    side: u64,
+    /// Which of the levels.
+    level: usize,
+    /// Whether it is tried after a control point that is given.
+    pub(super) is_usual: bool,
+}
+
+/// The joins nearest to the levels whose next control point lies on the lattice, and the points there.
+pub(super) fn places(curve: &Curve, i: usize, limit: f64) -> Vec<Place> {
+    let n = normal(curve.dots[i].t);
+    let mut out = Vec::new();
+    for (level, &height) in LEVELS.iter().enumerate() {
+        let p = curve.dots[i].p + n * (height * limit);
+        let (near, full) = (half(p), full(p));
+        let both = [(near, true), (full, level == 0)];
+        for (m, is_usual) in both.into_iter().take(1 + usize::from(full != near)) {
+            out.push(Place {
+                m,
+                foot: curve.foot(m, count(i)),
+                side: side(curve, i, m, limit),
+                level,
+                is_usual,
+            });
+        }
+    }
+    out
+}
+
+/// On which side of the curve a join lies, in three steps.
+fn side(curve: &Curve, i: usize, m: Point, limit: f64) -> u64 {
+    let d = (m - curve.dots[i].p).dot(normal(curve.dots[i].t));
+    level(d / (0.7 * limit), 1.0)
 }

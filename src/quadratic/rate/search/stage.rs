@@ -48,7 +48,7 @@ pub(super) fn stages(curve: &Curve, effort: Effort) -> Vec<Stage> {
     /// Stages a unit of arc where the curve is straight.
     const STRAIGHT: f64 = 1.0 / 60.0;
     let (first, last) = (curve.first, curve.last);
-    let dense = |i: usize| effort.grain * (curve.k[i].abs() / effort.limit).sqrt() + STRAIGHT;
+    let dense = |i: usize| effort.grain * (curve.dots[i].k.abs() / effort.limit).sqrt() + STRAIGHT;
     let mut out = vec![Stage {
         at: first,
         kind: Kind::Free,
