@@ -12,9 +12,14 @@ pub(super) fn paths(contours: &[Vec<Stored>]) -> Vec<BezPath> {
     written.map(|p| p.reverse_subpaths()).collect()
 }
 
-/// A contour may begin at an on-curve point, or behind an implied one.
-fn may_begin(c: &[Stored], i: usize) -> bool {
-    c[i].on || !c[(i + c.len() - 1) % c.len()].on
+/// Where a contour may begin: at an on-curve point, or behind an implied one. Of a long one some places stand
+/// for all.
+fn begins(c: &[Stored]) -> impl Iterator<Item = usize> {
+    /// Places that are tried at most.
+    const MANY: usize = 512;
+    let n = c.len();
+    let all = (0..n).filter(move |&i| c[i].on || !c[(i + n - 1) % n].on);
+    all.step_by(1 + n / MANY)
 }
 
 /// Cheapest start of each contour, by shortest path over (contour, start).
@@ -24,41 +29,28 @@ fn starts(contours: &[Vec<Stored>]) -> Vec<usize> {
         y: 0,
         on: false,
     };
-    let mut layers: Vec<Vec<(u32, usize)>> = Vec::new();
+    // Of each start of a contour: the bytes so far, and which start of the one before led there.
+    let mut layers: Vec<Vec<(u32, usize, usize)>> = Vec::new();
     let mut before = vec![(0, origin)];
     for c in contours {
-        let n = c.len();
-        let layer: Vec<(u32, usize)> = (0..n)
-            .map(|s| {
-                let around = around(c, s);
-                let step = |&(cost, from): &(u32, Stored)| cost + Pen::after(from).store(c[s]);
-                let best = before
-                    .iter()
-                    .map(step)
-                    .enumerate()
-                    .map(|(k, v)| (v, k))
-                    .min();
-                let (cost, k) = best.unwrap_or_default();
-                (
-                    if may_begin(c, s) {
-                        cost + around
-                    } else {
-                        u32::MAX / 2
-                    },
-                    k,
-                )
-            })
-            .collect();
-        before = (0..n).map(|s| (layer[s].0, c[(s + n - 1) % n])).collect();
+        let layer = begins(c).map(|s| {
+            let step = |&(cost, from): &(u32, Stored)| cost + Pen::after(from).store(c[s]);
+            let steps = before.iter().map(step).enumerate().map(|(k, v)| (v, k));
+            let (cost, k) = steps.min().unwrap_or_default();
+            (cost + around(c, s), k, s)
+        });
+        let layer: Vec<_> = layer.collect();
+        let last = |s: usize| c[(s + c.len() - 1) % c.len()];
+        before = layer.iter().map(|&(cost, _, s)| (cost, last(s))).collect();
         layers.push(layer);
     }
     let mut out = Vec::new();
     let mut at = None;
     for layer in layers.iter().rev() {
-        let cheapest = (0..layer.len()).min_by_key(|&s| layer[s].0).unwrap_or(0);
-        let s = at.unwrap_or(cheapest);
+        let cheapest = (0..layer.len()).min_by_key(|&k| layer[k].0).unwrap_or(0);
+        let (_, from, s) = layer[at.unwrap_or(cheapest)];
         out.push(s);
-        at = Some(layer[s].1);
+        at = Some(from);
     }
     out.reverse();
     out
@@ -66,8 +58,7 @@ fn starts(contours: &[Vec<Stored>]) -> Vec<usize> {
 
 /// Bytes of all points but the first, begun where they are fewest.
 pub(super) fn bytes(c: &[Stored]) -> u32 {
-    let starts = (0..c.len()).filter(|&s| may_begin(c, s));
-    starts.map(|s| around(c, s)).min().unwrap_or(0)
+    begins(c).map(|s| around(c, s)).min().unwrap_or(0)
 }
 
 /// Bytes of all points but the first, begun at `s`.

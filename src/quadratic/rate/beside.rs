@@ -121,12 +121,17 @@ impl Curve {
 
     /// The largest distance, units, either way, between a quadratic and the samples from `from` to `to`.
     pub(super) fn strays(&self, quad: QuadBez, from: f64, to: f64) -> f64 {
-        /// Chords that stand for a quadratic.
-        const CHORDS: usize = 32;
+        /// How far the chords that stand for a quadratic may lie beside it, units.
+        const SAG: f64 = 0.002;
+        /// Fewest chords and most.
+        const CHORDS: (f64, f64) = (16.0, 256.0);
         /// Chords that are looked at beyond the one nearest to the sample before.
-        const AHEAD: usize = 6;
-        let dots: Vec<Point> = (0..=CHORDS)
-            .map(|i| quad.eval(count(i) / count(CHORDS)))
+        const AHEAD: usize = 12;
+        let bend = ((quad.p0 - quad.p1) - (quad.p1 - quad.p2)).hypot();
+        let chords = (0.25 * bend / SAG).sqrt().ceil();
+        let chords = whole(chords.clamp(CHORDS.0, CHORDS.1));
+        let dots: Vec<Point> = (0..=chords)
+            .map(|i| quad.eval(count(i) / count(chords)))
             .collect();
         let (mut worst, mut at): (f64, f64) = (0.0, from);
         for pair in dots.windows(2) {

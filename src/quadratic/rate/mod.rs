@@ -8,7 +8,7 @@
 //! Departs  the rate is the bytes of `glyf`; an on-curve point may stand between two runs; control
 //!          points come from tangents of the contour ahead instead of a band around it; states with
 //!          nearly one future share a label, so the result is an upper bound of the optimum; a contour is
-//!          searched both ways around and the cheaper answer taken
+//!          searched both ways around and both answers spliced
 //! Cost     O(stages * labels * reach), some ms a glyph    Fails  where whole units cannot come so close
 
 mod assemble;
@@ -17,6 +17,7 @@ mod curve;
 mod glyf;
 mod search;
 mod solve;
+mod splice;
 mod through;
 
 pub use glyf::glyf_bytes;
@@ -124,8 +125,9 @@ impl Rate {
     }
 }
 
-/// The points of a contour as TrueType runs it, against the outline: the fewer bytes of a search each way,
-/// since a search finds the turns of a curve more easily one way than the other. None where the grid is too coarse.
+/// The points of a contour as TrueType runs it, against the outline: the fewest bytes of a search each way
+/// and of what both make together, since a search finds the turns of a curve more easily one way than the
+/// other. None where the grid is too coarse.
 fn contour(path: &BezPath, keep: Keep, effort: Effort) -> Option<Vec<Stored>> {
     /// Factors on slack and grain after neither way was found.
     const CLOSER: (f64, f64) = (4.0, 2.0);
@@ -134,19 +136,21 @@ fn contour(path: &BezPath, keep: Keep, effort: Effort) -> Option<Vec<Stored>> {
         None => Some(Vec::new()),
     };
     let turned = path.reverse_subpaths();
-    let back = |c: Vec<Stored>| c.into_iter().rev().collect();
-    let both = [one(&turned, effort), one(path, effort).map(back)];
-    let cheapest = both
-        .into_iter()
-        .flatten()
-        .min_by_key(|c| assemble::bytes(c));
+    let back = |mut c: Vec<Stored>| {
+        c.reverse();
+        c
+    };
+    let found = match (one(&turned, effort), one(path, effort).map(back)) {
+        (Some(a), Some(b)) => Some(splice::splice(a, b)),
+        (a, b) => a.or(b),
+    };
     let closer = Effort {
         slack: CLOSER.0 * effort.slack,
         grain: CLOSER.1 * effort.grain,
         otherwise: Otherwise::Pieces,
         ..effort
     };
-    cheapest.or_else(|| one(&turned, closer))
+    found.or_else(|| one(&turned, closer))
 }
 
 #[cfg(test)]

@@ -40,9 +40,9 @@ impl Search<'_> {
     /// More labels where this search came to its end.
     pub(in super::super) fn widened(&self) -> Care {
         /// Stages before the end and after it.
-        const AROUND: (usize, usize) = (24, 8);
+        const AROUND: (usize, usize) = (12, 4);
         /// Factor on the slack, each time.
-        const MORE: f64 = 3.0;
+        const MORE: f64 = 2.0;
         let last = self.stages.len() - 1;
         let stuck = (0..=last)
             .rev()
@@ -65,14 +65,12 @@ impl Search<'_> {
     pub(in super::super) fn tightened(&self, strays: &[((f64, f64), f64)]) -> Care {
         /// Part of the limit that is left at least.
         const LEAST: f64 = 0.3;
-        /// How many times the slack.
-        const MORE: f64 = 2.0;
         let mut care = self.care.clone();
         care.0
             .extend(strays.iter().map(|&((from, to), part)| Stretch {
                 from,
                 to,
-                slack: MORE,
+                slack: 1.0,
                 limit: part.max(LEAST),
             }));
         care
