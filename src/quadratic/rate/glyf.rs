@@ -134,6 +134,12 @@ pub fn glyf_bytes(outline: &Outline) -> u32 {
     stored_bytes(&contours)
 }
 
+/// The points that an outline of lines and quadratics stores, implied ones left out.
+#[must_use]
+pub fn glyf_points(outline: &Outline) -> usize {
+    outline.contours().iter().map(|p| points(p).len()).sum()
+}
+
 pub(super) fn stored_bytes(contours: &[Vec<Stored>]) -> u32 {
     let mut pen = Pen::after(Stored {
         x: 0,

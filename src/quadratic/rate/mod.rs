@@ -15,12 +15,13 @@ mod assemble;
 mod beside;
 mod curve;
 mod glyf;
+mod least;
 mod search;
 mod solve;
 mod splice;
 mod through;
 
-pub use glyf::glyf_bytes;
+pub use glyf::{glyf_bytes, glyf_points};
 pub use through::through;
 
 use super::QuadraticError;
@@ -75,22 +76,15 @@ impl Default for Rate {
 }
 
 impl Rate {
-    /// Lines and quadratics on whole units within `tolerance` (units, positive) of the outline.
-    pub(super) fn convert(
-        &self,
-        outline: &Outline,
-        tolerance: f64,
-    ) -> Result<Outline, QuadraticError> {
+    /// What stays at a tolerance, units.
+    fn kept(&self, tolerance: f64) -> Keep {
         /// Shorter lines may become part of a curve, tolerances.
         const LINE: f64 = 16.0;
         /// A smaller rise makes no extremum worth keeping, tolerances.
         const RISE: f64 = 3.0;
         /// A corner may move so far, tolerances.
         const MOVE: f64 = 0.9;
-        /// Bytes that a label may cost more than the cheapest beyond it; one more takes twice the
-        /// time and saves 0.3 %.
-        const SLACK: f64 = 2.1;
-        let keep = Keep {
+        Keep {
             corner_rad: self.corner_deg.to_radians(),
             tolerance,
             line: LINE * tolerance,
@@ -99,7 +93,19 @@ impl Rate {
                 Strictness::Corners | Strictness::Extrema => MOVE * tolerance,
                 Strictness::Places => 0.0,
             },
-        };
+        }
+    }
+
+    /// Lines and quadratics on whole units within `tolerance` (units, positive) of the outline.
+    pub(super) fn convert(
+        &self,
+        outline: &Outline,
+        tolerance: f64,
+    ) -> Result<Outline, QuadraticError> {
+        /// Bytes that a label may cost more than the cheapest beyond it; one more takes twice the
+        /// time and saves 0.3 %.
+        const SLACK: f64 = 2.1;
+        let keep = self.kept(tolerance);
         let effort = Effort {
             limit: tolerance,
             keep: self.keep,

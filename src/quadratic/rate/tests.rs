@@ -1,4 +1,4 @@
-use super::{Rate, Strictness, glyf::points, glyf_bytes, through};
+use super::{Rate, Strictness, glyf::points, glyf_bytes, glyf_points, through};
 use crate::{
     quadratic::split::Split,
     types::{Contour, Outline},
@@ -58,6 +58,32 @@ fn a_circle_takes_a_run_of_eight() {
     let stored = points(&q.contours()[0]);
     assert_eq!(stored.len(), 8, "{stored:?}");
     assert!(stored.iter().all(|p| !p.on), "{stored:?}");
+}
+
+#[test]
+fn no_answer_has_fewer_points_than_the_bound() {
+    // corners and lines ask for all of a polygon's points
+    let square = BezPath::from_svg("M0 0L300 0L300 300L0 300Z").unwrap();
+    let square = Outline::new(vec![square]).unwrap();
+    assert_eq!(Rate::default().least_points(&square, 1.0), 4);
+    // one quadratic a quadrant misses a circle of 250 units by 7
+    let circle = Outline::new(vec![Circle::new((0.0, 0.0), 250.0).to_path(1e-3)]).unwrap();
+    assert_eq!(Rate::default().least_points(&circle, 1.0), 8);
+    for outline in [
+        letter(),
+        circle,
+        ellipse(90.0, 40.0, 0.0),
+        ellipse(5.0, 6.0, 0.0),
+    ] {
+        for tolerance in [0.8, 2.0, 8.0] {
+            let q = Rate::default().convert(&outline, tolerance).unwrap();
+            let (least, found) = (
+                Rate::default().least_points(&outline, tolerance),
+                glyf_points(&q),
+            );
+            assert!(least <= found, "{found} points, at least {least}");
+        }
+    }
 }
 
 #[test]

@@ -16,7 +16,8 @@ use lattice::floor;
 use lattice::normal;
 pub(super) use lattice::smooth;
 use quad::{LEVELS, Place, places};
-use stage::{Kind, Stage, gate_direction, on_gate, stages};
+pub(super) use stage::on_gate;
+use stage::{Kind, Stage, gate_direction, stages};
 
 /// Cost of one byte; what is below it breaks ties by error.
 const BYTE: f64 = 4096.0;

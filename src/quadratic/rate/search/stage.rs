@@ -85,7 +85,7 @@ pub(super) fn stages(curve: &Curve, effort: Effort) -> Vec<Stage> {
     out
 }
 
-pub(super) fn on_gate(g: Gate, p: Point) -> Point {
+pub(in super::super) fn on_gate(g: Gate, p: Point) -> Point {
     if g.horizontal {
         Point::new(p.x, f64::from(g.level))
     } else {
