@@ -85,6 +85,12 @@ impl Profile {
         firsts.reduce(f64::min)
     }
 
+    /// The rightmost ink between two heights, x.
+    pub(super) fn rightmost(&self, zone: (f64, f64)) -> Option<f64> {
+        let lasts = self.zone(zone).filter_map(|(_, xs)| xs.last().copied());
+        lasts.reduce(f64::max)
+    }
+
     /// The leftmost ink of every row, x.
     pub(super) fn lefts(&self) -> Vec<Option<f64>> {
         self.rows

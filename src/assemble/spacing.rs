@@ -17,11 +17,13 @@
 //! number; with a family held out, the median error of its advances is 17 thousandths of the em.
 //! Leaning fonts are set upright before they are measured.
 //!
-//! Letters of a joining script have the same room on every side that does not join, a part of alef's height.
+//! Letters of a joining script have the same room on every side that does not join, a part of alef's height, but for their
+//! tails and tops.
 
 use super::features::is_arabic;
 use super::profile::{Profile, white};
-use super::{Draft, Options, tails};
+use super::tails::{self, Ends};
+use super::{Draft, Options};
 use crate::numeric::median::median;
 use crate::types::Info;
 use schemars::JsonSchema;
@@ -167,7 +169,8 @@ impl Rhythm {
 pub(super) fn set(drafts: &mut [Draft], info: &Info, stroke: Option<f64>, options: &Options) {
     let em = f64::from(info.units_per_em);
     let rhythm = Rhythm::of(drafts, info);
-    let joining = alef(drafts).map(|height| OF_ALEF * height);
+    let alef = alef(drafts);
+    let joining = alef.map(|height| OF_ALEF * height);
     let joining = joining.or(stroke.map(|s| OF_STROKE * s));
     let terms = Terms {
         em,
@@ -176,11 +179,11 @@ pub(super) fn set(drafts: &mut [Draft], info: &Info, stroke: Option<f64>, option
         room: &options.letters,
     };
     let tails = match (options.letters.sidebearing, joining) {
-        (None, Some(side)) => tails::ends(drafts, side, em),
-        _ => drafts.iter().map(|_| None).collect(),
+        (None, Some(side)) => tails::ends(drafts, side, alef, em),
+        _ => drafts.iter().map(|_| Ends::default()).collect(),
     };
-    for (draft, tail) in drafts.iter_mut().zip(tails) {
-        let (left, right) = terms.ends(draft, tail);
+    for (draft, own) in drafts.iter_mut().zip(tails) {
+        let (left, right) = terms.ends(draft, own);
         draft.shift(-left);
         draft.advance = (right - left).max(0.0).round();
     }
@@ -206,11 +209,14 @@ struct Terms<'a> {
 
 impl Terms<'_> {
     /// Left and right end of the advance in the outline's own x.
-    fn ends(&self, draft: &Draft, tail: Option<f64>) -> (f64, f64) {
+    fn ends(&self, draft: &Draft, own: Ends) -> (f64, f64) {
         let free = || {
             let (left, right) = self.free(draft);
-            let tail = tail.map(|t| t - self.room.tracking * self.em);
-            (tail.unwrap_or(left), right)
+            let add = self.room.tracking * self.em;
+            (
+                own.left.map_or(left, |l| l - add),
+                own.right.map_or(right, |r| r + add),
+            )
         };
         let (left, right) = draft.given.unwrap_or_else(free);
         (

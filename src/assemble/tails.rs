@@ -1,7 +1,8 @@
-//! Tails of Arabic letters: reh and waw reach under the letter that follows, as far as it leaves them room.
+//! Tails and tops of Arabic letters: reh and waw reach under the letter that follows, madda over both neighbours.
 //!
 //! Beside a letter that never joins the next, room is counted from its ink above the baseline: a tail below it
-//! takes none. It stays clear of every letter that can follow, which is looked at row by row.
+//! takes none. Of what reaches beyond a letter's body above it, such as madda, dots over a narrow tooth and kaf's arm,
+//! half takes none. Tails and tops stay clear of every letter that can follow, which is looked at row by row.
 
 use super::Draft;
 use super::features::is_arabic;
@@ -11,16 +12,29 @@ use unicode_joining_type::{JoiningType, get_joining_type};
 /// Rows above and below that count as level: ink that passes so near is felt as beside. em
 const NEAR: f64 = 0.03;
 
+/// Height of a letter's body, part of alef's: ink above reaches over its neighbours. Over six families the room on the
+/// right is off by 10.8 thousandths of the em in place of 11.3 (mean of medians; 19.1 for 21.1, mean of means), beside
+/// letters that never join the next by 21.0 in place of 24.6; 0.5 and 0.7 do as well.
+const BODY: f64 = 0.6;
+
 /// Room that every follower leaves, part of the room of two sides.
 const CLEAR: f64 = 0.15;
 
 /// The furthest that a tail reaches beyond the advance. em
 const FURTHEST: f64 = 0.2;
 
-/// The left end of the advance of each draft in its own x, where it is an Arabic letter that never joins the next:
-/// after one that does, in its final and isolated form, a word ends.
-/// `side` is the room beside a letter, font units.
-pub(super) fn ends(drafts: &[Draft], side: f64, em: f64) -> Vec<Option<f64>> {
+/// Where the advance of a letter ends in its own x; none where the plain rule says it.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(super) struct Ends {
+    /// Of an Arabic letter that never joins the next: after one that does, in its final and isolated form, a word ends.
+    pub(super) left: Option<f64>,
+    /// Of one that does not join the one before.
+    pub(super) right: Option<f64>,
+}
+
+/// The ends of each draft. `side` is the room beside a letter, `alef` the height of alef where there is one, font units.
+pub(super) fn ends(drafts: &[Draft], side: f64, alef: Option<f64>, em: f64) -> Vec<Ends> {
+    let body = alef.map_or(f64::INFINITY, |height| BODY * height);
     let profile = |d: &Draft| Profile::of(&d.outline, em, 0.0, 0.0);
     let follows = |d: &&Draft| {
         let first = d.id.chars.first().filter(|c| is_arabic(**c));
@@ -31,16 +45,26 @@ pub(super) fn ends(drafts: &[Draft], side: f64, em: f64) -> Vec<Option<f64>> {
         last.is_some_and(|c| get_joining_type(*c) == JoiningType::RightJoining)
     };
     let near = super::profile::rows(NEAR);
+    let right = |p: &Profile| {
+        let edge = p.extremes.1;
+        let top = edge - p.rightmost((f64::NEG_INFINITY, body)).unwrap_or(edge);
+        edge + side - (0.5 * top).min(side)
+    };
+    let beside = |p: Profile| {
+        let room = right(&p) - p.extremes.1;
+        let rows = p.rights().into_iter().map(|r| r.map(|r| r + room));
+        widened(&rows.collect::<Vec<_>>(), near)
+    };
     let followers: Vec<Vec<Option<f64>>> = drafts
         .iter()
         .filter(follows)
         .filter_map(profile)
-        .map(|p| widened(&p.rights(), near))
+        .map(beside)
         .collect();
-    let end = |d: &Draft| {
+    let left = |d: &Draft| {
         let profile = profile(d).filter(|_| never_joins(d))?;
         let rows = profile.lefts();
-        // the least sum of both sides' distances, were the follower's right extreme at 0
+        // the least sum of both sides' distances, were the follower's advance to end at 0
         let least = |follower: &Vec<Option<f64>>| {
             let level = rows.iter().zip(follower);
             level
@@ -49,14 +73,19 @@ pub(super) fn ends(drafts: &[Draft], side: f64, em: f64) -> Vec<Option<f64>> {
         };
         let met: Vec<f64> = followers.iter().filter_map(least).collect();
         let above = profile.leftmost((0.0, f64::INFINITY))?;
-        let clear = met.iter().copied().reduce(f64::min)? + side - 2.0 * CLEAR * side;
+        let above = above.midpoint(profile.leftmost((0.0, body)).unwrap_or(above));
+        let clear = met.iter().copied().reduce(f64::min)? - 2.0 * CLEAR * side;
         let (least, most) = (
             profile.extremes.0 - side,
             profile.extremes.0 + FURTHEST * em,
         );
         Some((above - side).min(clear).clamp(least, most))
     };
-    drafts.iter().map(end).collect()
+    let both = |d: &Draft| Ends {
+        left: left(d),
+        right: Some(d).filter(follows).and_then(profile).map(|p| right(&p)),
+    };
+    drafts.iter().map(both).collect()
 }
 
 /// Each row's least value among the rows near it.
@@ -99,14 +128,18 @@ mod tests {
         let reh = draft("ر", &[head, tail]);
         let alef = draft("ا", &[Rect::new(0.0, 0.0, 80.0, 700.0)]);
         // above the baseline nothing stands further left than 100: the tail takes no room
+        let lefts = |drafts: &[Draft]| -> Vec<Option<f64>> {
+            let ends = ends(drafts, 50.0, None, 1000.0);
+            ends.into_iter().map(|e| e.left).collect()
+        };
         assert_eq!(
-            ends(&[reh.clone(), alef.clone()], 50.0, 1000.0),
+            lefts(&[reh.clone(), alef.clone()]),
             [Some(50.0), Some(-50.0)]
         );
 
         // a follower with ink as deep as the tail, at its right edge: the tail stays clear
         let deep = draft("و", &[Rect::new(0.0, -150.0, 80.0, 200.0)]);
-        let met = ends(&[reh, alef, deep], 50.0, 1000.0);
+        let met = lefts(&[reh, alef, deep]);
         let gap = 50.0 - met[0].unwrap();
         assert!((2.0 * CLEAR * 50.0 - gap).abs() < 1e-9, "{met:?}");
     }
@@ -114,6 +147,23 @@ mod tests {
     #[test]
     fn letters_that_join_the_next_keep_the_plain_rule() {
         let beh = draft("ب", &[Rect::new(0.0, -100.0, 300.0, 200.0)]);
-        assert_eq!(ends(&[beh], 50.0, 1000.0), [None]);
+        let ends = ends(&[beh], 50.0, None, 1000.0);
+        assert_eq!((ends[0].left, ends[0].right), (None, Some(350.0)));
+    }
+
+    #[test]
+    fn half_of_a_wide_top_takes_no_room() {
+        let (stem, top) = (
+            Rect::new(50.0, 0.0, 130.0, 600.0),
+            Rect::new(0.0, 650.0, 200.0, 700.0),
+        );
+        let madda = draft("آ", &[stem, top]);
+        let alef = draft("ا", &[Rect::new(0.0, 0.0, 80.0, 600.0)]);
+        let [wide, plain] = ends(&[madda, alef], 50.0, Some(600.0), 1000.0)[..] else {
+            panic!("two letters");
+        };
+        // 50 beside the stem on the left, 70 on the right
+        assert_eq!((wide.left, wide.right), (Some(-25.0), Some(215.0)));
+        assert_eq!((plain.left, plain.right), (Some(-50.0), Some(130.0)));
     }
 }
