@@ -18,9 +18,7 @@ const ROUND_PX: f64 = 1.15;
 /// And of this much more for each px of the lens' deviation, which makes the place less certain.
 const ROUND_LENS: f64 = 0.4;
 /// That times this where the contour alone does not look like a corner, and where it does.
-const DOUBT: [f64; 2] = [0.64, 1.69];
-/// And this for a corner of a fitted path.
-const FITTED: f64 = 1.3;
+const DOUBT: [f64; 2] = [0.8, 1.3];
 
 /// A fitted corner may reach further than its tip is drawn by this, px, and by this for each px of the lens' deviation.
 const LONG_PX: (f64, f64) = (1.0, 1.2);
@@ -143,7 +141,7 @@ fn polygons(paths: &[BezPath]) -> Vec<Vec<Point>> {
 
 /// The corners of a closed path that are drawn round.
 fn undrawn(residual: &Residual, path: &[CubicBez]) -> Vec<Point> {
-    let limit = limit(residual) * FITTED;
+    let limit = limit(residual) * DOUBT[1];
     let before = path.iter().cycle().skip(path.len().saturating_sub(1));
     let corners = path.iter().zip(before).filter_map(|(after, before)| {
         let (u, v) = (arriving(before), leaving(after));
