@@ -200,7 +200,7 @@ fn nodes_go_where_the_picture_has_them() {
 }
 
 #[test]
-fn nodes_stay_where_the_picture_tells_nothing() {
+fn no_node_goes_far_where_the_picture_tells_nothing() {
     for gray in [
         Gray::from_fn(48, 48, |_, _| 0.0),
         Gray::from_fn(48, 48, |x, y| ((x * 7 + y * 13) % 5) as f32 / 4.0),
