@@ -3,16 +3,18 @@
 use super::picture::{Options, fit, sharp};
 use crate::{
     fit::FitError,
-    refine::{Cornered, Doubts, Fitted},
+    refine::{Comparison, Cornered, Doubts},
     types::Gray,
 };
 use kurbo::{BezPath, Point};
 
 /// A corner so near to a node that is gone is gone with it, px.
 const SAME_PX: f64 = 1.5;
+/// Times that a contour which was fit again is looked at once more.
+const REVISIONS: usize = 3;
 
-/// The paths of contours, those with doubtful corners fit again, and all nodes settled in the picture. A corner that was
-/// added stays where the picture bears it out.
+/// The paths of contours, those with doubtful corners fit again as far as the picture bears it out, and all nodes settled
+/// in the picture.
 pub(super) fn reviewed(
     coverage: &Gray,
     found: &[Cornered],
@@ -20,19 +22,21 @@ pub(super) fn reviewed(
     options: &Options,
 ) -> Result<Vec<BezPath>, FitError> {
     let blur = found.first().map_or(0.0, |(c, _)| c.blur_px());
-    let fitted = Fitted::new(coverage, paths, blur);
-    let mut doubts = fitted.doubts(paths);
+    let seen = Comparison::new(coverage, paths, blur);
+    let mut doubts = seen.doubts(paths);
     let mut again = refit(coverage, found, (paths, &doubts), options)?;
-    let corners: Vec<_> = doubts.iter().map(|d| d.sharp.clone()).collect();
-    if corners.iter().any(|c| !c.is_empty()) {
-        let kept = fitted.borne_out(&again, &corners);
-        if kept.contains(&false) {
-            let dropped = doubts.iter_mut().zip(&kept).filter(|(_, kept)| !**kept);
-            dropped.for_each(|(doubts, _)| doubts.sharp.clear());
-            again = refit(coverage, found, (paths, &doubts), options)?;
+    for _ in 0..REVISIONS {
+        if again == paths {
+            break;
         }
+        let revised = seen.revised(&again, &doubts);
+        if revised == doubts {
+            break;
+        }
+        doubts = revised;
+        again = refit(coverage, found, (paths, &doubts), options)?;
     }
-    Ok(fitted.settled(&again))
+    Ok(seen.settled(&again))
 }
 
 /// The paths, those anew whose corners are doubted.
@@ -59,21 +63,19 @@ fn refit(
 /// A contour without the corners that are drawn round, and with those that were overlooked.
 fn corrected(((contour, at), doubts): (&Cornered, &Doubts)) -> Cornered {
     let points = contour.points();
-    let mut at = at.clone();
+    let off = |i: usize, p: Point| points[i].distance(p);
     let nearest = |among: &mut dyn Iterator<Item = usize>, p: Point| {
-        let off = |i: &usize| points[*i].distance_squared(p);
-        among.min_by(|a, b| off(a).total_cmp(&off(b)))
+        among.min_by(|a, b| off(*a, p).total_cmp(&off(*b, p)))
     };
-    let mut leave = |p: Point, within: f64| {
-        let corner = nearest(&mut at.iter().copied(), p);
-        let near = corner.filter(|&i| points[i].distance(p) <= within);
-        at.retain(|&i| Some(i) != near);
-    };
-    doubts.round.iter().for_each(|p| leave(*p, f64::INFINITY));
+    let corner = |p: &Point| nearest(&mut at.iter().copied(), *p);
+    let round = doubts.round.iter().filter_map(corner);
     let replaced = doubts.sharp.iter().flat_map(|c| &c.nodes);
-    replaced.for_each(|p| leave(*p, SAME_PX));
+    let replaced = replaced.filter_map(|p| corner(p).filter(|&i| off(i, *p) <= SAME_PX));
+    let gone: Vec<usize> = round.chain(replaced).collect();
     let tips = doubts.sharp.iter().map(|c| c.tip);
-    at.extend(tips.filter_map(|p| nearest(&mut (0..points.len()), p)));
+    let new = tips.filter_map(|p| nearest(&mut (0..points.len()), p));
+    let left = at.iter().copied().filter(|i| !gone.contains(i));
+    let mut at: Vec<usize> = left.chain(new).collect();
     at.sort_unstable();
     at.dedup();
     (contour.clone(), at)

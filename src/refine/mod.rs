@@ -1,21 +1,27 @@
-//! Contours and the grey picture → contours that explain the picture.
+//! Contours or curves and the grey picture → those that explain the picture.
 //!
 //! | takes | gives |
 //! |---|---|
-//! | coverage ([`Gray`]), [`Contour`]s with their corners | the same, moved by fractions of a pixel |
+//! | coverage ([`Gray`]), [`Contour`]s with possible corners | which of them are drawn ([`confirmed`]) |
+//! | coverage, contours with their corners | the same, moved by fractions of a pixel ([`contours`]) |
+//! | coverage, fitted paths | doubts about their corners, nodes settled ([`Comparison`]) |
 //!
 //! An iso-contour is not the drawing's edge: blur pulls it inwards where the edge bends and rounds its
 //! corners, thin strokes lose to both their sides, and it follows the noise of two pixels at a time.
 //! Here the shape itself is drawn, blurred as the picture is and compared with it; each point then moves by
 //! what the difference around it says. Nothing is approximated but the linear step, which is repeated.
 
+mod blunt;
+mod comparison;
 mod corners;
 mod nodes;
 mod residual;
 #[cfg(test)]
 mod tests;
 
-pub use corners::{Doubts, Fitted, Overlooked, confirmed};
+pub use blunt::Overlooked;
+pub use comparison::{Comparison, Doubts};
+pub use corners::confirmed;
 
 use crate::{
     numeric::side::{Place, Side, scatter_px},

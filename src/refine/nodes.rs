@@ -4,7 +4,7 @@
 //! directions and handles follow by least squares, joins kept. This is the gradient of the squared difference itself,
 //! corners included, which the contour only knows from their sides.
 
-use super::corners::polygon;
+use super::comparison::polygon;
 use super::residual::Residual;
 use crate::numeric::{
     cast::index,

@@ -139,17 +139,17 @@ fn square() -> BezPath {
 }
 
 fn photograph(path: &BezPath, lens: f64) -> Gray {
-    picture(&corners::polygon(path, 0.001), 48, lens)
+    picture(&comparison::polygon(path, 0.001), 48, lens)
 }
 
 fn doubts(gray: &Gray, path: &BezPath, blur: f64) -> Vec<Doubts> {
     let path = std::slice::from_ref(path);
-    Fitted::new(gray, path, blur).doubts(path)
+    Comparison::new(gray, path, blur).doubts(path)
 }
 
 fn settled(gray: &Gray, path: &BezPath, blur: f64) -> BezPath {
     let path = std::slice::from_ref(path);
-    Fitted::new(gray, path, blur).settled(path).remove(0)
+    Comparison::new(gray, path, blur).settled(path).remove(0)
 }
 
 #[test]
@@ -174,6 +174,36 @@ fn a_corner_that_is_drawn_round_is_doubted_and_one_that_is_not_is_left() {
         assert_eq!(found[0].round, [Point::new(40.3, 40.1)], "lens {lens}");
         assert_eq!(at(&round, &rounded(5.0)), [Doubts::default()]);
         assert_eq!(at(&sharp, &square()), [Doubts::default()]);
+    }
+}
+
+#[test]
+fn a_corner_that_a_new_fit_draws_too_long_is_given_up() {
+    let (tip, other) = (Point::new(40.3, 40.1), Point::new(8.2, 8.4));
+    let new = Doubts {
+        sharp: vec![Overlooked {
+            tip,
+            nodes: Vec::new(),
+        }],
+        ..Doubts::default()
+    };
+    let elsewhere = Doubts {
+        round: vec![other],
+        ..Doubts::default()
+    };
+    for lens in [0.0, 0.9] {
+        let blur = Contour::PIXEL_BLUR_PX.hypot(lens);
+        let (before, after) = ([rounded(5.0)], [square()]);
+        let seen = Comparison::new(&photograph(&before[0], lens), &before, blur);
+        let revised = |doubts: &Doubts| seen.revised(&after, std::slice::from_ref(doubts));
+        assert_eq!(revised(&new), [Doubts::default()], "lens {lens}");
+        assert_eq!(revised(&elsewhere)[0].round, [other, tip], "lens {lens}");
+        assert_eq!(revised(&Doubts::default()), [Doubts::default()]);
+        let drawn = Comparison::new(&photograph(&after[0], lens), &before, blur);
+        assert_eq!(
+            drawn.revised(&after, std::slice::from_ref(&new)),
+            [new.clone()]
+        );
     }
 }
 
@@ -212,6 +242,6 @@ fn no_node_goes_far_where_the_picture_tells_nothing() {
             assert!(a.start().distance(b.start()) <= 2.0 + 1e-9);
         }
     }
-    let nothing = Fitted::new(&Gray::from_fn(0, 0, |_, _| 0.0), &[], 0.6);
+    let nothing = Comparison::new(&Gray::from_fn(0, 0, |_, _| 0.0), &[], 0.6);
     assert!(nothing.settled(&[]).is_empty());
 }

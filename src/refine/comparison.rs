@@ -1,0 +1,104 @@
+//! Fitted paths beside the grey picture: what it says against them, and where their nodes settle.
+
+use super::{
+    blunt::{self, Overlooked},
+    corners, nodes,
+    residual::Residual,
+};
+use crate::types::Gray;
+use kurbo::{BezPath, CubicBez, PathEl, Point, flatten};
+
+/// Chords leave a path that is compared with the picture by no more than this, px.
+const CHORD_PX: f64 = 0.01;
+/// A fitted corner so near to where a new one was expected is that one, px.
+const SAME_PX: f64 = 6.0;
+
+/// What the picture says against the corners of a fitted path.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Doubts {
+    /// Corners that are drawn round.
+    pub round: Vec<Point>,
+    /// Where two sides would meet that a short run of curves joins, and should.
+    pub sharp: Vec<Overlooked>,
+}
+
+/// The grey picture beside fitted paths.
+#[derive(Debug)]
+pub struct Comparison {
+    residual: Residual,
+}
+
+impl Comparison {
+    /// The picture against the fill of `paths`, both blurred by `blur_px`.
+    #[must_use]
+    pub fn new(gray: &Gray, paths: &[BezPath], blur_px: f64) -> Self {
+        let rings = polygons(paths);
+        Self {
+            residual: Residual::new(gray, rings.iter().map(Vec::as_slice), blur_px),
+        }
+    }
+
+    /// What it says against the corners of those paths.
+    #[must_use]
+    pub fn doubts(&self, paths: &[BezPath]) -> Vec<Doubts> {
+        let of = |path: &BezPath| {
+            let segments = cubics(path);
+            Doubts {
+                round: corners::undrawn(&self.residual, &segments),
+                sharp: blunt::overlooked(&self.residual, &segments),
+            }
+        };
+        paths.iter().map(of).collect()
+    }
+
+    /// The doubts as they stand after a look at `paths`, which were fitted to them: new corners that explain the
+    /// picture no better than the curves in their place are given up, and so are all that came out longer than drawn.
+    #[must_use]
+    pub fn revised(&self, paths: &[BezPath], doubts: &[Doubts]) -> Vec<Doubts> {
+        let before = &self.residual;
+        let after = before.against(polygons(paths).iter().map(Vec::as_slice));
+        let revised = |(path, doubts): (&BezPath, &Doubts)| {
+            let mut doubts = doubts.clone();
+            if doubts == Doubts::default() {
+                return doubts;
+            }
+            for p in corners::undrawn(&after, &cubics(path)) {
+                let new = doubts.sharp.len();
+                doubts.sharp.retain(|c| c.tip.distance(p) > SAME_PX);
+                if doubts.sharp.len() == new && !doubts.round.contains(&p) {
+                    doubts.round.push(p);
+                }
+            }
+            if !doubts.sharp.iter().all(|c| c.explains(before, &after)) {
+                doubts.sharp.clear();
+            }
+            doubts
+        };
+        paths.iter().zip(doubts).map(revised).collect()
+    }
+
+    /// Paths like those, with nodes and handles where their blurred fill is most like the picture.
+    #[must_use]
+    pub fn settled(&self, paths: &[BezPath]) -> Vec<BezPath> {
+        nodes::settled(&self.residual, paths)
+    }
+}
+
+/// The segments of a path.
+fn cubics(path: &BezPath) -> Vec<CubicBez> {
+    path.segments().map(|s| s.to_cubic()).collect()
+}
+
+fn polygons(paths: &[BezPath]) -> Vec<Vec<Point>> {
+    paths.iter().map(|p| polygon(p, CHORD_PX)).collect()
+}
+
+/// A closed path as chords that leave it by no more than `tolerance_px`.
+pub(super) fn polygon(path: &BezPath, tolerance_px: f64) -> Vec<Point> {
+    let mut out = Vec::new();
+    flatten(path, tolerance_px, |el| match el {
+        PathEl::MoveTo(p) | PathEl::LineTo(p) => out.push(p),
+        _ => {}
+    });
+    out
+}
