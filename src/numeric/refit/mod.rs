@@ -61,6 +61,8 @@ const HOPE: f64 = 4.0;
 const HOOK: f64 = 1.75;
 /// How far a loose end may go, in deviations of a sample: as far as a corner is found astray.
 const LOOSE: f64 = 16.0;
+/// A step of a foot after which the next is next to nothing, parameter.
+const NEAR: f64 = 0.01;
 /// How far in one step, in shorter sides.
 const STRIDE: f64 = 0.35;
 
@@ -70,6 +72,29 @@ const STRIDE: f64 = 0.35;
 struct Block {
     hessian: [[f64; 8]; 8],
     gradient: [f64; 8],
+}
+
+impl Block {
+    /// Adds a row of the Jacobian.
+    fn add(&mut self, row: &[f64; 8], weight: f64, distance: f64) {
+        for (g, r) in self.gradient.iter_mut().zip(row) {
+            *g += weight * distance * r;
+        }
+        // two rows at a time, each as long as the longer of them: whole pairs of numbers
+        self.pair::<2>(row, weight);
+        self.pair::<4>(row, weight);
+        self.pair::<6>(row, weight);
+        self.pair::<8>(row, weight);
+    }
+
+    fn pair<const END: usize>(&mut self, row: &[f64; 8], weight: f64) {
+        for k in END - 2..END {
+            let w = weight * row[k];
+            for l in 0..END {
+                self.hessian[k][l] += w * row[l];
+            }
+        }
+    }
 }
 
 /// A number of a node that an optimiser may or may not move.
@@ -282,23 +307,16 @@ impl Refit {
         for (sample, foot) in samples.iter().zip(feet) {
             let (offset, normal) = self.slide(sample.at, foot);
             let distance = offset.dot(normal);
-            let u = distance.abs() / sample.sigma;
+            let precision = sample.sigma.recip();
+            let u = distance.abs() * precision;
             let (rho, pull) = if u < scale.robust {
                 (0.5 * u * u, 1.0)
             } else {
                 (scale.robust * (u - 0.5 * scale.robust), scale.robust / u)
             };
             cost += sample.weight * rho;
-            let weight = sample.weight * pull / (sample.sigma * sample.sigma);
-            let row = row(chain, *foot, normal);
-            let block = &mut self.blocks[foot.segment];
-            for (k, rk) in row.iter().enumerate() {
-                let w = weight * rk;
-                block.gradient[k] += w * distance;
-                for (h, rl) in block.hessian[k].iter_mut().zip(&row[..=k]) {
-                    *h += w * rl;
-                }
-            }
+            let weight = sample.weight * pull * precision * precision;
+            self.blocks[foot.segment].add(&row(chain, *foot, normal), weight, distance);
         }
         cost
     }
@@ -315,6 +333,9 @@ impl Refit {
                 let bend = speed + (p - at).dot(dd);
                 let step = (p - at).dot(d) / bend.max(0.25 * speed).max(1e-12);
                 foot.t = (foot.t - step.clamp(-0.3, 0.3)).clamp(-0.2, 1.2);
+                if step.abs() < NEAR {
+                    break;
+                }
             }
             let over = foot.t > 1.0;
             if !over && foot.t >= 0.0 {
