@@ -93,10 +93,22 @@ impl Coverage {
         }
     }
 
+    /// Nothing covered again.
+    pub fn clear(&mut self) {
+        self.differences.fill(0.0);
+    }
+
     /// The covered part of each pixel, row-major from the top.
     #[must_use]
     pub fn samples(&self) -> Vec<f32> {
-        let mut out = Vec::with_capacity(self.width * self.height);
+        let mut out = Vec::new();
+        self.write(&mut out);
+        out
+    }
+
+    /// The same in place of what `out` held.
+    pub fn write(&self, out: &mut Vec<f32>) {
+        out.clear();
         for line in self.differences.chunks_exact(self.width + 2) {
             let mut sum = 0.0;
             out.extend(line[..self.width].iter().map(|d| {
@@ -104,36 +116,59 @@ impl Coverage {
                 sum
             }));
         }
-        out
     }
 }
 
-/// A separable Gaussian over a row-major picture, in place of it; beyond its edges lies nothing.
+/// A separable Gaussian over a row-major picture, in its place; beyond its edges lies nothing.
 /// `sigma_px` below a tenth of a pixel changes nothing.
-#[must_use]
-pub fn blurred(samples: &[f32], width: usize, sigma_px: f64) -> Vec<f32> {
+pub fn blur(samples: &mut [f32], width: usize, sigma_px: f64) {
     if sigma_px < 0.1 || width == 0 {
-        return samples.to_vec();
+        return;
     }
     let radius = index((3.5 * sigma_px).ceil());
     let weight = |i: usize| (-0.5 * (i as f64 / sigma_px).powi(2)).exp();
     let norm = 1.0 / (2.0 * (1..=radius).map(weight).sum::<f64>() + 1.0);
     let kernel: Vec<f32> = (0..=radius).map(|i| single(weight(i) * norm)).collect();
-    let pass = |from: &[f32], line: usize, step: usize| {
-        let mut to = vec![0.0; from.len()];
-        for (to, from) in to.chunks_exact_mut(line).zip(from.chunks_exact(line)) {
-            for (i, &k) in kernel.iter().enumerate() {
-                let d = (i * step).min(line);
-                to[d..].iter_mut().zip(from).for_each(|(t, f)| *t += k * f);
-                if d > 0 {
-                    to.iter_mut().zip(&from[d..]).for_each(|(t, f)| *t += k * f);
-                }
+    let mut line = vec![0.0; width];
+    for row in samples.chunks_exact_mut(width) {
+        line.iter_mut()
+            .zip(&*row)
+            .for_each(|(t, f)| *t = kernel[0] * f);
+        for (d, &k) in kernel.iter().enumerate().skip(1).take(width - 1) {
+            add(&mut line[d..], row, k);
+            add(&mut line, &row[d..], k);
+        }
+        row.copy_from_slice(&line);
+    }
+    // rows above are overwritten by the time they are asked for
+    let mut above = vec![0.0; radius * width];
+    let rows = samples.len() / width;
+    for y in 0..rows {
+        let at = y * width;
+        line.iter_mut()
+            .zip(&samples[at..])
+            .for_each(|(t, f)| *t = kernel[0] * f);
+        for (d, &k) in kernel.iter().enumerate().skip(1) {
+            let below = (y + d < rows).then(|| &samples[at + d * width..]);
+            let above = (d <= y).then(|| &above[(y - d) % radius * width..]);
+            if let (Some(above), Some(below)) = (above, below) {
+                let both = above.iter().zip(below);
+                line.iter_mut()
+                    .zip(both)
+                    .for_each(|(t, (a, b))| *t += k * (a + b));
+            } else if let Some(one) = above.or(below) {
+                add(&mut line, one, k);
             }
         }
-        to
-    };
-    let across = pass(samples, width, 1);
-    pass(&across, samples.len().max(1), width)
+        let row = &mut samples[at..at + width];
+        above[y % radius * width..][..width].copy_from_slice(row);
+        row.copy_from_slice(&line);
+    }
+}
+
+/// Adds `k` times the values of one line to those of another, as far as both go.
+fn add(to: &mut [f32], from: &[f32], k: f32) {
+    to.iter_mut().zip(from).for_each(|(t, f)| *t += k * f);
 }
 
 #[cfg(test)]
@@ -194,8 +229,8 @@ mod tests {
     fn blur_keeps_the_sum() {
         let mut s = vec![0.0; 21 * 21];
         s[10 * 21 + 10] = 1.0;
-        let b = blurred(&s, 21, 1.5);
-        assert!((b.iter().sum::<f32>() - 1.0).abs() < 1e-4);
-        assert!((b[10 * 21 + 10] - 1.0 / (2.0 * std::f32::consts::PI * 2.25)).abs() < 1e-3);
+        blur(&mut s, 21, 1.5);
+        assert!((s.iter().sum::<f32>() - 1.0).abs() < 1e-4);
+        assert!((s[10 * 21 + 10] - 1.0 / (2.0 * std::f32::consts::PI * 2.25)).abs() < 1e-3);
     }
 }

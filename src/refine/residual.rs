@@ -3,8 +3,8 @@
 use crate::{
     numeric::{
         cast::index,
-        coverage::{Coverage, blurred},
-        levels::{Votes, normalised},
+        coverage::{Coverage, blur},
+        levels::normalised,
         median::median,
     },
     types::{Contour, Gray},
@@ -20,8 +20,6 @@ const MIN_SPREAD_PX: f64 = 0.6;
 const AVERAGE: f64 = 5.0;
 /// Mean of the squares of a normal number by their median.
 const MEDIAN_OF_SQUARES: f64 = 2.198;
-/// A pixel whose model is within this of ink or paper tells their level, coverage.
-const SURE: f32 = 0.1;
 
 /// A patch of ink before the lens: how much, px², where, and its variances along a direction and across it, px².
 pub(super) struct Blot {
@@ -76,6 +74,8 @@ pub(super) struct Residual {
     off: Vec<f32>,
     /// the picture's coverage
     seen: Vec<f32>,
+    /// fill of the polygons, before the lens
+    fill: Coverage,
     width: usize,
     height: usize,
     /// deviation of the lens' blur alone, px
@@ -98,6 +98,7 @@ impl Residual {
         let mut residual = Self {
             off: Vec::new(),
             seen: Vec::new(),
+            fill: Coverage::new(gray.width(), gray.height()),
             width: gray.width(),
             height: gray.height(),
             lens: (blur_px * blur_px - pixel * pixel).max(0.0).sqrt(),
@@ -106,12 +107,10 @@ impl Residual {
             // `blur_px`, of which the weights see one of both deviations together
             gain: TAU.sqrt() * blur_px.hypot(spread),
         };
-        let model = residual.model(rings);
+        residual.draw(rings);
         // with the edges known, pixels up to them say what ink and paper are
-        residual.seen = normalised(gray.samples(), gray.width(), |i| {
-            votes(gray.samples()[i], model[i])
-        });
-        residual.compare(&model);
+        residual.seen = normalised(gray.samples(), gray.width(), &residual.off);
+        residual.compare();
         residual
     }
 
@@ -124,20 +123,22 @@ impl Residual {
 
     /// The same picture against other rings that hardly differ: levels of ink and paper stay.
     pub(super) fn update<'r>(&mut self, rings: impl Iterator<Item = &'r [Point]>) {
-        let model = self.model(rings);
-        self.compare(&model);
+        self.draw(rings);
+        self.compare();
     }
 
-    fn model<'r>(&self, rings: impl Iterator<Item = &'r [Point]>) -> Vec<f32> {
-        let mut coverage = Coverage::new(self.width, self.height);
-        rings.for_each(|r| coverage.add(r));
-        blurred(&coverage.samples(), self.width, self.lens)
+    /// Leaves the model in place of the differences.
+    fn draw<'r>(&mut self, rings: impl Iterator<Item = &'r [Point]>) {
+        self.fill.clear();
+        rings.for_each(|r| self.fill.add(r));
+        self.fill.write(&mut self.off);
+        blur(&mut self.off, self.width, self.lens);
     }
 
-    fn compare(&mut self, model: &[f32]) {
-        self.off.clear();
-        let pairs = self.seen.iter().zip(model);
-        self.off.extend(pairs.map(|(s, m)| s - m));
+    /// From the model to the differences.
+    fn compare(&mut self) {
+        let pairs = self.off.iter_mut().zip(&self.seen);
+        pairs.for_each(|(model, seen)| *model = seen - *model);
     }
 
     /// Weights by which shifts of neighbouring points are averaged, from the point itself outwards.
@@ -246,18 +247,4 @@ impl Residual {
 
 fn perp(v: Vec2) -> Vec2 {
     Vec2::new(-v.y, v.x)
-}
-
-/// What a pixel of value `seen` says of ink and paper, the model's part of the other taken off: all where the model
-/// is ink or paper alone, less the more it holds of the other.
-fn votes(seen: f32, model: f32) -> Votes {
-    if model > 1.0 - SURE {
-        let ink = (1.0 - (1.0 - model) / SURE).min(1.0);
-        [ink * (seen + 1.0 - model), ink, 0.0, 0.0]
-    } else if model < SURE {
-        let paper = (1.0 - model / SURE).min(1.0);
-        [0.0, 0.0, paper * (seen - model), paper]
-    } else {
-        [0.0; 4]
-    }
 }

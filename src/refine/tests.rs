@@ -1,7 +1,7 @@
 use super::*;
 use crate::numeric::{
     cast::index,
-    coverage::{Coverage, blurred},
+    coverage::{Coverage, blur},
 };
 use kurbo::{BezPath, ParamCurve};
 
@@ -9,7 +9,9 @@ use kurbo::{BezPath, ParamCurve};
 fn picture(ring: &[Point], size: usize, lens: f64) -> Gray {
     let mut c = Coverage::new(size, size);
     c.add(ring);
-    Gray::new(size, size, blurred(&c.samples(), size, lens)).unwrap()
+    let mut samples = c.samples();
+    blur(&mut samples, size, lens);
+    Gray::new(size, size, samples).unwrap()
 }
 
 fn circle(centre: Point, radius: f64, n: usize) -> Vec<Point> {

@@ -18,13 +18,13 @@ pub fn level(gray: &Gray) -> Gray {
     let ink: Vec<bool> = gray.samples().iter().map(|&v| v >= 0.5).collect();
     let paper: Vec<bool> = ink.iter().map(|b| !b).collect();
     let (near_ink, near_paper) = (dilated(&ink, w, MARGIN), dilated(&paper, w, MARGIN));
-    let values = normalised(gray.samples(), w, |i| {
-        let v = gray.samples()[i];
-        match (near_ink[i], near_paper[i]) {
-            (true, true) => [0.0; 4],
-            (true, false) => [v, 1.0, 0.0, 0.0],
-            _ => [0.0, 0.0, v, 1.0],
-        }
-    });
+    // what is neither surely ink nor surely paper tells nothing
+    let model = |(ink, paper): (&bool, &bool)| match (ink, paper) {
+        (true, true) => 0.5,
+        (true, false) => 1.0,
+        _ => 0.0,
+    };
+    let model: Vec<f32> = near_ink.iter().zip(&near_paper).map(model).collect();
+    let values = normalised(gray.samples(), w, &model);
     Gray::from_fn(w, h, |x, y| values[y * w + x])
 }

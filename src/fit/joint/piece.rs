@@ -13,6 +13,8 @@ const TURN: f64 = 0.03;
 const TURN_END: f64 = 0.3;
 /// Steps of Gauss–Newton.
 const ROUNDS: usize = 4;
+/// A step of a foot after which the next is next to nothing, parameter.
+const NEAR: f64 = 0.01;
 /// Usual length of a handle, chords, and its spread.
 const HANDLE: (f64, f64) = (0.37, 0.4);
 /// Deviation of a given end from where the curve ends, sigmas: corners are found less exactly than sides.
@@ -310,7 +312,11 @@ fn foot(c: [Point; 4], at: Point, t: &mut f64) -> (Vec2, Vec2) {
         let (f, s) = (value(*t), slope(*t));
         let speed = s.hypot2();
         let bend = speed + f.dot(6.0 * *t * d + 2.0 * c);
-        *t = (*t - f.dot(s) / bend.max(0.25 * speed).max(1e-12)).clamp(0.0, 1.0);
+        let step = f.dot(s) / bend.max(0.25 * speed).max(1e-12);
+        *t = (*t - step).clamp(0.0, 1.0);
+        if step.abs() < NEAR {
+            break;
+        }
     }
     let s = slope(*t);
     (value(*t), s / s.hypot().max(1e-12))

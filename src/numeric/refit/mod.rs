@@ -156,6 +156,8 @@ pub struct Refit {
     step: Vec<f64>,
     trial: Chain,
     feet: Vec<Foot>,
+    /// Distance of each sample to its foot, and the unit normal there.
+    off: Vec<(f64, Vec2)>,
     /// Where each node came from, and one over the square of how far it may go.
     anchors: Vec<(Point, f64)>,
 }
@@ -304,9 +306,12 @@ impl Refit {
             cost += prior::anchor(chain.nodes[i].point, self.anchors[i], &mut block);
             self.blocks.push(block);
         }
-        for (sample, foot) in samples.iter().zip(feet) {
-            let (offset, normal) = self.slide(sample.at, foot);
-            let distance = offset.dot(normal);
+        // feet first: each is a long chain of steps by itself, and apart from the sums several go on at once
+        let mut off = std::mem::take(&mut self.off);
+        off.clear();
+        let pairs = samples.iter().zip(feet.iter_mut());
+        off.extend(pairs.map(|(sample, foot)| self.slide(sample.at, foot)));
+        for ((sample, foot), (distance, normal)) in samples.iter().zip(feet).zip(&off) {
             let precision = sample.sigma.recip();
             let u = distance.abs() * precision;
             let (rho, pull) = if u < scale.robust {
@@ -316,13 +321,15 @@ impl Refit {
             };
             cost += sample.weight * rho;
             let weight = sample.weight * pull * precision * precision;
-            self.blocks[foot.segment].add(&row(chain, *foot, normal), weight, distance);
+            self.blocks[foot.segment].add(&row(chain, *foot, *normal), weight, *distance);
         }
+        self.off = off;
         cost
     }
 
-    /// Moves a foot to the nearest place near by; returns the offset curve − sample and the unit normal there.
-    fn slide(&self, at: Point, foot: &mut Foot) -> (Vec2, Vec2) {
+    /// Moves a foot to the nearest place near by; returns how far it is from the sample along the unit normal there, and that
+    /// normal.
+    fn slide(&self, at: Point, foot: &mut Foot) -> (f64, Vec2) {
         let n = self.powers.len();
         foot.segment = foot.segment.min(n - 1);
         let mut came = 0i8;
@@ -358,8 +365,8 @@ impl Refit {
         foot.t = foot.t.clamp(0.0, 1.0);
         let (p, d, dd) = self.powers[foot.segment].at(foot.t);
         let along = if d.hypot2() > 1e-12 { d } else { dd };
-        let length = along.hypot().max(1e-12);
-        (p - at, Vec2::new(-along.y, along.x) / length)
+        let normal = Vec2::new(-along.y, along.x) / along.hypot().max(1e-12);
+        ((p - at).dot(normal), normal)
     }
 
     /// Carries the blocks over to the free numbers and leaves the step in `self.step`.
