@@ -5,12 +5,29 @@ use crate::numeric::qbc::Pull;
 use kurbo::Point;
 use std::collections::BTreeMap;
 
-/// Whole points near the boundary, each with the index of its nearest boundary point.
+/// A vertex that the curve may have, and the boundary point nearest to it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Vertex {
+    pub(super) at: (i32, i32),
+    pub(super) stage: usize,
+}
+
+impl Vertex {
+    pub(super) fn point(self) -> Point {
+        Point::new(f64::from(self.at.0), f64::from(self.at.1))
+    }
+}
+
+/// Whole points near the boundary, in its order.
 #[derive(Debug)]
 pub(super) struct Band {
-    pub(super) index: BTreeMap<(i32, i32), usize>,
-    /// `T_i`, px, for each boundary point.
-    pub(super) admissible: Vec<f64>,
+    /// The boundary, its first point again at the end.
+    pub(super) boundary: Vec<Point>,
+    /// Square of `T_i`, px², for each of them.
+    pub(super) squares: Vec<f64>,
+    /// The first boundary point, all others of the band, and the first again.
+    pub(super) vertices: Vec<Vertex>,
+    index: BTreeMap<(i32, i32), usize>,
 }
 
 impl Band {
@@ -34,8 +51,34 @@ impl Band {
                 }
             }
         }
-        let index = best.into_iter().map(|(at, (_, i))| (at, i)).collect();
-        Self { index, admissible }
+        let start = |stage: usize| Vertex {
+            at: (near(boundary[0].x), near(boundary[0].y)),
+            stage,
+        };
+        let others = best
+            .into_iter()
+            .map(|(at, (_, stage))| Vertex { at, stage });
+        let others = others.filter(|v| v.stage > 0);
+        let mut vertices: Vec<Vertex> = std::iter::once(start(0)).chain(others).collect();
+        vertices.sort_by_key(|v| v.stage);
+        vertices.push(start(boundary.len()));
+        let index = vertices.iter().enumerate().map(|(i, v)| (v.at, i));
+        let index = index.collect();
+        Self {
+            boundary: boundary.iter().chain(boundary.first()).copied().collect(),
+            squares: admissible
+                .iter()
+                .chain(admissible.first())
+                .map(|t| t * t + 1e-9)
+                .collect(),
+            vertices,
+            index,
+        }
+    }
+
+    /// The vertex at a place; the last one at the first boundary point.
+    pub(super) fn find(&self, at: (i32, i32)) -> Option<usize> {
+        self.index.get(&at).copied()
     }
 }
 

@@ -4,22 +4,23 @@
 //! Takes    the closed boundary of a silhouette, whole px; the distortion bounds `t_max` and `t_min`, px
 //! Gives    vertices, their bits, and the curve's `D_max` and `D_ms`
 //! Symbols  B -> `boundary`, C -> `Band`, `T_i` -> `admissible`, `MinRate` -> label cost, `W_j` -> `width`
-//! Departs  the paper prints no rate: see [`bits`]. The band holds every whole point within W of the
+//! Departs  the paper prints no rate: see [`Steps`]. The band holds every whole point within W of the
 //!          boundary, each with its nearest boundary point; T falls from `t_max` to `t_min` as the local
-//!          turn grows. Exact under this code: labels carry both vertices that the future needs
-//! Cost     O(|C| r^2) checks for a longest run r    Fails  too short a boundary; bounds out of order
+//!          turn grows. Exact under this code but for 16 chords a piece, which stand for it in the search
+//! Cost     O(|C| r^2 w) for runs of r boundary points and a band w wide: of the pairs that lead to an edge the
+//!          cheapest whose curve fits ends the look    Fails  too short a boundary; bounds out of order
 
 mod band;
+mod piece;
 mod search;
+mod vertex;
 
 use crate::numeric::qbc::Pull;
 use kurbo::Point;
 use thiserror::Error;
 
 pub use search::encode;
-
-/// Longest run of the vertex code.
-pub const RUN: i32 = 15;
+pub use vertex::{RUN, Steps};
 
 /// Why a boundary is not coded.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -59,7 +60,7 @@ pub struct Bounds {
 pub struct Coded {
     /// Vertices, first and last on the first boundary point.
     pub vertices: Vec<Point>,
-    /// Their bits under [`bits`].
+    /// Their bits under [`Steps`].
     pub bits: u64,
     /// Dense points of the curve.
     pub curve: Vec<Point>,
@@ -69,55 +70,12 @@ pub struct Coded {
     pub d_ms: f64,
 }
 
-/// The bits of the step from a vertex to the next one: a run of 1 to 15 px along one of 8 directions.
-///
-/// The direction is said by its turn against the step before: none `0`, 45° `100`/`101`, 90°
-/// `1100`/`1101`, 135° `11100`/`11101`, back `1111`; the first step's by 3 bits. The run follows: its
-/// bucket 1, 2-3, 4-7, 8-15 in 2 bits, its place in the bucket in 0 to 3. The first vertex is common to
-/// all curves and not counted. None where the step is not of this kind.
-#[must_use]
-pub fn bits(before: Option<(i32, i32)>, step: (i32, i32)) -> Option<u64> {
-    let (direction, run) = direction(step)?;
-    let turn = match before {
-        None => 3,
-        Some(b) => match (direction - self::direction(b)?.0).rem_euclid(8) {
-            0 => 1,
-            1 | 7 => 3,
-            2 | 6 => 4,
-            3 | 5 => 5,
-            _ => 4,
-        },
-    };
-    Some(turn + 2 + u64::from(run.ilog2()))
-}
-
-/// Number of one of the 8 directions, counter-clockwise from east, and the run along it.
-fn direction((dx, dy): (i32, i32)) -> Option<(i32, i32)> {
-    let run = dx.abs().max(dy.abs());
-    if !(1..=RUN).contains(&run) || (dx != 0 && dy != 0 && dx.abs() != dy.abs()) {
-        return None;
-    }
-    let number = match (dx.signum(), dy.signum()) {
-        (1, 0) => 0,
-        (1, 1) => 1,
-        (0, 1) => 2,
-        (-1, 1) => 3,
-        (-1, 0) => 4,
-        (-1, -1) => 5,
-        (0, -1) => 6,
-        _ => 7,
-    };
-    Some((number, run))
-}
-
 /// Largest and mean square distance of the boundary points from a curve given by dense points, px and px².
 #[must_use]
 pub fn distortion(boundary: &[Point], curve: &[Point]) -> (f64, f64) {
     let off = |p: &Point| {
-        curve
-            .iter()
-            .map(|q| q.distance_squared(*p))
-            .fold(f64::INFINITY, f64::min)
+        let edges = curve.windows(2).map(|w| piece::to_edge(*p, w));
+        edges.fold(f64::INFINITY, f64::min)
     };
     let all: Vec<f64> = boundary.iter().map(off).collect();
     let worst = all.iter().copied().fold(0.0, f64::max).sqrt();

@@ -1,13 +1,14 @@
-use super::{Bounds, CodeError, Kind, bits, distortion, encode};
+use super::band::near;
+use super::{Bounds, CodeError, Kind, RUN, Steps, distortion, encode};
 use crate::numeric::qbc::Pull;
 use kurbo::Point;
 
 /// The boundary pixels of a three-lobed shape, 8-connected.
-fn boundary() -> Vec<Point> {
+fn boundary(scale: f64) -> Vec<Point> {
     let at = |k: u32| {
         let a = f64::from(k) * std::f64::consts::TAU / 4000.0;
-        let r = 14.0 + 4.0 * (3.0 * a).cos();
-        Point::new((20.0 + r * a.cos()).round(), (20.0 + r * a.sin()).round())
+        let r = scale * (14.0 + 4.0 * (3.0 * a).cos());
+        Point::new((r * a.cos()).round(), (r * a.sin()).round())
     };
     let mut out: Vec<Point> = (0..4000).map(at).collect();
     out.dedup();
@@ -25,12 +26,12 @@ const SPLINES: [Kind; 3] = [
 
 #[test]
 fn curves_stay_within_the_bounds_and_need_fewer_bits_as_these_grow() {
-    let shape = boundary();
+    let shape = boundary(1.0);
     for kind in [Kind::Polygon].into_iter().chain(SPLINES) {
         let mut before = u64::MAX;
         for t in [1.0, 2.0] {
-            let coded = encode(&shape, kind, Bounds { t_max: t, t_min: t }).unwrap();
-            assert!(coded.d_max <= t + 0.5, "{kind:?}: {} > {t}", coded.d_max);
+            let coded = encode(&shape, kind, Bounds { t_max: t, t_min: t }, Steps::Eight).unwrap();
+            assert!(coded.d_max <= t + 0.05, "{kind:?}: {} > {t}", coded.d_max);
             assert!(coded.bits < before, "{kind:?}: {} at {t}", coded.bits);
             assert_eq!(coded.vertices.first(), coded.vertices.last());
             before = coded.bits;
@@ -41,16 +42,18 @@ fn curves_stay_within_the_bounds_and_need_fewer_bits_as_these_grow() {
 #[test]
 fn splines_need_fewer_bits_than_polygons() {
     let (shape, bounds) = (
-        boundary(),
+        boundary(4.0),
         Bounds {
-            t_max: 1.0,
+            t_max: 2.0,
             t_min: 1.0,
         },
     );
-    let polygon = encode(&shape, Kind::Polygon, bounds).unwrap().bits;
+    let polygon = encode(&shape, Kind::Polygon, bounds, Steps::Eight)
+        .unwrap()
+        .bits;
     for kind in SPLINES {
-        let spline = encode(&shape, kind, bounds).unwrap().bits;
-        assert!(spline <= polygon, "{kind:?}: {spline} and {polygon}");
+        let spline = encode(&shape, kind, bounds, Steps::Eight).unwrap().bits;
+        assert!(spline < polygon, "{kind:?}: {spline} and {polygon}");
     }
 }
 
@@ -81,12 +84,67 @@ fn the_same_control_points_come_closer_with_more_pull() {
 
 #[test]
 fn the_code() {
-    assert_eq!(bits(None, (1, 0)), Some(5));
-    assert_eq!(bits(Some((3, 0)), (15, 0)), Some(6));
-    assert_eq!(bits(Some((3, 0)), (-4, -4)), Some(9));
-    assert_eq!(bits(Some((0, 2)), (0, -1)), Some(6));
-    for wrong in [(0, 0), (16, 0), (2, 1)] {
-        assert_eq!(bits(None, wrong), None, "{wrong:?}");
+    let eight = |before, step| Steps::Eight.bits(before, step);
+    assert_eq!(eight(None, (1, 0)), Some(6));
+    assert_eq!(eight(Some((3, 0)), (15, 0)), Some(7));
+    assert_eq!(eight(Some((3, 0)), (-4, -4)), None);
+    assert_eq!(eight(Some((3, 3)), (-4, 4)), Some(7));
+    assert_eq!(eight(Some((0, 2)), (-1, 1)), Some(5));
+    for wrong in [(0, 0), (32, 0), (2, 1)] {
+        assert_eq!(eight(None, wrong), None, "{wrong:?}");
+    }
+    // straight on: the middle of 5 places takes 2 bits of truncated binary, the outer ones 3
+    let any = |step| Steps::Any.bits(Some((10, 4)), step);
+    assert_eq!(
+        [any((5, 2)), any((5, 0)), any((-5, 1))],
+        [Some(8), Some(9), None]
+    );
+}
+
+#[test]
+fn the_words_of_a_code_are_all_the_words_of_their_lengths() {
+    // Kraft: a complete prefix code's 2^-bits add to 1
+    let steps = || (-RUN..=RUN).flat_map(|x| (-RUN..=RUN).map(move |y| (x, y)));
+    for code in [Steps::Eight, Steps::Any] {
+        for before in [
+            None,
+            Some((1, 0)),
+            Some((-7, 7)),
+            Some((0, -31)),
+            Some((4, 29)),
+            Some((-13, 5)),
+        ] {
+            if code == Steps::Eight && before.is_some_and(|b| code.bits(None, b).is_none()) {
+                continue;
+            }
+            let words = steps().filter_map(|s| code.bits(before, s));
+            let sum: f64 = words.map(|bits| 0.5_f64.powf(bits as f64)).sum();
+            assert!(
+                (sum - 1.0).abs() < 1e-12,
+                "{code:?} after {before:?}: {sum}"
+            );
+        }
+    }
+}
+
+#[test]
+fn the_bits_are_those_of_the_vertices() {
+    let bounds = Bounds {
+        t_max: 2.0,
+        t_min: 1.0,
+    };
+    for steps in [Steps::Eight, Steps::Any] {
+        let coded = encode(&boundary(1.0), SPLINES[2], bounds, steps).unwrap();
+        let step = |w: &[Point]| {
+            let [x, y] = [w[1].x - w[0].x, w[1].y - w[0].y].map(near);
+            (x, y)
+        };
+        let steps_taken: Vec<_> = coded.vertices.windows(2).map(step).collect();
+        let before = std::iter::once(None).chain(steps_taken.iter().copied().map(Some));
+        let bits = before
+            .zip(&steps_taken)
+            .map(|(b, s)| steps.bits(b, *s).unwrap());
+        assert_eq!(bits.sum::<u64>(), coded.bits, "{steps:?}");
     }
 }
 
@@ -96,13 +154,16 @@ fn what_cannot_be_coded_is_told() {
         t_max: 1.0,
         t_min: 1.0,
     };
-    assert_eq!(encode(&[], Kind::Polygon, bounds), Err(CodeError::Short(0)));
+    assert_eq!(
+        encode(&[], Kind::Polygon, bounds, Steps::Any),
+        Err(CodeError::Short(0))
+    );
     let wrong = Bounds {
         t_max: 1.0,
         t_min: 2.0,
     };
     assert_eq!(
-        encode(&boundary(), Kind::Polygon, wrong),
+        encode(&boundary(1.0), Kind::Polygon, wrong, Steps::Any),
         Err(CodeError::Bounds(1.0, 2.0))
     );
 }

@@ -50,6 +50,7 @@ def word(text, font, size, name):
 africa()
 word("علي", arabic, 274, "ali.png")
 word("D", latin, 212, "d.png")
+word("س", arabic, 200, "seen.png")
 for name, file, factor in [
     ("leaf.png", "Maple_leaf.bmp", 1.0),
     ("plane.png", "Plane4.bmp", 3.0),

@@ -1,5 +1,6 @@
 //! Shape coding of silhouettes under one vertex code, and the shape descriptor [sohel sec. IV]:
-//! `cargo bench --bench shapes -- [--svg OUT.svg] SHAPE.bmp…` (a shape is black or white on the other).
+//! `cargo bench --bench shapes -- [--svg OUT.svg] [--any] SHAPE…` (a shape is black or white on the other;
+//! `--any`: steps to any place too, some minutes).
 #![expect(
     clippy::disallowed_methods,
     clippy::print_stdout,
@@ -8,10 +9,11 @@
 
 use image::Luma;
 use imageproc::contours::find_contours;
-use khatt::code::{Bounds, Kind, distortion, encode};
+use khatt::code::{Bounds, Kind, Steps, distortion, encode};
 use khatt::numeric::qbc::Pull;
 use kurbo::Point;
 use std::fmt::Write;
+use std::path::Path;
 use std::{env, fs, time::Instant};
 
 const KINDS: [(&str, Kind); 4] = [
@@ -44,52 +46,87 @@ fn boundary(path: &str) -> Vec<Point> {
 
 fn main() {
     let mut args: Vec<String> = env::args().skip(1).filter(|a| a != "--bench").collect();
-    let svg = args.iter().position(|a| a == "--svg").map(|i| {
-        let path = args.remove(i + 1);
+    let mut option = |name: &str| {
+        let i = args.iter().position(|a| a == name)?;
         args.remove(i);
-        path
-    });
-    let mut sums = [[0_u64; 4]; 5];
-    let mut curves = vec![Vec::new(); 4];
-    for path in &args {
-        let shape = boundary(path);
-        println!("{path}: {} boundary points", shape.len());
-        descriptor(&shape);
-        for (row, (t_max, t_min)) in BOUNDS.into_iter().enumerate() {
-            print!("  bits at {t_max}/{t_min}");
-            for (column, (name, kind)) in KINDS.into_iter().enumerate() {
-                let clock = Instant::now();
-                match encode(&shape, kind, Bounds { t_max, t_min }) {
-                    Ok(coded) => {
-                        print!(
-                            "  {name} {} (D_max {:.2}, {:.1} s)",
-                            coded.bits,
-                            coded.d_max,
-                            clock.elapsed().as_secs_f64()
-                        );
-                        sums[row][column] += coded.bits;
-                        curves[column].push((coded.bits, coded.d_ms));
-                    }
-                    Err(e) => print!("  {name}: {e}"),
-                }
-            }
-            println!();
+        Some(i)
+    };
+    let any = option("--any").is_some();
+    let svg = option("--svg").map(|i| args.remove(i));
+    let shapes: Vec<(&String, Vec<Point>)> = args.iter().map(|a| (a, boundary(a))).collect();
+    println!(
+        "D_max px and D_ms px² of cubics with control points on the shape: Bézier, QBC, QBC-n\n"
+    );
+    for (path, shape) in &shapes {
+        descriptor(path, shape);
+    }
+    let codes = [("eight directions", Steps::Eight), ("any step", Steps::Any)];
+    for (code, steps) in codes.into_iter().take(if any { 2 } else { 1 }) {
+        println!("\nbits (D_max px, s) by runs: {code}\n");
+        let curves = table(&shapes, steps);
+        if let Some(path) = &svg {
+            let name = path.replace(".svg", &format!("-{}.svg", code.replace(' ', "-")));
+            fs::write(name, plot(&curves)).expect("written");
         }
-    }
-    for ((t_max, t_min), sum) in BOUNDS.into_iter().zip(sums) {
-        let saving = 100.0 * (1.0 - number(sum[3]) / number(sum[1]).max(1.0));
-        println!("all at {t_max}/{t_min}: {sum:?}; QBC-n saves {saving:.1} % of the B-spline's");
-    }
-    if let Some(path) = svg {
-        fs::write(path, plot(&curves)).expect("written");
     }
 }
 
+/// Bits of all shapes by bounds and kind; bits and mean square distance of all of them together.
+fn table(shapes: &[(&String, Vec<Point>)], steps: Steps) -> Vec<Vec<(u64, f64)>> {
+    let mut curves = vec![Vec::new(); KINDS.len()];
+    println!(
+        "| shape, T_max / T_min | polygon | B-spline | QBC | QBC-n | QBC-n saves |\n|---|---|---|---|---|---|"
+    );
+    for (t_max, t_min) in BOUNDS {
+        let mut sums = [(0_u64, 0.0); 4];
+        for (path, shape) in shapes {
+            let name = Path::new(path).file_stem().unwrap_or_default();
+            print!("| {}, {t_max} / {t_min} |", name.display());
+            let mut row = [0; 4];
+            for (column, (_, kind)) in KINDS.into_iter().enumerate() {
+                let clock = Instant::now();
+                let coded = encode(shape, kind, Bounds { t_max, t_min }, steps);
+                let coded = coded.expect("vertices within the bounds");
+                let (bits, d_max) = (coded.bits, coded.d_max);
+                print!(
+                    " {bits} ({d_max:.2}, {:.1}) |",
+                    clock.elapsed().as_secs_f64()
+                );
+                row[column] = bits;
+                sums[column].0 += bits;
+                sums[column].1 += coded.d_ms / shapes.len() as f64;
+            }
+            println!(" {} |", saved(row));
+        }
+        let all = sums.map(|s| s.0.to_string());
+        println!(
+            "| all, {t_max} / {t_min} | {} | {} |",
+            all.join(" | "),
+            saved(sums.map(|s| s.0))
+        );
+        (0..4).for_each(|k| curves[k].push(sums[k]));
+    }
+    curves
+}
+
+/// What QBC-n saves of the B-spline's bits.
+fn saved(bits: [u64; 4]) -> String {
+    format!(
+        "{:.1} %",
+        100.0 * (1.0 - number(bits[3]) / number(bits[1]).max(1.0))
+    )
+}
+
 /// Largest and mean square distance of the cubic curves of as many segments, control points on the shape [sohel sec. IV.B].
-fn descriptor(shape: &[Point]) {
+fn descriptor(path: &str, shape: &[Point]) {
+    let name = Path::new(path).file_stem().unwrap_or_default();
     for segments in 5..=10 {
-        print!("  {segments} segments");
-        for (name, kind) in KINDS.into_iter().skip(1) {
+        print!(
+            "| {}, {} points, {segments} segments |",
+            name.display(),
+            shape.len()
+        );
+        for (_, kind) in KINDS.into_iter().skip(1) {
             let Kind::Spline(pull) = kind else { continue };
             let at = |k: usize| shape[k * shape.len() / (3 * segments) % shape.len()];
             let dots = (0..segments).flat_map(|s| {
@@ -97,8 +134,7 @@ fn descriptor(shape: &[Point]) {
                 (0..200).map(move |k| pull.eval(&controls, f64::from(k) / 200.0).0)
             });
             let (d_max, d_ms) = distortion(shape, &dots.collect::<Vec<_>>());
-            let name = if name == "B-spline" { "Bezier" } else { name };
-            print!("  {name} {d_max:.2} {d_ms:.2}");
+            print!(" {d_max:.2}, {d_ms:.2} |");
         }
         println!();
     }
@@ -107,24 +143,39 @@ fn descriptor(shape: &[Point]) {
 /// Bits against mean square distortion, a colour a kind.
 fn plot(curves: &[Vec<(u64, f64)>]) -> String {
     let all = || curves.iter().flatten();
-    let bits = all().map(|c| number(c.0)).fold(1.0, f64::max);
-    let most = all().map(|c| c.1).fold(1e-9, f64::max);
-    let mut out = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"-40 -10 460 340\" font-size=\"10\">\n\
-        <path d=\"M0 0V300H400\" fill=\"none\" stroke=\"#000\"/><text x=\"360\" y=\"318\">bits</text><text x=\"-34\" y=\"4\">D_ms</text>\n"
-        .to_owned();
+    let (mut least, mut most) = ((f64::MAX, f64::MAX), (0.0, 0.0));
+    for &(bits, d) in all() {
+        least = (f64::min(least.0, number(bits)), f64::min(least.1, d));
+        most = (f64::max(most.0, number(bits)), f64::max(most.1, d));
+    }
+    let x = |bits: u64| 400.0 * (number(bits) - least.0) / (most.0 - least.0).max(1.0);
+    let y = |d: f64| 300.0 * (most.1 - d) / (most.1 - least.1).max(1e-9);
+    let mut out = format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"-40 -20 480 350\" font-size=\"10\">\n\
+        <path d=\"M-8 -8V308H408\" fill=\"none\" stroke=\"#000\"/>\
+        <text x=\"-8\" y=\"322\">{:.0}</text><text x=\"370\" y=\"322\">{:.0} bits</text>\
+        <text x=\"-36\" y=\"300\">{:.2}</text><text x=\"-36\" y=\"4\">{:.2}</text><text x=\"-36\" y=\"-10\">D_ms, px²</text>\n",
+        least.0, most.0, least.1, most.1
+    );
     let colours = ["#888", "#05a", "#090", "#c00"];
     for (i, (points, colour)) in curves.iter().zip(colours).enumerate() {
-        let name = KINDS[i].0;
-        let y = 20 + 14 * i;
+        let mut points = points.clone();
+        points.sort_unstable_by_key(|p| p.0);
+        let line: String = points
+            .iter()
+            .map(|p| format!("{:.1},{:.1} ", x(p.0), y(p.1)))
+            .collect();
+        let (name, row) = (KINDS[i].0, 10 + 14 * i);
         let _ = writeln!(
             out,
-            "<text x=\"320\" y=\"{y}\" fill=\"{colour}\">{name}</text>"
+            "<polyline points=\"{line}\" fill=\"none\" stroke=\"{colour}\"/><text x=\"340\" y=\"{row}\" fill=\"{colour}\">{name}</text>"
         );
-        for (b, d) in points {
-            let (x, y) = (400.0 * number(*b) / bits, 300.0 - 300.0 * d / most);
+        for (bits, d) in points {
             let _ = writeln!(
                 out,
-                "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"3\" fill=\"{colour}\"/>"
+                "<circle cx=\"{:.1}\" cy=\"{:.1}\" r=\"3\" fill=\"{colour}\"/>",
+                x(bits),
+                y(d)
             );
         }
     }
