@@ -3,7 +3,7 @@
 
 use super::chain::{Chain, Join, Kind, Node};
 use kurbo::common::solve_quadratic;
-use kurbo::{CubicBez, ParamCurve, Vec2};
+use kurbo::{CubicBez, ParamCurve, ParamCurveDeriv, Vec2};
 
 /// A corner that turns less after a fit is a smooth join, radians: below, designers mean one.
 const SOFT: f64 = 0.44;
@@ -13,7 +13,9 @@ const LEVEL: f64 = 0.02;
 const AT_ONCE: (f64, f64) = (0.5, 1.0);
 /// A curve that turns back so near to its corner is meant to end where it is level: chords, and px.
 const BESIDE: (f64, f64) = (0.25, 6.0);
-/// By how much it turns back at most, px.
+/// A node at an extremum is so far from the next at least, px.
+const APART_PX: f64 = 2.0;
+/// By how much a curve turns back at least for that, and at most to end level, px.
 const DEPTH_PX: f64 = 0.3;
 
 /// Parameters inside a cubic where it turns back in y (`Horizontal`) or x (`Vertical`).
@@ -39,6 +41,56 @@ pub fn inner_extrema(c: &CubicBez) -> impl Iterator<Item = (f64, Join)> + use<> 
             (inside && turns).then_some((t, join))
         })
     })
+}
+
+/// Puts a node on a cubic where it turns back; the curve stays as it is.
+pub fn divide(chain: &mut Chain, segment: usize, t: f64, join: Join) {
+    let c = chain.cubic(segment);
+    let (l, r) = (c.subsegment(0.0..t), c.subsegment(t..1.0));
+    let (a, b) = chain.ends(segment);
+    chain.nodes[a].ahead = (l.p1 - l.p0).hypot();
+    chain.nodes[b].back = (r.p3 - r.p2).hypot();
+    let d = c.deriv().eval(t).to_vec2();
+    let along = match join {
+        Join::Horizontal => Vec2::new(1f64.copysign(d.x), 0.0),
+        _ => Vec2::new(0.0, 1f64.copysign(d.y)),
+    };
+    let node = Node {
+        point: l.p3,
+        join,
+        arrive: along,
+        leave: along,
+        back: (l.p3 - l.p2).hypot(),
+        ahead: (r.p1 - r.p0).hypot(),
+    };
+    chain.nodes.insert(segment + 1, node);
+    chain.kinds.insert(segment, Kind::Cubic);
+}
+
+/// Puts nodes on cubics where they turn back, but for touches: drawings have nodes there.
+pub fn divide_at_extrema(chain: &mut Chain) {
+    let mut i = 0;
+    while i < chain.kinds.len() {
+        let c = chain.cubic(i);
+        let apart = |(t, join): &(f64, Join)| {
+            let at = c.eval(*t);
+            [c.p0, c.p3].into_iter().all(|end| {
+                let off = end - at;
+                let depth = if *join == Join::Horizontal {
+                    off.y
+                } else {
+                    off.x
+                };
+                off.hypot() > APART_PX && depth.abs() > DEPTH_PX
+            })
+        };
+        let cubic = chain.kinds[i] == Kind::Cubic;
+        match inner_extrema(&c).filter(|_| cubic).find(apart) {
+            // what is left of either half may turn back once more
+            Some((t, join)) => divide(chain, i, t, join),
+            None => i += 1,
+        }
+    }
 }
 
 /// Turns curves that pass an extremum just before a corner so that they end in it: nothing was measured there.
@@ -141,6 +193,25 @@ mod tests {
         let found: Vec<(f64, Join)> = inner_extrema(&c).collect();
         assert_eq!(found.len(), 1, "{found:?}");
         assert!((found[0].0 - 0.5).abs() < 1e-12 && found[0].1 == Join::Horizontal);
+    }
+
+    #[test]
+    fn a_wave_gets_nodes_where_it_turns_and_stays_as_it_is() {
+        let path = kurbo::BezPath::from_svg("M0 0C30 40 60 -40 90 0L90 -90Z").unwrap();
+        let mut chain = Chain::from_path(&path, 0.001).unwrap();
+        let before = chain.cubic(0);
+        divide_at_extrema(&mut chain);
+        assert_eq!(
+            chain.kinds[..4],
+            [Kind::Cubic, Kind::Cubic, Kind::Cubic, Kind::Line]
+        );
+        assert_eq!([1, 2].map(|i| chain.nodes[i].join), [Join::Horizontal; 2]);
+        for (i, range) in inner_extrema(&before).map(|(t, _)| t).enumerate() {
+            assert!(chain.nodes[i + 1].point.distance(before.eval(range)) < 1e-9);
+        }
+        let once = chain.clone();
+        divide_at_extrema(&mut chain);
+        assert_eq!(chain, once);
     }
 
     #[test]

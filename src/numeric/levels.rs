@@ -28,9 +28,9 @@ const NEAR: usize = 6;
 /// Where each value lies between the paper's level (0) and the ink's (1) around it.
 ///
 /// `values` run row by row, `width` a row; `model` is what each would be if ink were 1 and paper 0. A pixel tells all of
-/// the level where its model is ink or paper alone, less the more it holds of the other, whose part is taken off. A level is the Gaussian
-/// mean of what is told around, and where that is next to nothing, of all. Far from pixels that leave it open what they
-/// are nothing is asked: there ink is 1 and paper 0.
+/// a level where its model is ink or paper alone, less the more it holds of the other, whose part is taken off. A level
+/// is the Gaussian mean of what is told around, and where that is next to nothing, of all. Far from pixels that leave it
+/// open what they are nothing is asked: there ink is 1 and paper 0.
 #[must_use]
 pub fn normalised(values: &[f32], width: usize, model: &[f32]) -> Vec<f32> {
     let w = width.max(1);

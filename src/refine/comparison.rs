@@ -79,8 +79,8 @@ impl Comparison {
 
     /// Paths like those, with nodes and handles where their blurred fill is most like the picture.
     #[must_use]
-    pub fn settled(&self, paths: &[BezPath]) -> Vec<BezPath> {
-        nodes::settled(&self.residual, paths)
+    pub fn settled(self, paths: &[BezPath]) -> Vec<BezPath> {
+        nodes::settled(self.residual, paths)
     }
 }
 

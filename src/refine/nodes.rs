@@ -9,7 +9,7 @@ use super::residual::Residual;
 use crate::numeric::{
     cast::index,
     chain::Chain,
-    joins::{is_soft, level_ends, sharpen, soften},
+    joins::{divide_at_extrema, is_soft, level_ends, sharpen, soften},
     refit::{Foot, Refit, Sample, Scale, Stop},
 };
 use kurbo::{BezPath, ParamCurve, ParamCurveDeriv, Point, Vec2};
@@ -35,12 +35,16 @@ const REACH_PX: f64 = 2.0;
 
 /// The paths moved to where their blurred fill is most like the picture; each stays as it was if none of its steps makes
 /// it more like.
-pub(super) fn settled(levels: &Residual, paths: &[BezPath]) -> Vec<BezPath> {
-    let chains = paths.iter().map(|p| Chain::from_path(p, SMOOTH));
+pub(super) fn settled(mut residual: Residual, paths: &[BezPath]) -> Vec<BezPath> {
+    let chains = paths.iter().map(|p| {
+        let mut chain = Chain::from_path(p, SMOOTH)?;
+        divide_at_extrema(&mut chain);
+        Some(chain)
+    });
     let start: Vec<Option<Chain>> = chains.collect();
     let mut now = start.clone();
     let mut rings: Vec<Vec<Point>> = paths.iter().map(fine).collect();
-    let mut residual = levels.against(rings.iter().map(Vec::as_slice));
+    residual.update(rings.iter().map(Vec::as_slice));
     let mut least: Vec<f64> = rings.iter().map(|r| residual.along(r)).collect();
     let mut best = paths.to_vec();
     let mut refit = Refit::default();

@@ -2,10 +2,10 @@
 //! refit what lies around; keep it where the description gets shorter.
 
 use super::cost;
-use crate::numeric::chain::{Chain, Join, Kind, Node};
-use crate::numeric::joins::inner_extrema;
+use crate::numeric::chain::{Chain, Join, Kind};
+use crate::numeric::joins::{divide, inner_extrema};
 use crate::numeric::refit::{Foot, Refit, Sample, Scale, Stop};
-use kurbo::{CubicBez, ParamCurve, ParamCurveDeriv, Vec2};
+use kurbo::{CubicBez, Vec2};
 
 /// Nodes on each side of a change that are refitted with it.
 const AROUND: usize = 2;
@@ -370,26 +370,7 @@ fn drop_node(w: &mut Window, at: usize, kind: Kind) {
 }
 
 fn split(w: &mut Window, at: usize, t: f64, join: Join) {
-    let c = w.chain.cubic(at);
-    let (l, r) = (c.subsegment(0.0..t), c.subsegment(t..1.0));
-    let (a, b) = w.chain.ends(at);
-    w.chain.nodes[a].ahead = (l.p1 - l.p0).hypot();
-    w.chain.nodes[b].back = (r.p3 - r.p2).hypot();
-    let d = c.deriv().eval(t).to_vec2();
-    let along = match join {
-        Join::Horizontal => Vec2::new(1f64.copysign(d.x), 0.0),
-        _ => Vec2::new(0.0, 1f64.copysign(d.y)),
-    };
-    let node = Node {
-        point: l.p3,
-        join,
-        arrive: along,
-        leave: along,
-        back: (l.p3 - l.p2).hypot(),
-        ahead: (r.p1 - r.p0).hypot(),
-    };
-    w.chain.nodes.insert(at + 1, node);
-    w.chain.kinds.insert(at, Kind::Cubic);
+    divide(&mut w.chain, at, t, join);
     for foot in &mut w.feet {
         if foot.segment > at || (foot.segment == at && foot.t >= t) {
             let whole = foot.segment > at;
