@@ -88,11 +88,13 @@ impl Block {
     }
 
     fn pair<const END: usize>(&mut self, row: &[f64; 8], weight: f64) {
-        for k in END - 2..END {
-            let w = weight * row[k];
-            for l in 0..END {
-                self.hessian[k][l] += w * row[l];
-            }
+        let two = END - 2..END;
+        for (to, r) in self.hessian[two.clone()].iter_mut().zip(&row[two]) {
+            let by = weight * r;
+            to[..END]
+                .iter_mut()
+                .zip(&row[..END])
+                .for_each(|(h, r)| *h += by * r);
         }
     }
 }
