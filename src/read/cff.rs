@@ -1,9 +1,9 @@
 //! `CFF ` and `CFF2` charstrings → paths, fractions and all: the library's own pens round to whole units.
 
-use super::ReadError;
-use kurbo::{Affine, BezPath, Point};
+use super::{ReadError, pen::Pen};
+use kurbo::{Affine, BezPath};
 use skrifa::raw::ps::cff::{CffFontRef, Subfont};
-use skrifa::raw::ps::cs::{CommandSink, NopFilterSink};
+use skrifa::raw::ps::cs::NopFilterSink;
 use skrifa::raw::types::{F2Dot14, Fixed};
 use skrifa::raw::{FontRef, TableProvider};
 use skrifa::{GlyphId, Tag};
@@ -26,12 +26,12 @@ impl<'a> Charstrings<'a> {
         let damaged = |e| ReadError::damaged("CFF", format!("glyph {id}: {e}"));
         let part = self.0.subfont_index(id).unwrap_or(0);
         let part = self.0.subfont(part, at).map_err(damaged)?;
-        let mut pen = Pen(Vec::new());
+        let mut pen = Pen::default();
         let mut sink = NopFilterSink::new(&mut pen);
         let drawn = self.0.evaluate_charstring(&part, id, at, &mut sink);
         drawn.map_err(damaged)?;
         let place = self.place(&part);
-        Ok(pen.0.into_iter().map(|p| place * p).collect())
+        Ok(pen.paths.into_iter().map(|p| place * p).collect())
     }
 
     /// Charstring units → font units, by the font's matrices.
@@ -44,36 +44,5 @@ impl<'a> Charstrings<'a> {
         let [a, b, c, d, x, y] = to.matrix.elements().map(Fixed::to_f64);
         let scale = to.scale.map_or(1.0, |s| s.to_f64() / PARTS);
         Affine::scale(scale) * Affine::new([a, b, c, d, WHOLE * x, WHOLE * y])
-    }
-}
-
-struct Pen(Vec<BezPath>);
-
-fn point(x: Fixed, y: Fixed) -> Point {
-    Point::new(x.to_f64(), y.to_f64())
-}
-
-impl Pen {
-    /// The contour being drawn; commands before the first one begins draw nothing.
-    fn draw(&mut self, f: impl FnOnce(&mut BezPath)) {
-        if let Some(path) = self.0.last_mut() {
-            f(path);
-        }
-    }
-}
-
-impl CommandSink for Pen {
-    fn move_to(&mut self, x: Fixed, y: Fixed) {
-        self.0.push(BezPath::new());
-        self.draw(|p| p.move_to(point(x, y)));
-    }
-    fn line_to(&mut self, x: Fixed, y: Fixed) {
-        self.draw(|p| p.line_to(point(x, y)));
-    }
-    fn curve_to(&mut self, ax: Fixed, ay: Fixed, bx: Fixed, by: Fixed, x: Fixed, y: Fixed) {
-        self.draw(|p| p.curve_to(point(ax, ay), point(bx, by), point(x, y)));
-    }
-    fn close(&mut self) {
-        self.draw(BezPath::close_path);
     }
 }

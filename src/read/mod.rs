@@ -7,6 +7,7 @@
 //! Whatever the bytes are, the answer is a font or an error, never a panic.
 
 mod cff;
+mod pen;
 mod sfnt;
 mod svg;
 mod ufo;

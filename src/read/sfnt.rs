@@ -1,11 +1,11 @@
 //! TTF, OTF, WOFF2 → Font, with every table that is not an outline carried along.
 
-use super::{Names, ReadError, Reading, cff::Charstrings};
+use super::{Names, ReadError, Reading, cff::Charstrings, pen::Pen};
 use crate::types::{Component, Font, Glyph, Info, Metrics, Outline};
 use kurbo::{Affine, BezPath};
 use skrifa::instance::{Location, Size};
 use skrifa::metrics::GlyphMetrics;
-use skrifa::outline::{DrawSettings, OutlineGlyphFormat, OutlinePen};
+use skrifa::outline::{DrawSettings, OutlineGlyphFormat};
 use skrifa::raw::TableProvider;
 use skrifa::raw::tables::glyf::{
     Anchor, Component as StoredComponent, CompositeGlyphFlags, Glyph as Stored,
@@ -41,41 +41,6 @@ const LOST: [(&str, &[&[u8; 4]]); 3] = [
     ),
     ("the signature", &[b"DSIG"]),
 ];
-
-#[derive(Default)]
-struct Pen(Vec<BezPath>);
-
-impl Pen {
-    fn draw(&mut self, f: impl FnOnce(&mut BezPath)) {
-        if let Some(path) = self.0.last_mut() {
-            f(path);
-        }
-    }
-}
-
-impl OutlinePen for Pen {
-    fn move_to(&mut self, x: f32, y: f32) {
-        self.0.push(BezPath::new());
-        self.draw(|p| p.move_to((f64::from(x), f64::from(y))));
-    }
-    fn line_to(&mut self, x: f32, y: f32) {
-        self.draw(|p| p.line_to((f64::from(x), f64::from(y))));
-    }
-    fn quad_to(&mut self, cx: f32, cy: f32, x: f32, y: f32) {
-        let (c, e) = ((f64::from(cx), f64::from(cy)), (f64::from(x), f64::from(y)));
-        self.draw(|p| p.quad_to(c, e));
-    }
-    fn curve_to(&mut self, ax: f32, ay: f32, bx: f32, by: f32, x: f32, y: f32) {
-        let (a, b) = (
-            (f64::from(ax), f64::from(ay)),
-            (f64::from(bx), f64::from(by)),
-        );
-        self.draw(|p| p.curve_to(a, b, (f64::from(x), f64::from(y))));
-    }
-    fn close(&mut self) {
-        self.draw(BezPath::close_path);
-    }
-}
 
 /// A font from the bytes of a TrueType, OpenType or WOFF2 file; a variable one at the given places
 /// on its axes (tag, value), else at its default; there composites stay, elsewhere they are resolved.
@@ -236,7 +201,7 @@ fn outline(
     let mut pen = Pen::default();
     let drawn = glyph.draw(DrawSettings::unhinted(Size::unscaled(), at), &mut pen);
     drawn.map_err(|e| ReadError::damaged("a font", format!("glyph {id}: {e}")))?;
-    closed(pen.0.iter().map(BezPath::reverse_subpaths), id)
+    closed(pen.paths.iter().map(BezPath::reverse_subpaths), id)
 }
 
 /// The contours that draw something.
