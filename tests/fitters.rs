@@ -113,7 +113,7 @@ fn met_is_true_and_no_curve_strays() {
         let j = judge(shape.span(), &fitted.path);
         if fitted.verdict == Verdict::Met {
             assert!(
-                j.points.max_px <= TOLERANCE_PX + 0.01,
+                j.max_px() <= TOLERANCE_PX + 0.01,
                 "{what} claims it is met: {j:?}"
             );
         }

@@ -33,9 +33,45 @@ def africa(width=164, height=175):
     points = [((p[0] - min(xs)) * sx, (max(ys) - p[1]) * sy) for p in ring]
     ImageDraw.Draw(image).polygon(points, fill=0)
     image.save(out / "africa.png")
-    # a coast as smooth as the paper's: 521 boundary points of its 507, 548 without
-    soft = image.filter(ImageFilter.GaussianBlur(1.5))
-    soft.point(lambda v: 255 if v > 127 else 0).save(out / "africa-smooth.png")
+    # a coast as smooth as the paper's, which has 507 points on this grid
+    smoothed(image, 507).save(out / "africa-507.png")
+
+
+def smoothed(image, points):
+    """Smoothed just enough that its boundary has so many points, or the next fewer."""
+    low, high = 0.0, 8.0
+    for _ in range(24):
+        middle = (low + high) / 2
+        if length(blurred(image, middle)) > points:
+            low = middle
+        else:
+            high = middle
+    print(f"smoothed by {high:.3f} px: {length(blurred(image, high))} points")
+    return blurred(image, high)
+
+
+def blurred(image, radius):
+    soft = image.filter(ImageFilter.GaussianBlur(radius))
+    return soft.point(lambda v: 255 if v > 127 else 0)
+
+
+def length(image):
+    """Steps around the outer boundary of the shape met first from the top: pixels, 8-connected, counter-clockwise."""
+    around = [(1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1), (0, -1), (1, -1)]
+    size, pixels = image.size, image.load()
+
+    def ink(x, y):
+        return 0 <= x < size[0] and 0 <= y < size[1] and pixels[x, y] < 128
+
+    start = next((x, y) for y in range(size[1]) for x in range(size[0]) if ink(x, y))
+    at, back, count, first = start, 4, 0, None
+    while True:
+        turns = [(back + k) % 8 for k in range(1, 9)]
+        way = next(k for k in turns if ink(at[0] + around[k][0], at[1] + around[k][1]))
+        if (at, way) == first:
+            return count
+        first = first or (at, way)
+        at, back, count = (at[0] + around[way][0], at[1] + around[way][1]), (way + 4) % 8, count + 1
 
 
 def word(text, font, size, name):

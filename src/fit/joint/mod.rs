@@ -15,7 +15,7 @@ mod piece;
 mod samples;
 mod tidy;
 
-use super::judge::{judge, points_to_curve};
+use super::judge::judge;
 use super::path;
 use super::{FitError, Fitter};
 use crate::types::{Fitted, Span, Spans, Verdict};
@@ -79,12 +79,12 @@ impl Joint {
             return Ok(polygon(span));
         }
         let pinned = self.pinned(span, tolerance_px).map(|(path, parameters)| {
-            let worst = points_to_curve(points, &path).max_px;
-            (path, parameters, worst)
+            let judged = judge(span, &path);
+            (path, parameters, judged)
         });
         let short = points.len() <= SHORT;
         let near = |worst: f64| worst.is_finite() && !(short && worst > tolerance_px);
-        let Some((path, parameters, worst)) = pinned.filter(|(_, _, worst)| near(*worst)) else {
+        let Some((path, parameters, judged)) = pinned.filter(|p| near(p.2.points.max_px)) else {
             return if points.len() > FEW {
                 self.halves(span, tolerance_px)
             } else {
@@ -93,7 +93,7 @@ impl Joint {
         };
         Ok(Fitted {
             path,
-            verdict: if worst <= tolerance_px {
+            verdict: if judged.max_px() <= tolerance_px {
                 Verdict::Met
             } else {
                 Verdict::Exhausted

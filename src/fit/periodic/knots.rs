@@ -7,7 +7,7 @@ use super::{FINE, ROUGH, STEPS_EACH, Task, part};
 /// A new end point keeps this part of its piece free on either side.
 const MARGIN: f64 = 0.25;
 /// A piece that misses the tolerance by this factor is cut, however many others are.
-const FAR: f64 = 4.0;
+pub(super) const FAR: f64 = 4.0;
 /// Knots that are tried in vain before the search for a better place ends.
 const VAIN: usize = 6;
 /// Points times trials that the search may take: some seconds.

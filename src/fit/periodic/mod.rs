@@ -13,7 +13,8 @@
 //!          wrong even when nearer; control points are added in several places at once (step 0: in one), and
 //!          where their number is given taken out of more and moved as long as that helps;
 //!          a ring is settled by linear least squares before BFGS; before control points are added to a spline
-//!          that nearly meets the tolerance, weights that grow with the error are tried;
+//!          that nearly meets the tolerance, weights that grow with the error are tried; a spline that comes no
+//!          closer with twice the pieces is begun again with pieces of one length;
 //!          open spans, which the paper leaves out, pass through their ends
 //! Cost     O(n + m^2) a BFGS step for n points, m control points      Fails  never; Verdict::Exhausted when
 //!          m reaches n beta / 2
@@ -31,11 +32,12 @@ use crate::numeric::bspline::Basis;
 use crate::numeric::minimise::{Descent, Limits, bfgs};
 use crate::numeric::turns::{Ends, Walk};
 use crate::types::{Fitted, Span, Verdict};
+use knots::FAR;
 use kurbo::{CubicBez, Point};
 use objective::{Distances, Penalty, State};
 use serde::{Deserialize, Serialize};
 use spline::Spline;
-use start::{end_points, through, weights};
+use start::{end_points, even, through, weights};
 
 /// Chords that tell curvature, in tolerances: at the paper's 1 px, a few pixels.
 const REACH: f64 = 4.0;
@@ -237,20 +239,34 @@ impl<'a> Task<'a> {
 
     fn begin(&self, count: Option<usize>) -> Option<State> {
         let ends = end_points(&self.walk, self.ends, REACH * self.tolerance, count);
-        let state = self.start(&ends)?;
+        self.begin_at(&ends)
+    }
+
+    fn begin_at(&self, ends: &[usize]) -> Option<State> {
+        let state = self.start(ends)?;
         let settles = self.closed() && self.options.iterations > 0;
         Some(if settles {
-            self.settle(state, self.guesses(&ends))
+            self.settle(state, self.guesses(ends))
         } else {
             state
         })
     }
 
-    /// Control points added until the tolerance is met or there are `most` pieces.
+    /// Control points added until the tolerance is met or there are `most` pieces. A spline that is no closer with
+    /// twice the pieces lies in loops, which more of them keep: it is begun again with as many of one length.
     fn grow(&self, mut state: State, most: usize) -> State {
+        let mut begun: Option<(usize, f64)> = None;
         loop {
             state = self.descend(state, STEPS_EACH, ROUGH).0;
-            let pieces = state.spline.pieces();
+            let (pieces, error) = (state.spline.pieces(), self.error(&state));
+            let (few, far) = *begun.get_or_insert((pieces, error));
+            if pieces >= 2 * few && error > far.max(FAR * self.tolerance) && pieces < most {
+                let ends = even(&self.walk, self.ends, pieces);
+                if let Some(again) = self.begin_at(&ends) {
+                    (state, begun) = (again, None);
+                    continue;
+                }
+            }
             if self.meets(&state) || pieces >= most {
                 return state;
             }
@@ -451,5 +467,28 @@ mod tests {
         );
         assert!(descent.values.len() > 10 && task.error(&state) < before);
         assert_eq!(state.spline.pieces(), 14);
+    }
+
+    #[test]
+    fn a_long_noisy_ring_is_met_with_few_pieces() {
+        // bends that noise makes are end points far apart beside near ones, from which the spline swings out
+        let mut state = 5_u64;
+        let mut roll = || {
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
+            (state >> 11) as f64 / (1_u64 << 53) as f64
+        };
+        let ring: Vec<Point> = (0..20_000)
+            .map(|i| {
+                let a = f64::from(i) * std::f64::consts::TAU / 20_000.0;
+                let noise = 0.2 * ((0..12).map(|_| roll()).sum::<f64>() - 6.0);
+                let r = 50.0 * (50.0 + 9.0 * (2.0 * a).cos() + 4.0 * (3.0 * a).sin()) + noise;
+                Point::new(r * a.cos(), r * a.sin())
+            })
+            .collect();
+        let fitted = Periodic::default().fit(Span::Ring(&ring), 1.0).unwrap();
+        assert_eq!(fitted.verdict, Verdict::Met);
+        assert!(fitted.parameters < 1000, "{}", fitted.parameters);
     }
 }

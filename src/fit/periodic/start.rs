@@ -68,6 +68,21 @@ pub(super) fn end_points(
     ends
 }
 
+/// Indices of so many end points the same way along from each other, in order, as far as the points allow.
+pub(super) fn even(walk: &Walk<'_>, kind: Ends, count: usize) -> Vec<usize> {
+    let s = walk.lengths();
+    let gaps = if kind == Ends::Closed {
+        count
+    } else {
+        count - 1
+    };
+    let step = walk.total() / gaps.max(1) as f64;
+    let at = |k: usize| s.partition_point(|&s| s < k as f64 * step - 1e-9 * step);
+    let mut ends: Vec<usize> = (0..count).map(|k| at(k).min(s.len() - 1)).collect();
+    ends.dedup();
+    ends
+}
+
 /// The local maxima of the turn with its size; sharp corners give a point on either side instead.
 fn bends(walk: &Walk<'_>, ends: Ends, reach: f64) -> Vec<(usize, f64)> {
     let closed = ends == Ends::Closed;
@@ -245,5 +260,20 @@ mod tests {
         let open = Walk::new(&square[..40], Ends::Open);
         let e = end_points(&open, Ends::Open, 3.0, Some(6));
         assert_eq!((e.len(), e[0], e[5]), (6, 0, 39));
+    }
+
+    #[test]
+    fn even_end_points_lie_evenly() {
+        let row: Vec<Point> = (0..=100_u8).map(|i| (f64::from(i), 0.0).into()).collect();
+        let open = even(&Walk::new(&row, Ends::Open), Ends::Open, 5);
+        assert_eq!(open, [0, 25, 50, 75, 100]);
+        let ring: Vec<Point> = (0..60_u8)
+            .map(|i| {
+                let a = f64::from(i) / 60.0 * std::f64::consts::TAU;
+                (a.cos(), a.sin()).into()
+            })
+            .collect();
+        let closed = even(&Walk::new(&ring, Ends::Closed), Ends::Closed, 6);
+        assert_eq!(closed, [0, 10, 20, 30, 40, 50]);
     }
 }
