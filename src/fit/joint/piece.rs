@@ -13,6 +13,9 @@ const TURN: f64 = 0.03;
 const TURN_END: f64 = 0.3;
 /// Steps of Gauss–Newton.
 const ROUNDS: usize = 4;
+/// A cubic whose cost is so many times what it may be, and so many nats more, once its first step is taken bends too hard
+/// for one: what further steps would find there rounds a corner.
+const FAR: f64 = 25.0;
 /// A step of a foot after which the next is next to nothing, parameter.
 const NEAR: f64 = 0.01;
 /// Usual length of a handle, chords, and its spread.
@@ -174,8 +177,9 @@ pub(super) fn cubic_cost(
         let gain = best - sums.cost;
         best = best.min(sums.cost);
         // What is left is hardly more than the last gain.
-        let over = gain < 0.5 || (round > 1 && best - 2.0 * gain > enough);
-        if round == ROUNDS || over || !solve6(&mut sums.h, &mut sums.g) {
+        let hopeless = round > 1 && best - 2.0 * gain > enough;
+        let far = round > 0 && best > FAR * (enough + 1.0);
+        if round == ROUNDS || gain < 0.5 || hopeless || far || !solve6(&mut sums.h, &mut sums.g) {
             break;
         }
         trial.step(&sums.g);
