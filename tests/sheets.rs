@@ -762,3 +762,96 @@ fn a_changed_correction_redoes_no_other_page() {
     assert_eq!(build_in(dir.path(), &args).0, Some(0));
     assert_eq!(kept(), 5, "one page and a build more");
 }
+
+/// Words of H, o and l, a row of 150 px a word, so many px between any two letters.
+fn words(all: &[&str], gap: f64) -> Vec<u8> {
+    png(
+        600,
+        150 * u32::try_from(all.len()).expect("few words"),
+        |x, y| {
+            let word = all[(y / 150) as usize];
+            let (x, y) = (f64::from(x) + 0.5, f64::from(y % 150) + 0.5);
+            let bar = |x0: f64, y0: f64, x1: f64, y1: f64| {
+                edge((x0 - x).max(x - x1).max((y0 - y).max(y - y1)))
+            };
+            let mut left = 40.0;
+            let mut ink = 0;
+            for letter in word.chars() {
+                let (width, drawn) = match letter {
+                    'H' => (
+                        80.0,
+                        bar(left, 25.0, left + 16.0, 125.0)
+                            .max(bar(left + 64.0, 25.0, left + 80.0, 125.0))
+                            .max(bar(left + 10.0, 67.0, left + 70.0, 83.0)),
+                    ),
+                    'o' => (
+                        70.0,
+                        edge(((x - left - 35.0).hypot(y - 91.0) - 26.0).abs() - 9.0),
+                    ),
+                    _ => (16.0, bar(left, 15.0, left + 16.0, 125.0)),
+                };
+                ink = ink.max(drawn);
+                left += width + gap;
+            }
+            ink
+        },
+    )
+}
+
+#[test]
+fn written_words_say_how_loosely_letters_stand() {
+    let all = ["oHol", "loHo", "Holo", "lolo"];
+    let built = |gap: f64| {
+        let dir = project(LETTERS, &page(&[]));
+        fs::write(dir.path().join("words.png"), words(&all, gap)).expect("a picture");
+        let path = dir.path().join("font.toml");
+        let text = fs::read_to_string(&path).expect("the project");
+        let table = format!(
+            "report = \"out/report.json\"\n[[sheet]]\nimage = \"words.png\"\ncontent = \"words\"\n\
+             layout = {{ grid = [4, 1] }}\nglyphs = \"{}\"\npixels_per_em = 150\n",
+            all.join(" ")
+        );
+        fs::write(&path, text + &table).expect("a project");
+        let out = khatt(dir.path(), &["build", "font.toml"]);
+        assert_eq!(
+            out.status.code(),
+            Some(0),
+            "{}",
+            String::from_utf8_lossy(&out.stderr)
+        );
+        let report = fs::read(dir.path().join("out/report.json")).expect("a report");
+        let report: serde_json::Value = serde_json::from_slice(&report).expect("JSON");
+        let gaps = report["gaps"].as_array().expect("gaps");
+        assert_eq!(gaps.len(), 12);
+        // words are no glyphs
+        assert_eq!(report["glyphs"].as_array().expect("glyphs").len(), 9);
+        for found in gaps {
+            let [written, set] = ["written", "set"].map(|k| found[k].as_f64().expect("a length"));
+            assert!((written - gap / 0.15).abs() < 1.0, "{found}");
+            assert!((written - set).abs() < 10.0, "{found}");
+        }
+    };
+    built(12.0);
+    built(40.0);
+}
+
+#[test]
+fn what_is_no_word_is_told() {
+    let dir = project(LETTERS, &page(&[]));
+    fs::write(dir.path().join("words.png"), words(&["oHol"], 12.0)).expect("a picture");
+    let path = dir.path().join("font.toml");
+    let text = fs::read_to_string(&path).expect("the project");
+    let table = "[[sheet]]\nimage = \"words.png\"\ncontent = \"words\"\nlayout = { grid = [3, 1] }\n\
+                 glyphs = \"oHol H beh-ar.init\"\n";
+    fs::write(&path, text + table).expect("a project");
+    let out = khatt(dir.path(), &["build", "font.toml"]);
+    assert_ne!(out.status.code(), Some(0));
+    let said = String::from_utf8_lossy(&out.stderr);
+    for wrong in [
+        "words.png: word 2 “H” is none",
+        "words.png: word 3 “beh-ar.init” is none",
+        "words.png: words do not tell how large the em is",
+    ] {
+        assert!(said.contains(wrong), "{said}");
+    }
+}

@@ -18,6 +18,7 @@ mod profile;
 pub mod spacing;
 mod stroke;
 mod tails;
+pub mod words;
 
 pub use stroke::Side;
 
@@ -90,6 +91,9 @@ pub struct Options {
     /// Anchors by hand: `[anchors]` of a project.
     #[serde(skip)]
     pub anchors: Anchors,
+    /// Written words, whose gaps say how much room letters have.
+    #[serde(skip)]
+    pub words: Vec<words::Word>,
     /// The inks that are layers and how they look, red, green and blue: they become the palette.
     #[serde(skip)]
     pub inks: Vec<(String, [u8; 3])>,
@@ -116,6 +120,8 @@ pub struct Assembled {
     pub notes: Vec<Note>,
     /// How the strokes of joined letters were brought together.
     pub joining: joining::Report,
+    /// The gaps of written words beside those of the font.
+    pub gaps: Vec<words::Gap>,
 }
 
 /// A drawn shape whose label is understood.
@@ -176,7 +182,8 @@ pub fn font(
     info.metrics = metrics::measure(&drafts, em, &options.heights);
     let (joining, mut notes) = joining::set(&mut drafts, em, &options.joining);
     let stroke = joining.contract.map(|c| c.edges.1 - c.edges.0);
-    spacing::set(&mut drafts, &info, stroke, options);
+    let (gaps, unread) = spacing::set(&mut drafts, &info, stroke, options);
+    notes.extend(unread);
     notes.extend(compose::add(
         &mut drafts,
         em,
@@ -205,6 +212,7 @@ pub fn font(
         font,
         notes,
         joining,
+        gaps,
     })
 }
 
@@ -261,6 +269,15 @@ fn drafts(drawn: Vec<Drawn>, inks: &[(String, [u8; 3])]) -> Result<Vec<Draft>, A
         });
     }
     Ok(out)
+}
+
+/// The plain drawing of these characters in a form.
+fn find(drafts: &[Draft], chars: &[char], form: Form) -> Option<usize> {
+    drafts.iter().position(|d| {
+        d.id.chars == chars
+            && d.id.alternates().next().is_none()
+            && d.id.form().unwrap_or(Form::Isol) == form
+    })
 }
 
 /// Gives each character to the glyph without suffix, or else to the form that stands in for it. An

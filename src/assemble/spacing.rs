@@ -23,7 +23,8 @@
 use super::features::is_arabic;
 use super::profile::{Profile, white};
 use super::tails::{self, Ends};
-use super::{Draft, Options};
+use super::words::{self, Gap};
+use super::{Draft, Note, Options};
 use crate::numeric::median::median;
 use crate::types::Info;
 use schemars::JsonSchema;
@@ -166,7 +167,13 @@ impl Rhythm {
 }
 
 /// Places every draft and sets its advance. `stroke` is the thickness of the joining strokes, font units.
-pub(super) fn set(drafts: &mut [Draft], info: &Info, stroke: Option<f64>, options: &Options) {
+/// Words that were written have the last word.
+pub(super) fn set(
+    drafts: &mut [Draft],
+    info: &Info,
+    stroke: Option<f64>,
+    options: &Options,
+) -> (Vec<Gap>, Vec<Note>) {
     let em = f64::from(info.units_per_em);
     let rhythm = Rhythm::of(drafts, info);
     let alef = alef(drafts);
@@ -187,9 +194,11 @@ pub(super) fn set(drafts: &mut [Draft], info: &Info, stroke: Option<f64>, option
         draft.shift(-left);
         draft.advance = (right - left).max(0.0).round();
     }
+    let learnt = words::learn(drafts, &options.words, terms.side(), em);
     if options.letters.figures == Figures::Tabular {
         tabular(drafts);
     }
+    learnt
 }
 
 /// Height of alef.
@@ -225,6 +234,12 @@ impl Terms<'_> {
         )
     }
 
+    /// Room beside a letter for which there is no optical rule.
+    fn side(&self) -> f64 {
+        let given = self.room.sidebearing.map(|s| s * self.em);
+        given.or(self.joining).unwrap_or(UNKNOWN * self.em)
+    }
+
     /// The ends where neither page nor stroke says them. Marks stand above others and take no room.
     fn free(&self, draft: &Draft) -> (f64, f64) {
         let Some(ink) = draft.outline.bounds() else {
@@ -240,12 +255,7 @@ impl Terms<'_> {
             (None, Some(c), Some(rhythm)) => rhythm.ends(draft, c, self.em),
             _ => None,
         };
-        let same = self
-            .room
-            .sidebearing
-            .map(|s| s * self.em)
-            .or(self.joining)
-            .unwrap_or(UNKNOWN * self.em);
+        let same = self.side();
         let (left, right) = optical.unwrap_or((ink.x0 - same, ink.x1 + same));
         (left - add, right + add)
     }

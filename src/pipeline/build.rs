@@ -12,9 +12,10 @@ use super::letters;
 use super::page::{Page, Source};
 use super::palette;
 use super::problem::Problem;
-use super::project::Project;
+use super::project::{Content, Project};
 use super::repeats::{self, Settled};
 use super::watch::{Stage, Watch};
+use crate::assemble::words::Gap;
 use crate::assemble::{self, Note};
 use crate::types::{Cell, Font, Label};
 use rayon::prelude::*;
@@ -88,6 +89,8 @@ pub struct Built {
     pub notes: Vec<Note>,
     /// Cells that look like other letters than their labels say.
     pub doubts: Vec<Doubt>,
+    /// The gaps of written words beside those of the font.
+    pub gaps: Vec<Gap>,
 }
 
 /// Builds a font.
@@ -97,7 +100,11 @@ pub struct Built {
 pub fn build(project: &Project, world: World<'_>) -> Result<Built, Vec<Problem>> {
     let (project, mut doubts) = letters::resolve(project, world)?;
     let project = &project;
-    let (letters, pages) = letters(project, world)?;
+    let Drawings {
+        letters,
+        words,
+        pages,
+    } = drawings(project, world)?;
     doubts.extend(letters::doubts(project, &letters, world).map_err(|p| vec![p])?);
     let corrections = Corrections::of(project)?;
     let draw = |sheet: &str, cell: Cell| {
@@ -115,11 +122,16 @@ pub fn build(project: &Project, world: World<'_>) -> Result<Built, Vec<Problem>>
         .map(|letter| letter.place(project.font.units_per_em))
         .collect())?;
     let twins = alike::notes(&letters, &drawn, project.font.units_per_em);
+    let words = words.par_iter();
+    let words = all(words
+        .map(|word| word.read(project.font.units_per_em))
+        .collect())?;
     let info = project.font.info(world.created);
     let options = assemble::Options {
         compose: project.compose.clone(),
         anchors: project.anchors.clone(),
         inks: palette::of(project, &pages),
+        words,
         ..project.spacing.clone()
     };
     let mut assembled = assemble::font(drawn, info, &options).map_err(|e| vec![e.into()])?;
@@ -130,17 +142,23 @@ pub fn build(project: &Project, world: World<'_>) -> Result<Built, Vec<Problem>>
         pages,
         notes: [repeats, twins, assembled.notes].concat(),
         doubts,
+        gaps: assembled.gaps,
     })
 }
 
 /// The letters of a page, and the page without its cells.
 pub(super) type Traced = (Vec<Letter>, Page);
 
-/// The letters of all pages in reading order, and the pages without their cells.
-///
+/// What was drawn on all pages in reading order, and the pages without their cells.
+struct Drawings {
+    letters: Vec<Letter>,
+    words: Vec<Letter>,
+    pages: Vec<Page>,
+}
+
 /// # Errors
 /// Everything that is wrong with the project, its pages and their cells.
-fn letters(project: &Project, world: World<'_>) -> Result<(Vec<Letter>, Vec<Page>), Vec<Problem>> {
+fn drawings(project: &Project, world: World<'_>) -> Result<Drawings, Vec<Problem>> {
     let named = labels(project, world)?;
     let sources = sources(project, &named)?;
     let mut batches = batches(&sources, project, world).into_iter();
@@ -148,9 +166,21 @@ fn letters(project: &Project, world: World<'_>) -> Result<(Vec<Letter>, Vec<Page
         let own = batches.by_ref().take(source.images().len());
         source.join(own.collect())
     });
-    let pages = all_lists(pages.collect())?.into_iter().flatten();
-    let (letters, pages): (Vec<_>, Vec<_>) = pages.unzip();
-    Ok((letters.into_iter().flatten().collect(), pages))
+    let traced: Vec<Traced> = all_lists(pages.collect())?.into_iter().flatten().collect();
+    let mut out = Drawings {
+        letters: Vec::new(),
+        words: Vec::new(),
+        pages: Vec::new(),
+    };
+    for (drawn, page) in traced {
+        let table = project.sheets.get(page.table);
+        match table.map_or(Content::Letters, |t| t.content) {
+            Content::Letters => out.letters.extend(drawn),
+            Content::Words => out.words.extend(drawn),
+        }
+        out.pages.push(page);
+    }
+    Ok(out)
 }
 
 /// What became of every picture file of these tables: kept where nothing has changed.

@@ -2,11 +2,12 @@
 
 use super::build::{World, all};
 use super::problem::{Place, Problem};
-use super::project::{Labels, Project, SheetTable};
+use super::project::{Content, Labels, Layout, Project, SheetTable};
 use super::repeats::Repeated;
 use crate::assemble::names;
 use crate::types::{Label, Name};
 use std::collections::BTreeMap;
+use unicode_normalization::char::is_combining_mark;
 
 /// The word that skips a cell.
 pub(super) const SKIP: &str = "_";
@@ -28,8 +29,14 @@ pub(super) fn of(project: &Project, world: World<'_>) -> Result<Vec<Vec<Label>>,
     let pages = all(sheets.iter().map(|s| of_sheet(s, world)).collect())?;
     let names: Vec<String> = sheets.iter().map(SheetTable::name).collect();
     let named = names.iter().map(String::as_str);
-    let labels = named.zip(pages.iter().map(Vec::as_slice));
-    let mut problems = check(labels);
+    let labels = named.zip(pages.iter().map(Vec::as_slice)).zip(sheets);
+    let (words, letters): (Vec<_>, Vec<_>) =
+        labels.partition(|(_, sheet)| sheet.content == Content::Words);
+    let mut problems = check(letters.into_iter().map(|l| l.0));
+    for ((name, words), sheet) in words {
+        problems.extend(check_words(name, words));
+        problems.extend(unscaled(name, sheet));
+    }
     if project.repeated != Repeated::Error {
         problems.retain(|p| !matches!(p, Problem::Twice { .. }));
     }
@@ -80,6 +87,37 @@ pub(super) fn check<'a>(sheets: impl Iterator<Item = (&'a str, &'a [Label])>) ->
         }
     }
     problems
+}
+
+/// A page of words without a scale: no height in them tells it.
+fn unscaled(name: &str, sheet: &SheetTable) -> Option<Problem> {
+    let told =
+        sheet.layout == Layout::Template || sheet.pixels_per_em.is_some() || sheet.em_mm.is_some();
+    (!told).then(|| Problem::Sheet {
+        sheet: name.to_owned(),
+        why: "words do not tell how large the em is: write pixels_per_em or em_mm".to_owned(),
+    })
+}
+
+/// What is wrong with the words of a page.
+fn check_words<'a>(sheet: &'a str, words: &'a [Label]) -> impl Iterator<Item = Problem> + 'a {
+    let is_word = |word: &Label| {
+        word.0.chars().filter(|c| c.is_alphabetic()).count() > 1
+            && word
+                .0
+                .chars()
+                .all(|c| c.is_alphabetic() || is_combining_mark(c))
+    };
+    let wrong = words.iter().enumerate();
+    let wrong = wrong.filter(move |(_, word)| !skips(word) && !is_word(word));
+    wrong.map(move |(i, word)| Problem::Sheet {
+        sheet: sheet.to_owned(),
+        why: format!(
+            "word {} “{}” is none: content = \"words\" takes words of two letters or more, as they are read",
+            i + 1,
+            word.0
+        ),
+    })
 }
 
 #[cfg(test)]

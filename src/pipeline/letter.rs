@@ -3,6 +3,7 @@
 use super::picture::{self, trace_picture};
 use super::problem::{Place, Problem};
 use super::watch::{Stage, Watch};
+use crate::assemble::words::Word;
 use crate::assemble::{Drawn, names};
 use crate::finish::place;
 use crate::trace;
@@ -107,6 +108,17 @@ impl Letter {
         Some(Frame {
             origin_px: frame.origin_px - moved.round() / frame.units_per_px,
             ..frame
+        })
+    }
+
+    /// The word that was written, in font units.
+    ///
+    /// # Errors
+    /// The curves are no outline.
+    pub(super) fn read(&self, units_per_em: u16) -> Result<Word, Problem> {
+        Ok(Word {
+            text: self.label.0.clone(),
+            outline: self.place(units_per_em)?.outline,
         })
     }
 

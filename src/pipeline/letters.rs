@@ -4,7 +4,7 @@ use super::build::World;
 use super::doubt::Doubt;
 use super::letter::Letter;
 use super::problem::{Place, Problem};
-use super::project::{Labels, Layout, Project, SheetTable};
+use super::project::{Content, Labels, Layout, Project, SheetTable};
 use super::reference::{Script, samples, spelling};
 use super::{corrections, labels, page};
 use crate::assemble::names;
@@ -33,7 +33,7 @@ pub fn match_letters(
 ) -> Result<(Vec<Matched>, Vec<Doubt>), Vec<Problem>> {
     let alphabet = alphabet(project, world).map_err(|p| vec![p])?;
     let (mut matched, mut remarks) = (Vec::new(), Vec::new());
-    for sheet in &project.sheets {
+    for sheet in of_letters(project) {
         let labels = sheet_labels(sheet, world).map_err(|p| vec![p])?;
         let cells = page::cells(sheet, &labels, project, world)?;
         let guesses = guesses(&cells, seen(project), &alphabet);
@@ -136,7 +136,7 @@ pub(super) fn doubts(
     }
     let alphabet = alphabet(project, world)?;
     let mut remarks = Vec::new();
-    for sheet in &project.sheets {
+    for sheet in of_letters(project) {
         let name = sheet.name();
         let drawn = letters.iter().filter(|l| sheet.shows(&l.sheet));
         let drawn: Vec<&Letter> = drawn.collect();
@@ -148,6 +148,12 @@ pub(super) fn doubts(
         remarks.extend(findings(&name, &labels, indices.zip(&guesses)));
     }
     Ok(remarks)
+}
+
+/// The pages whose cells hold letters.
+fn of_letters(project: &Project) -> impl Iterator<Item = &SheetTable> {
+    let sheets = project.sheets.iter();
+    sheets.filter(|s| s.content == Content::Letters)
 }
 
 /// The labels as written; as many that say nothing as there are cells where they are to be found.
@@ -215,7 +221,7 @@ fn alphabet(project: &Project, world: World<'_>) -> Result<Alphabet, Problem> {
         return Err(Problem::NoReference);
     }
     let mut labels: Vec<Label> = Vec::new();
-    for sheet in project.sheets.iter().filter(|s| !s.glyphs.is_auto()) {
+    for sheet in of_letters(project).filter(|s| !s.glyphs.is_auto()) {
         labels.extend(labels::of_sheet(sheet, world)?);
     }
     let auto = project.sheets.iter().any(|s| s.glyphs.is_auto());

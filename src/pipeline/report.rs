@@ -6,6 +6,7 @@ use super::letter::Letter;
 use super::page::Page;
 use super::problem::{Place, Problem};
 use super::project::GateTable;
+use crate::assemble::words::Gap;
 use crate::assemble::{Note, names};
 use crate::template::Gain;
 use crate::types::Font;
@@ -28,6 +29,8 @@ pub struct Report {
     pub glyphs: Vec<Row>,
     /// A row a composed glyph, in glyph order.
     pub composed: Vec<Composed>,
+    /// The gaps of written words beside those of the font, in the order in which they were written.
+    pub gaps: Vec<Gap>,
     /// What could not be met.
     pub notes: Vec<Remark>,
 }
@@ -142,6 +145,7 @@ impl Report {
             pages: built.pages.iter().map(page_row).collect(),
             glyphs: rows.collect(),
             composed: composed(&built.font),
+            gaps: built.gaps.clone(),
             notes: built.notes.iter().map(remark).collect(),
         }
     }

@@ -123,6 +123,11 @@ pub(super) fn add(
     notes
 }
 
+/// What a letter's body is in that form where it is composed, likeliest first.
+pub(super) fn bodies(letter: char, form: Form) -> Vec<char> {
+    recipes::recipe(letter, form).map_or_else(Vec::new, |r| r.bodies)
+}
+
 fn note(letter: char, missing: Option<char>) -> Note {
     let code = |c: char| format!("{} (U+{:04X})", names::name_of(&[c]), u32::from(c));
     let message = match missing {
@@ -206,11 +211,7 @@ impl Work<'_> {
 
     /// The drawn or composed form of a letter.
     fn find(&self, letter: char, form: Form) -> Option<usize> {
-        self.drafts.iter().position(|d| {
-            d.id.chars == [letter]
-                && d.id.alternates().next().is_none()
-                && d.id.form().unwrap_or(Form::Isol) == form
-        })
+        super::find(self.drafts, &[letter], form)
     }
 
     /// A letter of its parts, or the part that is missing.

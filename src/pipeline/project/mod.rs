@@ -9,7 +9,7 @@ mod sheet;
 pub use cell::{CellTable, Cells};
 pub use font::FontTable;
 pub use parse::ProjectError;
-pub use sheet::{Labels, Layout, SheetTable};
+pub use sheet::{Content, Labels, Layout, SheetTable};
 
 use super::{Repeated, picture};
 use crate::write::{FORMATS, Format};

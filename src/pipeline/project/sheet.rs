@@ -37,6 +37,9 @@ pub struct SheetTable {
     pub ink: Inks,
     /// What the cells hold, in reading order.
     pub glyphs: Labels,
+    /// Whether these are letters or written words.
+    #[serde(default)]
+    pub content: Content,
     /// Pixels an em.
     #[serde(default, deserialize_with = "check::optional_size")]
     pub pixels_per_em: Option<f64>,
@@ -66,6 +69,17 @@ pub enum Layout {
     Boxes,
     /// Pages that `khatt sheet` printed: they say themselves what stands where.
     Template,
+}
+
+/// What the cells of a page hold.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Content {
+    /// Glyphs of the font.
+    #[default]
+    Letters,
+    /// Words, which show how much room there is between letters.
+    Words,
 }
 
 impl Layout {
