@@ -7,8 +7,8 @@
 //! Symbols  c_(i,m), c_(j,n) -> `Join::c`, `Join::next`; r -> `Pen::store`; w -> cost; T -> `Effort::limit`
 //! Departs  the rate is the bytes of `glyf`; an on-curve point may stand between two runs; control
 //!          points come from tangents of the contour ahead instead of a band around it; states with
-//!          nearly one future share a label, so the result is an upper bound of the optimum; a contour is
-//!          searched both ways around and both answers spliced
+//!          nearly one future share a label, so the result is an upper bound of the optimum; runs between two nodes
+//!          are then fitted with fewer points; a contour is searched both ways around and both answers spliced
 //! Cost     O(stages * labels * reach), some ms a glyph    Fails  where whole units cannot come so close
 
 mod assemble;
@@ -19,6 +19,7 @@ mod least;
 mod search;
 mod solve;
 mod splice;
+mod thin;
 mod through;
 
 pub use glyf::{glyf_bytes, glyf_points};

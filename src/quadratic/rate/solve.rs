@@ -3,7 +3,9 @@
 use super::curve::{Course, Curve, Gate, Node, Span, count};
 use super::glyf::{Stored, stored_bytes};
 use super::search::{Care, Effort, Join, Otherwise, Search, Start};
+use super::thin;
 use kurbo::{Point, QuadBez, Vec2};
+use std::iter;
 
 /// The points of one contour, without the implied ones. None where the grid is too coarse.
 pub(super) fn contour(course: &Course, effort: Effort) -> Option<Vec<Stored>> {
@@ -49,10 +51,13 @@ fn along(spans: &[(Node, Span, Node)], effort: Effort) -> Option<Vec<Stored>> {
             Some(joins) => (Stored::on(joins.first()?.m), stored(&joins)),
             None => (from.at, plain(curve, effort, to.at)?),
         };
+        let run = iter::once(start).chain(points).collect();
+        let run = thin::open(curve, effort, [from, to], run);
+        let (&start, points) = run.split_first()?;
         out.extend(stores.then_some(start));
         begun = begun.or((i == 0).then_some(start));
         met = points.last().copied();
-        out.extend(points);
+        out.extend_from_slice(points);
     }
     Some(out)
 }
@@ -152,7 +157,7 @@ fn ring(curve: &Curve, gate: Gate, effort: Effort) -> Option<Vec<Stored>> {
     let Some(joins) = open(curve, effort, node, node) else {
         return plain(curve, effort, node.at);
     };
-    let first = stored(&joins);
+    let first = thin::ring(curve, effort, stored(&joins));
     // Closing inside a run saves the on-curve point: try the control points of the first answer.
     let mut controls = joins.iter().filter_map(|j| j.c);
     let (Some(a), Some(b)) = (controls.next(), controls.next_back()) else {
@@ -161,7 +166,8 @@ fn ring(curve: &Curve, gate: Gate, effort: Effort) -> Option<Vec<Stored>> {
     let tries = [a.midpoint(m + (m - b)).round(), a];
     let closed = tries
         .into_iter()
-        .filter_map(|next| closed(curve, gate, effort, (node, next)));
+        .filter_map(|next| closed(curve, gate, effort, (node, next)))
+        .map(|run| thin::ring(curve, effort, run));
     closed
         .chain([first])
         .min_by_key(|run| stored_bytes(std::slice::from_ref(run)))

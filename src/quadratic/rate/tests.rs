@@ -61,6 +61,21 @@ fn a_circle_takes_a_run_of_eight() {
 }
 
 #[test]
+fn a_circle_that_may_pass_its_extrema_takes_six() {
+    // six quadratics between two circles lie 1.04 units beside the middle one, and the grid moves them
+    let circle = Outline::new(vec![Circle::new((0.0, 0.0), 200.0).to_path(1e-3)]).unwrap();
+    let rate = Rate {
+        keep: Strictness::Corners,
+        ..Rate::default()
+    };
+    let q = rate.convert(&circle, 1.6).unwrap();
+    let stored = points(&q.contours()[0]);
+    assert!(stored.len() <= 6, "{stored:?}");
+    let far = astray(&circle, &q).max(astray(&q, &circle));
+    assert!(far <= 1.6, "{far}");
+}
+
+#[test]
 fn no_answer_has_fewer_points_than_the_bound() {
     // corners and lines ask for all of a polygon's points
     let square = BezPath::from_svg("M0 0L300 0L300 300L0 300Z").unwrap();
@@ -159,6 +174,18 @@ fn a_corner_moves_along_its_level_line_only() {
     }
 }
 
+/// The largest distance of an outline from what was made of it.
+fn astray(outline: &Outline, made: &Outline) -> f64 {
+    let quads: Vec<_> = made.contours().iter().flat_map(BezPath::segments).collect();
+    let drawn = outline.contours().iter().flat_map(BezPath::segments);
+    let dots = drawn.flat_map(|s| (0..20).map(move |i| s.eval(f64::from(i) / 20.0)));
+    let near = |p: Point| {
+        let off = |s: &PathSeg| s.nearest(p, 1e-6).distance_sq;
+        quads.iter().map(off).fold(f64::INFINITY, f64::min).sqrt()
+    };
+    dots.map(near).fold(0.0, f64::max)
+}
+
 #[test]
 fn a_contour_of_one_corner_stays_within_the_tolerance() {
     let svg = "M82 -134C82 -118 89 -100 106 -80C119 -67 144 -42 156 -34C162 -32 172 -34 179 -34C202 -35 252 -39 277 -44C310 -51 357 -72 357 -109C357 -192 287 -250 209 -250C130 -250 82 -200 82 -134Z";
@@ -168,17 +195,22 @@ fn a_contour_of_one_corner_stays_within_the_tolerance() {
             keep,
             ..Rate::default()
         };
-        let q = rate.convert(&drop, tolerance).unwrap();
-        let quads: Vec<_> = q.contours()[0].segments().collect();
-        let dots = drop.contours()[0]
-            .segments()
-            .flat_map(|s| (0..20).map(move |i| s.eval(f64::from(i) / 20.0)));
-        for p in dots {
-            let off = |s: &PathSeg| s.nearest(p, 1e-6).distance_sq;
-            let near = quads.iter().map(off).fold(f64::INFINITY, f64::min).sqrt();
-            assert!(near <= tolerance, "{near} at {p:?}");
-        }
+        let far = astray(&drop, &rate.convert(&drop, tolerance).unwrap());
+        assert!(far <= tolerance, "{far}");
     }
+}
+
+#[test]
+fn a_line_does_not_reach_across_the_bends_behind_it() {
+    // a serif whose tip stands in one line with the stem beside it
+    let svg = "M144 91L144 275C144 320 147 388 151 429C151 432 148 434 144 434C136 434 91 393 24 377C20 376 17 370 17 365C17 359 20 353 25 352C59 345 71 315 71 279L71 69C71 0 71 -136 42 -197C23 -237 0 -254 -24 -260C-26 -261 -35 -269 -35 -277C-35 -284 -21 -287 -14 -287C26 -287 89 -220 114 -152C143 -72 144 29 144 91Z";
+    let j = Outline::new(vec![BezPath::from_svg(svg).unwrap()]).unwrap();
+    let rate = Rate {
+        keep: Strictness::Corners,
+        ..Rate::default()
+    };
+    let far = astray(&j, &rate.convert(&j, 1.2).unwrap());
+    assert!(far <= 1.2, "{far}");
 }
 
 #[test]
