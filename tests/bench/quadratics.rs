@@ -1,4 +1,4 @@
-//! Bytes, points and time of the conversions to quadratics, beside each other and the fewest points possible:
+//! Bytes, points and time of the conversions to quadratics, beside each other and the fewest bytes possible:
 #![expect(
     clippy::disallowed_methods,
     clippy::print_stdout,
@@ -27,46 +27,57 @@ fn main() {
     let drawn = font.glyphs().iter().filter(wanted).map(|g| &g.outline);
     let outlines: Vec<&Outline> = drawn.filter(|o| !o.is_empty()).collect();
     println!("{} glyphs of {path}", outlines.len());
-    println!("method         tolerance    bytes  points  at least  ms a glyph  slowest ms  failed");
-    let rate = |keep| Rate {
-        keep,
-        ..Rate::default()
-    };
-    let [extrema, corners] = [Strictness::Extrema, Strictness::Corners].map(rate);
+    println!(
+        "method         tolerance    bytes   at least, above  points  ms a glyph  slowest ms  failed"
+    );
     for tolerance in args.iter().filter_map(|a| a.parse().ok()) {
-        let least = outlines.iter().map(|o| extrema.least_points(o, tolerance));
-        let least = least.sum::<usize>().to_string();
-        let split = Method::Split(Split::default());
-        measure(("split", &split), tolerance, (&outlines, ""));
-        let method = Method::Rate(corners.clone());
-        measure(("rate, corners", &method), tolerance, (&outlines, ""));
-        let method = Method::Rate(extrema.clone());
-        measure(("rate, extrema", &method), tolerance, (&outlines, &least));
+        measure(
+            ("split", &Method::Split(Split::default()), None),
+            tolerance,
+            &outlines,
+        );
+        for (name, keep) in [
+            ("rate, corners", Strictness::Corners),
+            ("rate, extrema", Strictness::Extrema),
+        ] {
+            let rate = Rate {
+                keep,
+                ..Rate::default()
+            };
+            let method = Method::Rate(rate.clone());
+            measure((name, &method, Some(&rate)), tolerance, &outlines);
+        }
     }
 }
 
 fn measure(
-    (name, method): (&str, &Method),
+    (name, method, least): (&str, &Method, Option<&Rate>),
     tolerance: f64,
-    (outlines, least): (&[&Outline], &str),
+    outlines: &[&Outline],
 ) {
-    let (mut bytes, mut points, mut failed) = (0, 0, 0);
+    let (mut bytes, mut points, mut fewest, mut failed) = (0, 0, 0, 0);
     let (mut total, mut slowest) = (0.0, 0.0_f64);
     for outline in outlines {
         let clock = Instant::now();
         let result = method.convert(outline, tolerance);
         let ms = clock.elapsed().as_secs_f64() * 1e3;
         (total, slowest) = (total + ms, slowest.max(ms));
-        match result {
-            Ok(q) => {
-                bytes += glyf_bytes(&q);
-                points += glyf_points(&q);
-            }
-            Err(_) => failed += 1,
+        let Ok(q) = result else {
+            failed += 1;
+            continue;
+        };
+        bytes += glyf_bytes(&q);
+        points += glyf_points(&q);
+        if let Some(rate) = least {
+            let least = rate.least_bytes(outline, tolerance);
+            assert!(least <= glyf_bytes(&q), "{least} of {}", glyf_bytes(&q));
+            fewest += least;
         }
     }
     let each = total / f64::from(u32::try_from(outlines.len()).expect("few glyphs"));
+    let above = 100.0 * (f64::from(bytes) / f64::from(fewest) - 1.0);
+    let beside = least.map_or_else(String::new, |_| format!("{fewest} {above:6.1} %"));
     println!(
-        "{name:14} {tolerance:9} {bytes:8} {points:7} {least:>9} {each:11.2} {slowest:11.1} {failed:7}"
+        "{name:14} {tolerance:9} {bytes:8} {beside:>17} {points:7} {each:11.2} {slowest:11.1} {failed:7}"
     );
 }

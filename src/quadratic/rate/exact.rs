@@ -3,7 +3,7 @@
 use super::curve::{Course, Curve, Keep, Node, Span, count};
 use super::glyf::{Pen, Stored};
 use super::search::{Effort, Otherwise, smooth};
-use super::{Strictness, solve};
+use super::{Strictness, least, solve};
 use kurbo::{BezPath, Point, Rect, Vec2};
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BinaryHeap};
@@ -172,8 +172,8 @@ fn optimum(curve: &Curve, to: Node, start: Point) -> u32 {
 }
 
 #[test]
-fn small_contours_are_near_the_optimum() {
-    let (mut found, mut least) = (Vec::new(), Vec::new());
+fn small_contours_are_near_the_optimum_and_it_is_not_below_the_bound() {
+    let (mut found, mut best, mut bounds) = (Vec::new(), Vec::new(), Vec::new());
     for svg in [
         "M0 0C0 6 12 6 12 0Z",
         "M0 0C0 9 16 9 16 0Z",
@@ -184,12 +184,13 @@ fn small_contours_are_near_the_optimum() {
         let points = solve::between(&curve, effort(), from, to).unwrap();
         let mut pen = Pen::after(from.at);
         found.push(points.iter().map(|&p| pen.store(p)).sum::<u32>());
-        least.push(optimum(&curve, to, from.at.point()));
+        best.push(optimum(&curve, to, from.at.point()));
+        bounds.push(least::between(&curve, from, to, TOLERANCE));
     }
-    assert!(
-        found.iter().zip(&least).all(|(f, l)| *f >= *l),
-        "{found:?} below {least:?}"
-    );
-    let (f, l): (u32, u32) = (found.iter().sum(), least.iter().sum());
-    assert!(f <= l + 2, "{found:?} bytes, {least:?} would do");
+    let below = |a: &[u32], b: &[u32]| a.iter().zip(b).all(|(a, b)| a <= b);
+    assert!(below(&best, &found), "{found:?} below {best:?}");
+    assert!(below(&bounds, &best), "{best:?} below {bounds:?}");
+    let [f, l, b]: [u32; 3] = [found.iter().sum(), best.iter().sum(), bounds.iter().sum()];
+    assert!(f <= l + 2, "{found:?} bytes, {best:?} would do");
+    assert!(b + 4 >= l, "{bounds:?} bytes at least, {best:?} at best");
 }

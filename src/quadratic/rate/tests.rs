@@ -1,4 +1,4 @@
-use super::{Rate, Strictness, glyf::points, glyf_bytes, glyf_points, through};
+use super::{Rate, Strictness, glyf::points, glyf_bytes, through};
 use crate::{
     quadratic::split::Split,
     types::{Contour, Outline},
@@ -76,27 +76,32 @@ fn a_circle_that_may_pass_its_extrema_takes_six() {
 }
 
 #[test]
-fn no_answer_has_fewer_points_than_the_bound() {
-    // corners and lines ask for all of a polygon's points
+fn no_answer_has_fewer_bytes_than_the_bound() {
+    // of a square's points the flags, two steps of two bytes and one of one; the first lies at the origin
     let square = BezPath::from_svg("M0 0L300 0L300 300L0 300Z").unwrap();
     let square = Outline::new(vec![square]).unwrap();
-    assert_eq!(Rate::default().least_points(&square, 1.0), 4);
-    // one quadratic a quadrant misses a circle of 250 units by 7
+    let drawn = glyf_bytes(&Rate::default().convert(&square, 1.0).unwrap());
+    assert_eq!(Rate::default().least_bytes(&square, 1.0), drawn);
+    // eight flags, and of four level or upright steps and four aslant an aslant one is not stored
     let circle = Outline::new(vec![Circle::new((0.0, 0.0), 250.0).to_path(1e-3)]).unwrap();
-    assert_eq!(Rate::default().least_points(&circle, 1.0), 8);
+    assert_eq!(Rate::default().least_bytes(&circle, 1.0), 14 + 8 + 10);
     for outline in [
         letter(),
         circle,
         ellipse(90.0, 40.0, 0.0),
         ellipse(5.0, 6.0, 0.0),
+        ellipse(200.0, 260.0, 0.3),
     ] {
-        for tolerance in [0.8, 2.0, 8.0] {
-            let q = Rate::default().convert(&outline, tolerance).unwrap();
-            let (least, found) = (
-                Rate::default().least_points(&outline, tolerance),
-                glyf_points(&q),
-            );
-            assert!(least <= found, "{found} points, at least {least}");
+        for keep in [Strictness::Corners, Strictness::Extrema] {
+            for tolerance in [0.8, 2.0, 8.0] {
+                let rate = Rate {
+                    keep,
+                    ..Rate::default()
+                };
+                let found = glyf_bytes(&rate.convert(&outline, tolerance).unwrap());
+                let least = rate.least_bytes(&outline, tolerance);
+                assert!(least <= found, "{found} bytes, at least {least}");
+            }
         }
     }
 }

@@ -33,19 +33,30 @@ impl<'a> Fit<'a> {
         }
     }
 
-    /// From where the chain lies; answers the largest distance, units.
-    pub(super) fn freely(&mut self) -> Option<f64> {
-        /// Powers of the distance whose sum is made least, and the steps towards each.
-        const POWERS: [(f64, usize); 3] = [(2.0, 4), (4.0, 4), (8.0, 8)];
+    /// Moves the chain towards the least largest distance; none where that is beyond the limit, units.
+    pub(super) fn freely(&mut self, limit: f64) -> Option<()> {
+        /// Powers of the distance whose mean is made least, and the steps towards each.
+        const POWERS: [(i32, usize); 3] = [(2, 4), (4, 4), (8, 8)];
+        /// A step's mean may lie so many limits above the least one.
+        const NEAR: f64 = 1.1;
         for (power, times) in POWERS {
-            (0..times).try_for_each(|_| self.step(power))?;
+            for k in 0..times {
+                let mean = self.step(power)?;
+                // No largest distance is less than the least mean of a power.
+                if k + 1 == times && mean > NEAR * limit {
+                    return None;
+                }
+            }
         }
-        Some(self.worst()).filter(|w| w.is_finite())
+        (self.worst() <= limit).then_some(())
     }
 
-    /// After one of its points was rounded.
-    pub(super) fn again(&mut self) -> Option<()> {
-        (0..3).try_for_each(|_| self.step(8.0))
+    /// After one of its points was rounded; none where the others no longer come near.
+    pub(super) fn again(&mut self, limit: f64) -> Option<()> {
+        /// What the points that are left may still make good, limits.
+        const OVER: f64 = 1.2;
+        (0..3).try_for_each(|_| self.step(8).map(|_| ()))?;
+        (self.worst() <= OVER * limit).then_some(())
     }
 
     /// The largest distance at the places looked at, and of corners from where they were drawn, units.
@@ -112,8 +123,8 @@ impl<'a> Fit<'a> {
             .fold(0.0, f64::max)
     }
 
-    /// A Newton step towards the least sum of this power of the distances.
-    fn step(&mut self, power: f64) -> Option<()> {
+    /// A Newton step towards the least mean of this power of the distances; answers the mean it came from, units.
+    fn step(&mut self, power: i32) -> Option<f64> {
         /// Added to the diagonal, parts of its largest entry: along the curve hardly anything holds a point.
         const DAMPING: f64 = 1e-3;
         /// Weight of what lies on the curve.
@@ -123,37 +134,39 @@ impl<'a> Fit<'a> {
         let n = self.chain.unknowns;
         let (mut a, mut b) = (DMatrix::<f64>::zeros(n, n), DVector::<f64>::zeros(n));
         let mut add = |row: &[(usize, f64)], far: f64, size: f64| {
-            let weight = (size / worst).powf(power - 2.0) + LEAST;
+            let weight = (size / worst).powi(power - 2) + LEAST;
             for &(i, g) in row {
                 b[i] -= weight * g * far;
-                for &(j, h) in row {
+                // The factorization reads what lies below the diagonal.
+                for &(j, h) in row.iter().filter(|r| r.0 <= i) {
                     a[(i, j)] += weight * g * h;
                 }
             }
         };
         let spots = &self.chain.spots;
+        let mut row = Vec::new();
         for ((quad, u), o) in self.places().into_iter().zip(&offs) {
-            let parts = self.chain.weights(quad, u).into_iter();
-            let row = parts.flat_map(|(k, w)| {
+            row.clear();
+            for (k, w) in self.chain.weights(quad, u) {
                 let ways = spots[k].ways.iter();
-                ways.map(move |&(i, v)| (i, w * o.left.dot(v)))
-            });
-            add(&row.collect::<Vec<_>>(), o.far, o.far.abs());
+                row.extend(ways.map(|&(i, v)| (i, w * o.left.dot(v))));
+            }
+            add(&row, o.far, o.far.abs());
         }
         for (s, home) in spots.iter().filter_map(|s| Some((s, s.home?))) {
             let e = s.at - home;
-            s.ways
-                .iter()
-                .for_each(|&(i, v)| add(&[(i, 1.0)], e.dot(v), e.hypot()));
+            let ways = s.ways.iter();
+            ways.for_each(|&(i, v)| add(&[(i, 1.0)], e.dot(v), e.hypot()));
         }
         let damping = DAMPING * a.diagonal().max().max(1e-9);
         for i in 0..n {
             a[(i, i)] += damping;
         }
-        let step = a.cholesky()?.solve(&b) / (power - 1.0);
+        let step = a.cholesky()?.solve(&b) / f64::from(power - 1);
         for s in &mut self.chain.spots {
             s.ways.iter().for_each(|&(i, v)| s.at += v * step[i]);
         }
-        Some(())
+        let parts = offs.iter().map(|o| (o.far.abs() / worst).powi(power));
+        Some(worst * (parts.sum::<f64>() / count(offs.len())).powf(f64::from(power).recip()))
     }
 }

@@ -68,13 +68,10 @@ fn fewest(
 /// The points of a chain, fitted and rounded; none where that does not come near enough.
 fn settled(curve: &Curve, effort: Effort, chain: Chain) -> Option<Vec<Stored>> {
     let mut fit = Fit::new(curve, chain);
-    let worst = fit.freely()?;
-    if worst > effort.limit {
-        return None;
-    }
+    fit.freely(effort.limit)?;
     for spot in fit.chain.order() {
         if fit.chain.round(spot) {
-            fit.again()?;
+            fit.again(effort.limit)?;
         }
     }
     holds(&mut fit, curve, effort.limit).then(|| fit.chain.stored())
