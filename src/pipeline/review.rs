@@ -3,7 +3,7 @@
 use super::picture::{Options, fit, sharp};
 use crate::{
     fit::FitError,
-    refine::{Comparison, Cornered, Doubts},
+    refine::{Comparison, Cornered, Doubts, drawn_in},
     types::Gray,
 };
 use kurbo::{BezPath, Point};
@@ -36,7 +36,17 @@ pub(super) fn reviewed(
         doubts = revised;
         again = refit(coverage, found, (paths, &doubts), options)?;
     }
-    Ok(seen.settled(&again))
+    let settled = seen.settled(&again);
+    if doubts.iter().all(|d| d.round.is_empty()) {
+        return Ok(settled);
+    }
+    let upheld = seen.upheld(&doubts, (paths, &settled));
+    if upheld == doubts {
+        return Ok(settled);
+    }
+    let again = refit(coverage, found, (paths, &upheld), options)?;
+    let kept = seen.settled(&drawn_in(&again, &upheld));
+    Ok(seen.as_well(settled, kept))
 }
 
 /// The paths, those anew whose corners are doubted.

@@ -16,12 +16,10 @@ const NEEDLE: f64 = 3.0;
 const SHORT_RUN: usize = 3;
 /// Chords that stand for each.
 const CHORDS: u32 = 8;
-/// Mean square of the differences of a picture without grain: one level of 256.
-const LEAST_GRAIN: f64 = 1.5e-5;
 /// Pixels whose grain is one.
 const GRAIN: f64 = 4.0;
 /// The least part of a corner's ink that the picture must have.
-const LIKELY: f64 = 0.4;
+const LIKELY: f64 = 0.2;
 /// What a corner is worth in place of such a curve, nats: two nodes and handles fewer.
 const SIMPLER: f64 = 12.0;
 
@@ -37,24 +35,32 @@ pub struct Overlooked {
 impl Overlooked {
     /// Whether the picture is explained as well with the corner as before.
     pub(super) fn explains(&self, before: &Residual, after: &Residual) -> bool {
-        let reach = SHORT_PX + SHORT_LENS * before.lens_px();
+        let reach = reach_px(before);
         let gain = before.squares(self.tip, reach) - after.squares(self.tip, reach);
         0.5 * gain + SIMPLER * GRAIN * before.grain() >= 0.0
     }
 }
 
+/// How far around a corner the picture tells it from a curve, px.
+pub(super) fn reach_px(residual: &Residual) -> f64 {
+    SHORT_PX + SHORT_LENS * residual.lens_px()
+}
+
 /// Where the sides of short curves of a closed path meet, if the picture has the ink of a corner there.
 pub(super) fn overlooked(residual: &Residual, path: &[CubicBez]) -> Vec<Overlooked> {
-    let grain = GRAIN * residual.grain().max(LEAST_GRAIN);
     let n = path.len();
     let at = |k: usize| &path[k % n];
+    // a run may begin where the path does: it is met whole from behind the longest segment
+    let length = |k: &usize| polygon_px(at(*k));
+    let longest = (0..n).max_by(|a, b| length(a).total_cmp(&length(b)));
+    let first = longest.map_or(0, |k| k + 1);
     let mut corners = Vec::new();
-    let mut i = 0;
-    while i < n {
+    let mut i = first;
+    while i < first + n {
         let longest = (1..=SHORT_RUN.min(n.saturating_sub(2))).rev();
         let found = longest.into_iter().find_map(|count| {
             let run: Vec<CubicBez> = (i..i + count).map(|k| *at(k)).collect();
-            let corner = blunt(residual, (at(i + n - 1), &run, at(i + count)), grain)?;
+            let corner = blunt(residual, (at(i + n - 1), &run, at(i + count)))?;
             Some((corner, count))
         });
         i += found.as_ref().map_or(1, |(_, count)| *count);
@@ -67,9 +73,8 @@ pub(super) fn overlooked(residual: &Residual, path: &[CubicBez]) -> Vec<Overlook
 fn blunt(
     residual: &Residual,
     (before, run, after): (&CubicBez, &[CubicBez], &CubicBez),
-    grain: f64,
 ) -> Option<Overlooked> {
-    let short = SHORT_PX + SHORT_LENS * residual.lens_px();
+    let short = reach_px(residual);
     let start = before.p3;
     let length: f64 = run.iter().map(polygon_px).sum();
     if length > NEEDLE * short {
@@ -96,12 +101,11 @@ fn blunt(
         .into_iter()
         .chain(run.iter().flat_map(along))
         .collect();
-    let weighed = residual.weigh(&Blot::between(tip, &cut, inwards.normalize()));
+    let lacking = residual.lacking(&Blot::between(tip, &cut, inwards.normalize()));
     // ink lies to the left: a corner that turns left holds it
-    let part = turn.signum() * weighed.part;
-    let gain = 0.5 * weighed.squares * (2.0 * part - 1.0) / grain;
+    let part = turn.signum() * lacking;
     let nodes = run.iter().map(|c| c.p0).chain([after.p0]).collect();
-    (part > LIKELY && gain + SIMPLER > 0.0).then_some(Overlooked { tip, nodes })
+    (part > LIKELY).then_some(Overlooked { tip, nodes })
 }
 
 /// Length of a curve's control polygon, px.

@@ -20,7 +20,7 @@ mod residual;
 mod tests;
 
 pub use blunt::Overlooked;
-pub use comparison::{Comparison, Doubts};
+pub use comparison::{Comparison, Doubts, Tip, drawn_in};
 pub use corners::confirmed;
 
 use crate::{

@@ -35,7 +35,8 @@ const REACH_PX: f64 = 2.0;
 
 /// The paths moved to where their blurred fill is most like the picture; each stays as it was if none of its steps makes
 /// it more like.
-pub(super) fn settled(mut residual: Residual, paths: &[BezPath]) -> Vec<BezPath> {
+pub(super) fn settled(residual: &Residual, paths: &[BezPath]) -> Vec<BezPath> {
+    let mut residual = residual.clone();
     let chains = paths.iter().map(|p| {
         let mut chain = Chain::from_path(p, SMOOTH)?;
         divide_at_extrema(&mut chain);

@@ -29,12 +29,6 @@ pub(super) struct Blot {
     variance: [f64; 2],
 }
 
-/// How much of a blot the model lacks, as a part, and the sum of squares of the whole of it.
-pub(super) struct Weighed {
-    pub(super) part: f64,
-    pub(super) squares: f64,
-}
-
 impl Blot {
     /// What lies between a tip and the chords that cut it off, whose first and last points are on its sides;
     /// `along` is a unit vector.
@@ -156,8 +150,8 @@ impl Residual {
         self.lens
     }
 
-    /// What the picture says of a blot of ink that the model lacks.
-    pub(super) fn weigh(&self, blot: &Blot) -> Weighed {
+    /// How much of a blot of ink the picture has and the model lacks, as a part of it.
+    pub(super) fn lacking(&self, blot: &Blot) -> f64 {
         let (along, across) = (blot.along, perp(blot.along));
         let pixel = Contour::PIXEL_BLUR_PX;
         let [va, vc] = blot
@@ -177,10 +171,7 @@ impl Residual {
                 whole += pattern * pattern;
             }
         }
-        Weighed {
-            part: seen / whole.max(1e-12),
-            squares: whole,
-        }
+        seen / whole.max(1e-12)
     }
 
     /// Sum of the squared differences within `reach` px of `p`.

@@ -207,6 +207,71 @@ fn a_corner_that_a_new_fit_draws_too_long_is_given_up() {
     }
 }
 
+/// A block with a notch from above, whose sides bend a little and meet so high.
+fn notched(tip: f64) -> BezPath {
+    let text = format!(
+        "M6.2 4.3L42.1 4.3L42.1 43.6L33.2 43.6C29.4 34 25.8 {0} 24.1 {tip}C22.6 {0} 19.2 34 15.4 43.6L6.2 43.6Z",
+        tip + 9.0,
+    );
+    BezPath::from_svg(&text).unwrap()
+}
+
+#[test]
+fn a_tip_that_was_put_too_far_out_is_drawn_in() {
+    let tip = Point::new(24.1, 15.0);
+    for lens in [0.5, 0.9] {
+        let blur = Contour::PIXEL_BLUR_PX.hypot(lens);
+        let picture = photograph(&notched(tip.y), lens);
+        let (long, blunt) = (notched(tip.y - 3.0), notched(tip.y + 4.0));
+        let doubted = [Doubts {
+            round: vec![Point::new(24.1, tip.y - 3.0)],
+            ..Doubts::default()
+        }];
+        let long = std::slice::from_ref(&long);
+        let seen = Comparison::new(&picture, long, blur);
+        let upheld = seen.upheld(&doubted, (long, &[blunt]));
+        assert!(upheld[0].round.is_empty(), "lens {lens}: {upheld:?}");
+        let drawn = seen.settled(&drawn_in(long, &upheld)).remove(0);
+        let nearest = |path: &BezPath| {
+            let nodes = path.segments().map(|s| s.end().distance(tip));
+            nodes.fold(f64::INFINITY, f64::min)
+        };
+        // 3 px too far out before, and the curve 4 px short
+        assert!(nearest(&drawn) < 2.5, "lens {lens}: {}", nearest(&drawn));
+        // where the curve is what was drawn, the doubt stays
+        let round = [rounded(5.0)];
+        let corner = [square()];
+        let doubted = [Doubts {
+            round: vec![Point::new(40.3, 40.1)],
+            ..Doubts::default()
+        }];
+        let seen = Comparison::new(&photograph(&round[0], lens), &corner, blur);
+        assert_eq!(seen.upheld(&doubted, (&corner, &round)), doubted);
+    }
+}
+
+#[test]
+fn a_run_is_met_wherever_the_path_begins() {
+    let picture = photograph(&square(), 0.9);
+    let segments: Vec<_> = rounded(2.0).segments().collect();
+    for start in 0..segments.len() {
+        let turned = segments.iter().cycle().skip(start).take(segments.len());
+        let mut path = BezPath::from_path_segments(turned.copied());
+        path.close_path();
+        let found = doubts(&picture, &path, Contour::PIXEL_BLUR_PX.hypot(0.9));
+        assert_eq!(found[0].sharp.len(), 1, "from segment {start}");
+    }
+}
+
+#[test]
+fn a_path_that_explains_the_picture_far_worse_is_not_taken() {
+    let picture = photograph(&square(), 0.9);
+    let (right, wrong) = ([square()], [rounded(12.0)]);
+    let seen = Comparison::new(&picture, &right, Contour::PIXEL_BLUR_PX.hypot(0.9));
+    assert_eq!(seen.as_well(right.to_vec(), wrong.to_vec()), right);
+    assert_eq!(seen.as_well(wrong.to_vec(), right.to_vec()), right);
+}
+
 #[test]
 fn nodes_go_where_the_picture_has_them() {
     let truth = "M8.2 8.4L40.3 8.4C40.3 22.4 30.1 40.1 8.2 40.1Z";
