@@ -4,7 +4,8 @@
 //! control point does only where one of all the quadratics on the grid lies near the whole curve; the bytes of
 //! its steps are known but for how far the ends may move. Otherwise there are two control points at least, each
 //! a byte away from the point before; two between a level and an upright tangent stand aslant, as on both lines
-//! at once there is one point only. Equal flags are stored once where three follow each other, which only lines
+//! at once there is one point only. Where that alone leads from extremum to extremum, again and again, the joins
+//! lie half way between such points or are stored themselves. Equal flags are stored once where three follow each other, which only lines
 //! that run alike ask for: a point more takes as many bytes as it could save. Of each contour one step is not
 //! stored, but that to its first point.
 
@@ -13,8 +14,9 @@ mod single;
 use super::curve::{Course, Curve, Node, Span};
 use super::{Rate, Strictness};
 use crate::types::Outline;
-use kurbo::Vec2;
-use single::{Side, singles};
+use kurbo::{Point, Vec2};
+use single::{Side, crossing, singles};
+use std::collections::BTreeMap;
 
 /// Points of which a part of a contour may consist: their flags, and the bytes of the steps to them with those to
 /// the last where the contour begins with it.
@@ -61,6 +63,30 @@ struct Part {
 }
 
 impl Part {
+    const NOTHING: Self = Self {
+        all: 0,
+        begun: u32::MAX / 4,
+        line: None,
+    };
+
+    /// The two one behind the other.
+    fn and(self, next: Self) -> Self {
+        Self {
+            all: self.all + next.all,
+            begun: (self.begun + next.all).min(self.all + next.begun),
+            line: None,
+        }
+    }
+
+    /// No more than either takes.
+    fn or(self, other: Self) -> Self {
+        Self {
+            all: self.all.min(other.all),
+            begun: self.begun.min(other.begun),
+            line: None,
+        }
+    }
+
     fn of(ways: &[Points]) -> Self {
         let least = |bytes: fn(&Points) -> u32| ways.iter().map(bytes).min().unwrap_or(0);
         Self {
@@ -135,8 +161,7 @@ fn parts(course: &Course, terms: Terms) -> Vec<Part> {
                 let steps = vec![(1, 0); 3];
                 return vec![Part::of(&[Points { flags: 3, steps }])];
             }
-            let pairs = sides.windows(2);
-            pairs.map(|s| stretch(curve, [s[0], s[1]], terms)).collect()
+            vec![chain(curve, &sides, terms)]
         }
         Course::Spans(spans) => {
             let mut out = Vec::new();
@@ -149,8 +174,10 @@ fn parts(course: &Course, terms: Terms) -> Vec<Part> {
                 let mut sides = vec![(Side::Node(*from), curve.first)];
                 sides.extend(gates.map(|&g| (Side::Gate(g), g.at)));
                 sides.push((Side::Node(*to), curve.last));
-                let pairs = sides.windows(2);
-                out.extend(pairs.map(|s| stretch(curve, [s[0], s[1]], terms)));
+                out.push(match sides[..] {
+                    [from, to] => stretch(curve, [from, to], terms),
+                    _ => chain(curve, &sides, terms),
+                });
             }
             out
         }
@@ -222,6 +249,46 @@ fn line(from: Node, to: Node, terms: Terms) -> Part {
     }
 }
 
+/// A curve from node to node, or around a ring, by way of its extrema. A single control point at the crossing of
+/// two tangents is known, so that between two of them the join lies half way or is stored itself.
+fn chain(curve: &Curve, sides: &[(Side, usize)], terms: Terms) -> Part {
+    let points = |steps: &[u32]| {
+        let flags = u32::try_from(steps.len()).unwrap_or(u32::MAX);
+        let steps = steps.iter().map(|&bytes| (bytes, 0)).collect();
+        Part::of(&[Points { flags, steps }])
+    };
+    let [one, two] = [points(&[1]), points(&[1, 2])];
+    // So far with a control point that is not known, and with one that is by the join after it.
+    let mut free = Part::NOTHING;
+    let mut known: Option<(Point, BTreeMap<usize, Part>)> = None;
+    for pair in sides.windows(2) {
+        let pair = [pair[0], pair[1]];
+        let joins = known.iter().flat_map(|k| k.1.values());
+        let any = joins.fold(free, |least, &part| least.or(part));
+        let Some(found) = crossing(curve, pair, terms.limit) else {
+            (free, known) = (any.and(stretch(curve, pair, terms)), None);
+            continue;
+        };
+        let mut next: BTreeMap<usize, Part> = BTreeMap::new();
+        for (i, j) in found.pairs {
+            let mut part = free;
+            if let Some((control, parts)) = &known {
+                let half_way = control.midpoint(found.control).distance(found.joins[i]) < 1e-9;
+                let join = if half_way { Part::NOTHING } else { one };
+                let by_it = parts.get(&i).map(|p| p.and(join));
+                part = by_it.map_or(part, |p| part.or(p));
+            }
+            let part = part.and(one);
+            next.entry(j)
+                .and_modify(|p| *p = p.or(part))
+                .or_insert(part);
+        }
+        (free, known) = (any.and(two), Some((found.control, next)));
+    }
+    let joins = known.iter().flat_map(|k| k.1.values());
+    joins.fold(free, |least, &part| least.or(part))
+}
+
 fn stretch(curve: &Curve, sides: [(Side, usize); 2], terms: Terms) -> Part {
     let [(a, _), (b, _)] = sides;
     let node = match b {
@@ -235,11 +302,7 @@ fn stretch(curve: &Curve, sides: [(Side, usize); 2], terms: Terms) -> Part {
         let flags = u32::try_from(steps.len()).unwrap_or(u32::MAX);
         Points { flags, steps }
     };
-    let aslant = match (a, b) {
-        (Side::Gate(g), Side::Gate(h)) if g.horizontal != h.horizontal => 2,
-        _ => 1,
-    };
-    let mut ways = vec![points(&[1, aslant], 1)];
+    let mut ways = vec![points(&[1, 1], 1)];
     let single = singles(curve, sides, terms.limit);
     ways.extend(single.into_iter().map(|[to, from]| points(&[to], from)));
     let mut part = Part::of(&ways);

@@ -5,6 +5,9 @@ use super::super::search::on_gate;
 use super::step;
 use kurbo::{ParamCurve, Point, QuadBez, Rect, Vec2};
 
+/// Where a quadratic is looked at, the likeliest failure first.
+const LOOK: [f64; 7] = [0.5, 0.25, 0.75, 0.125, 0.375, 0.625, 0.875];
+
 /// Where a stretch of a curve begins or ends.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Side {
@@ -22,6 +25,14 @@ struct Places {
 struct Tube(Vec<Point>);
 
 impl Tube {
+    /// What lies between two sides, and what stays near their lines beyond them.
+    fn between(curve: &Curve, sides: [(Side, usize); 2], reach: f64) -> Self {
+        let [(from, _), (_, to)] = sides.map(|(side, at)| side.beside(curve, at, reach));
+        let mut dots: Vec<Point> = curve.dots[from..=to].iter().map(|o| o.p).collect();
+        dots.sort_by(|p, q| p.x.total_cmp(&q.x));
+        Self(dots)
+    }
+
     /// Whether the curve comes as near to a point as `reach`.
     fn near(&self, q: Point, reach: f64) -> bool {
         let first = self.0.partition_point(|p| p.x < q.x - reach);
@@ -113,23 +124,51 @@ impl Side {
     }
 }
 
+/// The control point where the tangents of two neighbouring extrema cross, and between which of their joins a
+/// single quadratic with it lies near the curve.
+pub(super) struct Crossing {
+    pub(super) control: Point,
+    /// Where a quadratic may leave the first extremum.
+    pub(super) joins: Vec<Point>,
+    /// Numbers of joins at the first and at the second.
+    pub(super) pairs: Vec<(usize, usize)>,
+}
+
+/// None where the tangents do not cross.
+pub(super) fn crossing(curve: &Curve, [a, b]: [(Side, usize); 2], limit: f64) -> Option<Crossing> {
+    let (Side::Gate(g), Side::Gate(h)) = (a.0, b.0) else {
+        return None;
+    };
+    if g.horizontal == h.horizontal {
+        return None;
+    }
+    let control = on_gate(h, on_gate(g, Point::ORIGIN));
+    let reach = limit + 0.5 * curve.step;
+    let tube = Tube::between(curve, [a, b], reach);
+    let [joins, tails] = [g, h].map(|g| ends(curve, g, reach));
+    let fits = |&(i, j): &(usize, usize)| {
+        let quad = QuadBez::new(joins[i], control, tails[j]);
+        LOOK.iter().all(|&u| tube.near(quad.eval(u), reach))
+    };
+    let all = (0..joins.len()).flat_map(|i| (0..tails.len()).map(move |j| (i, j)));
+    let pairs = all.filter(fits).collect();
+    Some(Crossing {
+        control,
+        joins,
+        pairs,
+    })
+}
+
 /// For all single quadratics from one side to the other that lie near the curve, the fewest bytes of the steps to
 /// the control point and from it.
 pub(super) fn singles(curve: &Curve, [a, b]: [(Side, usize); 2], limit: f64) -> Vec<[u32; 2]> {
     /// More are not looked at, and any is thought possible.
     const MOST: f64 = 3e6;
-    /// Where a quadratic is looked at, the likeliest failure first.
-    const LOOK: [f64; 7] = [0.5, 0.25, 0.75, 0.125, 0.375, 0.625, 0.875];
     let reach = limit + 0.5 * curve.step;
-    let [(from, _), (_, to)] = [a, b].map(|(side, at)| side.beside(curve, at, reach));
-    let mut dots: Vec<Point> = curve.dots[from..=to].iter().map(|o| o.p).collect();
-    let box_of = |r: Rect, p: &Point| r.union_pt(*p);
-    let hull = dots
-        .iter()
-        .fold(Rect::from_points(dots[0], dots[0]), box_of);
+    let tube = Tube::between(curve, [a, b], reach);
+    let from = Rect::from_points(tube.0[0], tube.0[0]);
+    let hull = tube.0.iter().fold(from, |r, &p| r.union_pt(p));
     let hull = hull.inflate(2.0 * reach, 2.0 * reach);
-    dots.sort_by(|p, q| p.x.total_cmp(&q.x));
-    let tube = Tube(dots);
     let [heads, tails] = [a, b].map(|(side, at)| side.places(curve, at, reach));
     let (fixed, also) = (a.0.fixes(), b.0.fixes());
     let both = [0, 1].map(|k| [fixed[k], also[k]]);
