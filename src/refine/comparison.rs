@@ -179,13 +179,15 @@ impl Comparison {
 pub fn drawn_in(paths: &[BezPath], doubts: &[Doubts]) -> Vec<BezPath> {
     let draw = |(path, doubts): (&BezPath, &Doubts)| {
         let mut segments: Vec<PathSeg> = path.segments().collect();
-        for i in 0..segments.len() {
+        for tip in &doubts.kept {
+            let off = |i: &usize| segments[*i].start().distance(tip.at);
+            let nearest = (0..segments.len()).min_by(|a, b| off(a).total_cmp(&off(b)));
+            let Some(i) = nearest.filter(|i| off(i) <= SAME_PX) else {
+                continue;
+            };
             let last = (i + segments.len() - 1) % segments.len();
-            let at = segments[i].start();
-            if let Some(tip) = doubts.kept.iter().find(|t| t.at.distance(at) <= SAME_PX) {
-                segments[last] = end_moved(segments[last], tip.inwards);
-                segments[i] = end_moved(segments[i].reverse(), tip.inwards).reverse();
-            }
+            segments[last] = end_moved(segments[last], tip.inwards);
+            segments[i] = end_moved(segments[i].reverse(), tip.inwards).reverse();
         }
         closed(segments)
     };
