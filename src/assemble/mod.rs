@@ -161,6 +161,22 @@ impl Draft {
         }
     }
 
+    /// A drawn shape of which nothing is known but what it is.
+    #[cfg(test)]
+    fn drawn(label: &str, contours: Vec<kurbo::BezPath>) -> Self {
+        Self {
+            id: names::identify(&Label(label.to_owned())).unwrap(),
+            codepoints: Vec::new(),
+            outline: Outline::new(contours).unwrap(),
+            plates: Vec::new(),
+            given: None,
+            joint: (None, None),
+            cursive: (None, None),
+            advance: 0.0,
+            parts: Vec::new(),
+        }
+    }
+
     /// Whether it is a sign that stands above or below letters.
     fn is_mark(&self) -> bool {
         matches!(self.id.chars[..], [c] if is_combining_mark(c))

@@ -100,23 +100,11 @@ fn widened(rows: &[Option<f64>], near: usize) -> Vec<Option<f64>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::assemble::names::identify;
-    use crate::types::{Label, Outline};
-    use kurbo::{BezPath, Rect, Shape};
+    use kurbo::{Rect, Shape};
 
     fn draft(label: &str, parts: &[Rect]) -> Draft {
-        let contours: Vec<BezPath> = parts.iter().map(|r| r.to_path(0.1)).collect();
-        Draft {
-            id: identify(&Label(label.to_owned())).unwrap(),
-            codepoints: Vec::new(),
-            outline: Outline::new(contours).unwrap(),
-            plates: Vec::new(),
-            given: None,
-            joint: (None, None),
-            cursive: (None, None),
-            advance: 0.0,
-            parts: Vec::new(),
-        }
+        let contours = parts.iter().map(|r| r.to_path(0.1));
+        Draft::drawn(label, contours.collect())
     }
 
     #[test]

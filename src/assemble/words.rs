@@ -363,8 +363,6 @@ fn ink(drafts: &[Draft], piece: &[usize], script: Script, pen: &mut f64) -> Opti
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::assemble::names::identify;
-    use crate::types::Label;
     use kurbo::{Affine, BezPath};
     use proptest::prelude::*;
 
@@ -376,17 +374,8 @@ mod tests {
         if ["i", "ن"].contains(&label) {
             contours.push(Rect::new(-20.0, 450.0, 30.0, 500.0).to_path(0.1));
         }
-        let mut draft = Draft {
-            id: identify(&Label(label.to_owned())).unwrap(),
-            codepoints: Vec::new(),
-            outline: Outline::new(contours).unwrap(),
-            plates: Vec::new(),
-            given: None,
-            joint: (None, None),
-            cursive: (None, None),
-            advance: room.0 + width + room.1,
-            parts: Vec::new(),
-        };
+        let mut draft = Draft::drawn(label, contours);
+        draft.advance = room.0 + width + room.1;
         draft.shift(room.0);
         draft
     }

@@ -115,6 +115,7 @@ fn optimal(folder: &Path) {
     );
     row("africa.png", &fixed, "28 given");
     row("africa-507.png", &fixed, "28 given");
+    row("africa-drawn.png", &fixed, "28 given");
     let single = Periodic {
         step: 0.0,
         ..Periodic::default()
@@ -122,6 +123,7 @@ fn optimal(folder: &Path) {
     let names = [
         "africa.png",
         "africa-507.png",
+        "africa-drawn.png",
         "key-1.png",
         "key-2.png",
         "key-3.png",

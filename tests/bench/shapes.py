@@ -74,6 +74,19 @@ def length(image):
         at, back, count = (at[0] + around[way][0], at[1] + around[way][1]), (way + 4) % 8, count + 1
 
 
+def drawn(name, width, height):
+    """A silhouette given by its outline, filled, its box brought to width x height pixels."""
+    outline = Image.open(source / name).convert("L")
+    ground = Image.new("L", (outline.width + 2, outline.height + 2), 255)
+    # the outline is the rarer of the two colours
+    dark = sum(outline.histogram()[:128]) * 2 < outline.width * outline.height
+    ground.paste(outline if dark else outline.point(lambda v: 255 - v), (1, 1))
+    ImageDraw.floodfill(ground, (0, 0), 128)
+    shape = ground.point(lambda v: 0 if v == 128 else 255)
+    shape = shape.crop(shape.getbbox()).point(lambda v: 255 - v)
+    return shape.resize((width, height), Image.LANCZOS).point(lambda v: 255 if v > 127 else 0)
+
+
 def word(text, font, size, name):
     """A word in black on white, on a pixel grid of that size."""
     face = ImageFont.truetype(str(font), size)
@@ -84,6 +97,7 @@ def word(text, font, size, name):
 
 
 africa()
+drawn("Africa.bmp", 164, 175).save(out / "africa-drawn.png")
 word("علي", arabic, 274, "ali.png")
 word("D", latin, 212, "d.png")
 word("س", arabic, 200, "seen.png")
