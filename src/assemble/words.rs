@@ -32,8 +32,8 @@ const SHRINK: f64 = 1.0;
 /// Gaps further from the usual than so many times the median distance do not count.
 const SLIPS: f64 = 3.0;
 
-/// An Arabic gap tells the usual room where it is no narrower than that part of two letters' own: tails and tops reach into
-/// the others, and there hands and fonts kern.
+/// An Arabic gap tells of room where it is no narrower than that part of two letters' own: tails and tops reach into the
+/// others, and there hands and fonts kern.
 const OPEN: f64 = 0.75;
 
 /// By how much a written piece may be wider or narrower than its letters, part of its width, and em.
@@ -161,21 +161,19 @@ fn is_free(draft: &Draft, side: Side) -> bool {
     joint.is_none() && draft.given.is_none()
 }
 
-/// What open gaps want in the median, and what single sides want beyond half of it. `side` is the room of an Arabic letter
-/// without tail or top.
+/// What gaps want in the median, and what single sides want beyond half of it; from open gaps where they are enough. `side`
+/// is the room of an Arabic letter without tail or top.
 fn room(gaps: &[&Measured], side: f64) -> (f64, BTreeMap<Edge, f64>) {
-    let is_open = |g: &&&Measured| g.script == Script::Rightward || g.gap.set >= OPEN * 2.0 * side;
-    let open: Vec<f64> = gaps.iter().filter(is_open).map(|g| g.off()).collect();
-    let enough = open.len() >= FEWEST;
-    let usual = median(if enough {
-        open
-    } else {
-        gaps.iter().map(|g| g.off()).collect()
-    });
-    let usual = usual.unwrap_or(0.0);
-    let most = SLIPS * median(gaps.iter().map(|g| (g.off() - usual).abs())).unwrap_or(0.0);
-    let close = gaps.iter().filter(|g| (g.off() - usual).abs() <= most);
-    let close: Vec<(&[Edge; 2], f64)> = close.map(|g| (&g.sides, g.off() - usual)).collect();
+    let is_open = |g: &Measured| g.script == Script::Rightward || g.gap.set >= OPEN * 2.0 * side;
+    let open = gaps.iter().filter(|g| is_open(g)).count();
+    let told = gaps.iter().filter(|g| open < FEWEST || is_open(g));
+    let usual = median(told.clone().map(|g| g.off())).unwrap_or(0.0);
+    let beyond = |g: &Measured| g.off() - usual;
+    let most = SLIPS * median(told.clone().map(|g| beyond(g).abs())).unwrap_or(0.0);
+    let close = told
+        .map(|g| (&g.sides, beyond(g)))
+        .filter(|g| g.1.abs() <= most);
+    let close: Vec<(&[Edge; 2], f64)> = close.collect();
     let edges: BTreeSet<Edge> = close.iter().flat_map(|g| *g.0).collect();
     let places: BTreeMap<Edge, usize> = edges.iter().copied().zip(0..).collect();
     let mut normal = DMatrix::identity(places.len(), places.len()) * SHRINK;
