@@ -27,6 +27,12 @@ impl Coverage {
         }
     }
 
+    /// Columns, px.
+    #[must_use]
+    pub const fn width(&self) -> usize {
+        self.width
+    }
+
     /// Adds a closed polygon, px, y up. Points that are not finite are passed over.
     pub fn add(&mut self, ring: &[Point]) {
         let top = self.height as f64;
@@ -108,13 +114,25 @@ impl Coverage {
 
     /// The same in place of what `out` held.
     pub fn write(&self, out: &mut Vec<f32>) {
-        out.clear();
-        for line in self.differences.chunks_exact(self.width + 2) {
+        /// Neighbours that are looked at together: most lie far from any edge.
+        const TOGETHER: usize = 8;
+        out.resize(self.width * self.height, 0.0);
+        let lines = self.differences.chunks_exact(self.width + 2);
+        for (line, row) in lines.zip(out.chunks_exact_mut(self.width.max(1))) {
             let mut sum = 0.0;
-            out.extend(line[..self.width].iter().map(|d| {
-                sum += d;
-                sum
-            }));
+            for (line, row) in line[..self.width]
+                .chunks(TOGETHER)
+                .zip(row.chunks_mut(TOGETHER))
+            {
+                if line.iter().fold(0, |any, d| any | d.to_bits()) == 0 {
+                    row.fill(sum);
+                    continue;
+                }
+                for (d, to) in line.iter().zip(row) {
+                    sum += d;
+                    *to = sum;
+                }
+            }
         }
     }
 }

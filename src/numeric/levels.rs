@@ -36,42 +36,52 @@ pub fn normalised(values: &[f32], width: usize, model: &[f32]) -> Vec<f32> {
     let w = width.max(1);
     let sums = told(values, w, model);
     let columns = w.div_ceil(BLOCK);
-    let total = sums
-        .each_ref()
-        .map(|s| s.iter().map(|v| f64::from(*v)).sum::<f64>());
     let mean = |sum: f64, count: f64, none: f64| if count > 0.0 { sum / count } else { none };
-    let ink = single(mean(total[0], total[1], 1.0));
-    let paper = single(mean(total[2], total[3], 0.0));
+    let [ink, inks, paper, papers] = sums.each_ref().map(|s| total(s));
+    let ink = single(mean(ink, inks, 1.0));
+    let paper = single(mean(paper, papers, 0.0));
     if ink - paper < CONTRAST {
         return values.to_vec();
     }
-    let open = sums[1]
-        .iter()
-        .zip(&sums[3])
-        .map(|(i, p)| i.max(*p) < SURE * FULL);
-    let near = dilated(&open.collect::<Vec<_>>(), columns, NEAR);
-    let mut around = sums.clone();
+    let counts = || sums[1].iter().zip(&sums[3]);
+    let open: Vec<bool> = counts().map(|(i, p)| i.max(*p) < SURE * FULL).collect();
+    let near = dilated(&open, columns, NEAR);
+    let sure = |((i, p), near): ((&f32, &f32), &bool)| {
+        if *near {
+            f32::NAN
+        } else {
+            f32::from(u8::from(i > p))
+        }
+    };
+    let sure: Vec<f32> = counts().zip(&near).map(sure).collect();
+    let mut around = sums;
     around
         .iter_mut()
         .for_each(|s| blur(s, columns, SPREAD_PX / BLOCK as f64));
-    let local = |sum: f32, count: f32, global: f32| {
-        (sum / FULL + GLOBAL_WEIGHT * global) / (count / FULL + GLOBAL_WEIGHT)
-    };
-    let mut levels = [Vec::new(), Vec::new()];
-    for block in 0..near.len() {
-        let [i, iw, p, pw] = around.each_ref().map(|s| s[block]);
-        let (i, p) = (local(i, iw, ink), local(p, pw, paper));
-        let (i, p) = if i - p >= CONTRAST {
-            (i, p)
-        } else {
-            (ink, paper)
+    let [i, inks, p, papers] = &around;
+    let mut levels = [(i, inks, ink), (p, papers, paper)].map(|(sums, counts, global)| {
+        let local = |(sum, count): (&f32, &f32)| {
+            (sum / FULL + GLOBAL_WEIGHT * global) / (count / FULL + GLOBAL_WEIGHT)
         };
-        levels[0].push(i);
-        levels[1].push(p);
+        sums.iter().zip(counts).map(local).collect::<Vec<f32>>()
+    });
+    let [inks, papers] = &mut levels;
+    for (i, p) in inks.iter_mut().zip(papers) {
+        let told = *i - *p >= CONTRAST;
+        *i = if told { *i } else { ink };
+        *p = if told { *p } else { paper };
     }
-    let far =
-        |block: usize| (!near[block]).then(|| f32::from(u8::from(sums[1][block] > sums[3][block])));
-    between(values, w, &levels, far)
+    between(values, w, &levels, &sure)
+}
+
+/// Sum of values, several at a time.
+fn total(values: &[f32]) -> f64 {
+    let mut sums = [0.0; 8];
+    for eight in values.chunks(sums.len()) {
+        let pairs = sums.iter_mut().zip(eight);
+        pairs.for_each(|(sum, v)| *sum += f64::from(*v));
+    }
+    sums.iter().sum()
 }
 
 /// What pixels tell of the levels, summed over blocks: ink value times weight, ink weight, paper value times weight,
@@ -126,50 +136,52 @@ fn smeared(bits: &[bool], (line, step): (usize, usize), reach: usize) -> Vec<boo
 }
 
 /// Where each value lies between the levels of ink and paper around it, which are read between the blocks' centres; or
-/// what `far` says of its block.
-fn between(
-    values: &[f32],
-    w: usize,
-    levels: &[Vec<f32>; 2],
-    far: impl Fn(usize) -> Option<f32>,
-) -> Vec<f32> {
+/// what is `sure` of its block, where that is a number.
+fn between(values: &[f32], w: usize, levels: &[Vec<f32>; 2], sure: &[f32]) -> Vec<f32> {
     let columns = w.div_ceil(BLOCK);
-    let rows = levels[0].len() / columns;
-    let mut lines = [(); 2].map(|()| vec![0.0f32; BLOCK * columns]);
-    // with the first and the last once more
-    let mut row = vec![0.0f32; columns + 2];
+    let last = (sure.len() / columns.max(1)).saturating_sub(1);
+    let line = |row: usize| {
+        let at = row.min(last) * columns..(row.min(last) + 1) * columns;
+        levels.each_ref().map(|l| widened(&l[at.clone()]))
+    };
+    // of the row of blocks above, the own and the one below
+    let mut lines = [0, 0, 1].map(line);
+    let mut known = vec![0.0; BLOCK * columns];
     let mut out = Vec::with_capacity(values.len());
     for (y, values) in values.chunks_exact(w).enumerate() {
         let own = y / BLOCK;
-        let other = if y % BLOCK == 0 {
-            own.saturating_sub(1)
-        } else {
-            (own + 1).min(rows - 1)
-        };
-        for (line, level) in lines.iter_mut().zip(levels) {
-            let [own, other] = [own, other].map(|r| &level[r * columns..][..columns]);
-            let mixed = own.iter().zip(other).map(|(a, b)| b + OWN * (a - b));
-            row[1..].iter_mut().zip(mixed).for_each(|(to, v)| *to = v);
-            (row[0], row[columns + 1]) = (row[1], row[columns]);
-            for (to, blocks) in line.chunks_exact_mut(BLOCK).zip(row.windows(3)) {
-                to[0] = blocks[0] + OWN * (blocks[1] - blocks[0]);
-                to[1] = blocks[2] + OWN * (blocks[1] - blocks[2]);
+        if y % BLOCK == 0 {
+            if own > 0 {
+                lines.rotate_left(1);
+                lines[2] = line(own + 1);
             }
+            let sure = known.chunks_exact_mut(BLOCK).zip(&sure[own * columns..]);
+            sure.for_each(|(to, v)| to.fill(*v));
         }
-        let [ink, paper] = &lines;
-        let start = out.len();
-        let levels = ink.iter().zip(paper);
-        out.extend(
-            values
-                .iter()
-                .zip(levels)
-                .map(|(v, (i, p))| (v - p) / (i - p)),
-        );
-        for (block, to) in out[start..].chunks_mut(BLOCK).enumerate() {
-            if let Some(known) = far(own * columns + block) {
-                to.fill(known);
-            }
-        }
+        let [above, [ink, paper], below] = &lines;
+        let [inks, papers] = if y % BLOCK == 0 { above } else { below };
+        let levels = ink.iter().zip(inks).zip(paper.iter().zip(papers));
+        let pixels = values.iter().zip(levels).zip(&known);
+        out.extend(pixels.map(|((v, ((ink, inks), (paper, papers))), known)| {
+            let ink = inks + OWN * (ink - inks);
+            let paper = papers + OWN * (paper - papers);
+            let part = (v - paper) / (ink - paper);
+            if known.is_nan() { part } else { *known }
+        }));
+    }
+    out
+}
+
+/// Levels of a row of blocks, read at each pixel's column.
+fn widened(blocks: &[f32]) -> Vec<f32> {
+    let ends = |i: usize| blocks.get(i).copied().unwrap_or_default();
+    let mut row = vec![ends(0)];
+    row.extend(blocks);
+    row.push(ends(blocks.len().saturating_sub(1)));
+    let mut out = vec![0.0; BLOCK * blocks.len()];
+    for (to, b) in out.chunks_exact_mut(BLOCK).zip(row.windows(3)) {
+        to[0] = b[0] + OWN * (b[1] - b[0]);
+        to[1] = b[2] + OWN * (b[1] - b[2]);
     }
     out
 }

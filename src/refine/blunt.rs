@@ -34,7 +34,7 @@ pub struct Overlooked {
 
 impl Overlooked {
     /// Whether the picture is explained as well with the corner as before.
-    pub(super) fn explains(&self, before: &Residual, after: &Residual) -> bool {
+    pub(super) fn explains(&self, before: &Residual<'_>, after: &Residual<'_>) -> bool {
         let reach = reach_px(before);
         let gain = before.squares(self.tip, reach) - after.squares(self.tip, reach);
         0.5 * gain + SIMPLER * GRAIN * before.grain() >= 0.0
@@ -42,12 +42,12 @@ impl Overlooked {
 }
 
 /// How far around a corner the picture tells it from a curve, px.
-pub(super) fn reach_px(residual: &Residual) -> f64 {
+pub(super) fn reach_px(residual: &Residual<'_>) -> f64 {
     SHORT_PX + SHORT_LENS * residual.lens_px()
 }
 
 /// Where the sides of short curves of a closed path meet, if the picture has the ink of a corner there.
-pub(super) fn overlooked(residual: &Residual, path: &[CubicBez]) -> Vec<Overlooked> {
+pub(super) fn overlooked(residual: &Residual<'_>, path: &[CubicBez]) -> Vec<Overlooked> {
     let n = path.len();
     let at = |k: usize| &path[k % n];
     // a run may begin where the path does: it is met whole from behind the longest segment
@@ -71,7 +71,7 @@ pub(super) fn overlooked(residual: &Residual, path: &[CubicBez]) -> Vec<Overlook
 
 /// The corner that a run of curves between two sides stands for, if it is short and the picture bears that out.
 fn blunt(
-    residual: &Residual,
+    residual: &Residual<'_>,
     (before, run, after): (&CubicBez, &[CubicBez], &CubicBez),
 ) -> Option<Overlooked> {
     let short = reach_px(residual);

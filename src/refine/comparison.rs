@@ -36,7 +36,7 @@ pub struct Tip {
 /// The grey picture beside fitted paths.
 #[derive(Debug)]
 pub struct Comparison {
-    residual: Residual,
+    residual: Residual<'static>,
 }
 
 impl Comparison {

@@ -50,7 +50,7 @@ pub fn confirmed(gray: &Gray, sharp: &[Cornered], seen: &[Vec<bool>]) -> Vec<Vec
 }
 
 /// The corners of a closed path that are drawn round.
-pub(super) fn undrawn(residual: &Residual, path: &[CubicBez]) -> Vec<Point> {
+pub(super) fn undrawn(residual: &Residual<'_>, path: &[CubicBez]) -> Vec<Point> {
     let limit = limit(residual) * DOUBT[1];
     let before = path.iter().cycle().skip(path.len().saturating_sub(1));
     let corners = path.iter().zip(before).filter_map(|(after, before)| {
@@ -66,7 +66,7 @@ pub(super) fn undrawn(residual: &Residual, path: &[CubicBez]) -> Vec<Point> {
 
 /// From the corner between two segments to the tip that the picture has ink for: a corner between sides that hardly
 /// part is easily put pixels too far out.
-pub(super) fn inwards(residual: &Residual, before: &PathSeg, after: &PathSeg) -> Vec2 {
+pub(super) fn inwards(residual: &Residual<'_>, before: &PathSeg, after: &PathSeg) -> Vec2 {
     let sides = [before, after].map(PathSeg::to_cubic);
     let (u, v) = (arriving(&sides[0]), leaving(&sides[1]));
     let (u, v) = (u.normalize(), v.normalize());
@@ -93,13 +93,13 @@ pub(super) fn inwards(residual: &Residual, before: &PathSeg, after: &PathSeg) ->
 }
 
 /// Largest radius, px, of an arc that is still taken for a corner.
-fn limit(residual: &Residual) -> f64 {
+fn limit(residual: &Residual<'_>) -> f64 {
     ROUND_PX + ROUND_LENS * residual.lens_px()
 }
 
 /// How much of the ink that an arc of `radius` px would leave out of a corner is lacking, as a part; negative where
 /// there is too much. Nothing where the turn is too small to tell.
-fn round(residual: &Residual, at: Point, (u, v): (Vec2, Vec2), radius: f64) -> Option<f64> {
+fn round(residual: &Residual<'_>, at: Point, (u, v): (Vec2, Vec2), radius: f64) -> Option<f64> {
     let turn = u.cross(v).atan2(u.dot(v));
     let inwards = v.normalize() - u.normalize();
     (turn.abs() >= TELLING && inwards.hypot() > 1e-9).then(|| {

@@ -73,7 +73,7 @@ impl<'a> Ring<'a> {
         Self { from, points }
     }
 
-    fn step(&mut self, residual: &Residual) {
+    fn step(&mut self, residual: &Residual<'_>) {
         let n = self.points.len();
         let (start, corners) = (self.from.0.points(), &self.from.1);
         let mut corner = vec![false; n];

@@ -35,8 +35,7 @@ const REACH_PX: f64 = 2.0;
 
 /// The paths moved to where their blurred fill is most like the picture; each stays as it was if none of its steps makes
 /// it more like.
-pub(super) fn settled(residual: &Residual, paths: &[BezPath]) -> Vec<BezPath> {
-    let mut residual = residual.clone();
+pub(super) fn settled(residual: &Residual<'_>, paths: &[BezPath]) -> Vec<BezPath> {
     let chains = paths.iter().map(|p| {
         let mut chain = Chain::from_path(p, SMOOTH)?;
         divide_at_extrema(&mut chain);
@@ -45,7 +44,7 @@ pub(super) fn settled(residual: &Residual, paths: &[BezPath]) -> Vec<BezPath> {
     let start: Vec<Option<Chain>> = chains.collect();
     let mut now = start.clone();
     let mut rings: Vec<Vec<Point>> = paths.iter().map(fine).collect();
-    residual.update(rings.iter().map(Vec::as_slice));
+    let mut residual = residual.against(rings.iter().map(Vec::as_slice));
     let mut least: Vec<f64> = rings.iter().map(|r| residual.along(r)).collect();
     let mut best = paths.to_vec();
     let mut refit = Refit::default();
@@ -77,7 +76,7 @@ fn fine(path: &BezPath) -> Vec<Point> {
 }
 
 /// Moves a chain by what the differences along it say.
-fn step(chain: &mut Chain, residual: &Residual, refit: &mut Refit) {
+fn step(chain: &mut Chain, residual: &Residual<'_>, refit: &mut Refit) {
     for i in 0..chain.nodes.len() {
         if is_soft(chain, i) {
             soften(&mut chain.nodes[i]);

@@ -10,7 +10,7 @@ use crate::{
     types::{Contour, Gray},
 };
 use kurbo::{Point, Vec2};
-use std::f64::consts::TAU;
+use std::{borrow::Cow, f64::consts::TAU};
 
 /// The neighbourhood that moves an edge is at least this wide, px: narrower, it would hang on the one
 /// pixel that happens to be next.
@@ -62,16 +62,14 @@ impl Blot {
 }
 
 /// Picture minus model.
-#[derive(Debug, Clone)]
-pub(super) struct Residual {
+#[derive(Debug)]
+pub(super) struct Residual<'g> {
+    /// the picture's coverage
+    seen: Cow<'g, Gray>,
     /// picture minus model, row by row from the top
     off: Vec<f32>,
-    /// the picture's coverage
-    seen: Vec<f32>,
     /// fill of the polygons, before the lens
     fill: Coverage,
-    width: usize,
-    height: usize,
     /// deviation of the lens' blur alone, px
     lens: f64,
     /// deviation of the neighbourhood's weights, px
@@ -80,7 +78,7 @@ pub(super) struct Residual {
     gain: f64,
 }
 
-impl Residual {
+impl Residual<'static> {
     /// The picture against the fill of `rings`, both blurred by `blur_px` with the pixel's own box.
     pub(super) fn new<'r>(
         gray: &Gray,
@@ -88,50 +86,50 @@ impl Residual {
         blur_px: f64,
     ) -> Self {
         let pixel = Contour::PIXEL_BLUR_PX;
+        let lens = (blur_px * blur_px - pixel * pixel).max(0.0).sqrt();
         let spread = blur_px.max(MIN_SPREAD_PX);
+        let mut fill = Coverage::new(gray.width(), gray.height());
+        let mut off = Vec::new();
+        draw(rings, (&mut fill, &mut off), lens);
+        // with the edges known, pixels up to them say what ink and paper are
+        let seen = normalised(gray.samples(), gray.width(), &off);
         let mut residual = Self {
-            off: Vec::new(),
-            seen: Vec::new(),
-            fill: Coverage::new(gray.width(), gray.height()),
-            width: gray.width(),
-            height: gray.height(),
-            lens: (blur_px * blur_px - pixel * pixel).max(0.0).sqrt(),
+            seen: Cow::Owned(gray.with_samples(seen)),
+            off,
+            fill,
+            lens,
             spread,
             // a straight edge moved by 1 px changes the pixels by its own profile's slope, a Gaussian of
             // `blur_px`, of which the weights see one of both deviations together
             gain: TAU.sqrt() * blur_px.hypot(spread),
         };
-        residual.draw(rings);
-        // with the edges known, pixels up to them say what ink and paper are
-        residual.seen = normalised(gray.samples(), gray.width(), &residual.off);
         residual.compare();
         residual
     }
+}
 
+impl Residual<'_> {
     /// The same picture and levels against other rings.
-    pub(super) fn against<'r>(&self, rings: impl Iterator<Item = &'r [Point]>) -> Self {
-        let mut residual = self.clone();
+    pub(super) fn against<'r>(&self, rings: impl Iterator<Item = &'r [Point]>) -> Residual<'_> {
+        let mut residual = Residual {
+            seen: Cow::Borrowed(&*self.seen),
+            off: Vec::new(),
+            fill: Coverage::new(self.seen.width(), self.seen.height()),
+            ..*self
+        };
         residual.update(rings);
         residual
     }
 
     /// The same picture against other rings that hardly differ: levels of ink and paper stay.
     pub(super) fn update<'r>(&mut self, rings: impl Iterator<Item = &'r [Point]>) {
-        self.draw(rings);
+        draw(rings, (&mut self.fill, &mut self.off), self.lens);
         self.compare();
-    }
-
-    /// Leaves the model in place of the differences.
-    fn draw<'r>(&mut self, rings: impl Iterator<Item = &'r [Point]>) {
-        self.fill.clear();
-        rings.for_each(|r| self.fill.add(r));
-        self.fill.write(&mut self.off);
-        blur(&mut self.off, self.width, self.lens);
     }
 
     /// From the model to the differences.
     fn compare(&mut self) {
-        let pairs = self.off.iter_mut().zip(&self.seen);
+        let pairs = self.off.iter_mut().zip(self.seen.samples());
         pairs.for_each(|(model, seen)| *model = seen - *model);
     }
 
@@ -159,15 +157,15 @@ impl Residual {
             .map(|v| v + self.lens * self.lens + pixel * pixel);
         let height = blot.ink / (TAU * (va * vc).sqrt());
         let reach = 3.0 * va.max(vc).sqrt();
-        let (cx, cy) = (blot.at.x - 0.5, self.height as f64 - blot.at.y - 0.5);
+        let (cx, cy) = (blot.at.x - 0.5, self.seen.height() as f64 - blot.at.y - 0.5);
         let span = |c: f64, n: usize| index((c - reach).ceil())..index(c + reach + 1.0).min(n);
         let (mut seen, mut whole) = (0.0, 0.0);
-        for y in span(cy, self.height) {
-            for x in span(cx, self.width) {
+        for y in span(cy, self.seen.height()) {
+            for x in span(cx, self.seen.width()) {
                 let d = Vec2::new(x as f64 - cx, cy - y as f64);
                 let (a, c) = (d.dot(along), d.dot(across));
                 let pattern = height * (-0.5 * (a * a / va + c * c / vc)).exp();
-                seen += pattern * f64::from(self.off[y * self.width + x]);
+                seen += pattern * f64::from(self.off[y * self.seen.width() + x]);
                 whole += pattern * pattern;
             }
         }
@@ -176,10 +174,10 @@ impl Residual {
 
     /// Sum of the squared differences within `reach` px of `p`.
     pub(super) fn squares(&self, p: Point, reach: f64) -> f64 {
-        let (cx, cy) = (p.x - 0.5, self.height as f64 - p.y - 0.5);
+        let (cx, cy) = (p.x - 0.5, self.seen.height() as f64 - p.y - 0.5);
         let span = |c: f64, n: usize| index((c - reach).ceil())..index(c + reach + 1.0).min(n);
-        let rows = span(cy, self.height).map(|y| y * self.width);
-        let pixels = rows.flat_map(|row| span(cx, self.width).map(move |x| row + x));
+        let rows = span(cy, self.seen.height()).map(|y| y * self.seen.width());
+        let pixels = rows.flat_map(|row| span(cx, self.seen.width()).map(move |x| row + x));
         pixels.map(|i| f64::from(self.off[i] * self.off[i])).sum()
     }
 
@@ -188,9 +186,12 @@ impl Residual {
         let (mut sum, mut length) = (0.0, 0.0);
         for (a, b) in ring.iter().zip(ring.iter().cycle().skip(1)) {
             let d = a.distance(*b);
-            let (x, y) = (a.midpoint(*b).x, self.height as f64 - a.midpoint(*b).y);
-            let x = index(x).min(self.width.saturating_sub(1));
-            let off = self.off.get(index(y) * self.width + x);
+            let (x, y) = (
+                a.midpoint(*b).x,
+                self.seen.height() as f64 - a.midpoint(*b).y,
+            );
+            let x = index(x).min(self.seen.width().saturating_sub(1));
+            let off = self.off.get(index(y) * self.seen.width() + x);
             let off = off.map_or(0.0, |off| f64::from(*off));
             sum += d * off * off;
             length += d;
@@ -200,7 +201,7 @@ impl Residual {
 
     /// Mean square of the differences at edges: the grain, and what the model misses.
     pub(super) fn grain(&self) -> f64 {
-        let pairs = self.off.iter().zip(&self.seen);
+        let pairs = self.off.iter().zip(self.seen.samples());
         let edge = pairs.filter(|(off, seen)| (0.1..0.9).contains(&(**seen - **off)));
         let squares = edge.map(|(off, _)| f64::from(off * off));
         MEDIAN_OF_SQUARES * median(squares).unwrap_or(0.0)
@@ -213,7 +214,7 @@ impl Residual {
 
     /// How far outwards an edge through `p` must move, px; linear, good for fractions of a pixel.
     pub(super) fn shift(&self, p: Point) -> f64 {
-        let (w, h) = (self.width, self.height);
+        let (w, h) = (self.seen.width(), self.seen.height());
         let (cx, cy) = (p.x - 0.5, h as f64 - p.y - 0.5);
         let reach = self.reach_px();
         let span = |c: f64, n: usize| index((c - reach).ceil())..index(c + reach + 1.0).min(n);
@@ -234,6 +235,18 @@ impl Residual {
             0.0
         }
     }
+}
+
+/// The blurred fill of rings.
+fn draw<'r>(
+    rings: impl Iterator<Item = &'r [Point]>,
+    (fill, model): (&mut Coverage, &mut Vec<f32>),
+    lens: f64,
+) {
+    fill.clear();
+    rings.for_each(|r| fill.add(r));
+    fill.write(model);
+    blur(model, fill.width(), lens);
 }
 
 fn perp(v: Vec2) -> Vec2 {

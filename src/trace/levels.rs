@@ -14,7 +14,7 @@ const MARGIN: usize = 2;
 /// take the level of the whole picture.
 #[must_use]
 pub fn level(gray: &Gray) -> Gray {
-    let (w, h) = (gray.width(), gray.height());
+    let w = gray.width();
     let ink: Vec<bool> = gray.samples().iter().map(|&v| v >= 0.5).collect();
     let paper: Vec<bool> = ink.iter().map(|b| !b).collect();
     let (near_ink, near_paper) = (dilated(&ink, w, MARGIN), dilated(&paper, w, MARGIN));
@@ -25,6 +25,5 @@ pub fn level(gray: &Gray) -> Gray {
         _ => 0.0,
     };
     let model: Vec<f32> = near_ink.iter().zip(&near_paper).map(model).collect();
-    let values = normalised(gray.samples(), w, &model);
-    Gray::from_fn(w, h, |x, y| values[y * w + x])
+    gray.with_samples(normalised(gray.samples(), w, &model))
 }

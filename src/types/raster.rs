@@ -74,17 +74,26 @@ impl Gray {
     pub fn from_fn(width: usize, height: usize, mut ink: impl FnMut(usize, usize) -> f32) -> Self {
         let mut samples = Vec::with_capacity(width * height);
         for y in 0..height {
-            for x in 0..width {
-                let v = ink(x, y);
-                let v = if v.is_nan() { 0.0 } else { v };
-                samples.push(v.clamp(-Self::OVERSHOOT, 1.0 + Self::OVERSHOOT));
-            }
+            samples.extend((0..width).map(|x| Self::cut(ink(x, y))));
         }
         Self {
             width,
             height,
             samples,
         }
+    }
+
+    /// The picture with other samples, row-major, cut to the legal range; NaN, and what is missing, becomes paper.
+    #[must_use]
+    pub fn with_samples(&self, mut samples: Vec<f32>) -> Self {
+        samples.resize(self.samples.len(), 0.0);
+        samples.iter_mut().for_each(|v| *v = Self::cut(*v));
+        Self { samples, ..*self }
+    }
+
+    fn cut(v: f32) -> f32 {
+        let v = if v.is_nan() { 0.0 } else { v };
+        v.clamp(-Self::OVERSHOOT, 1.0 + Self::OVERSHOOT)
     }
 
     /// A picture of `width` × `height` px from row-major coverage in 255ths.
