@@ -1,8 +1,9 @@
 //! Where vertices may lie: the admissible control point band.
 
-use super::{Bounds, Kind, RUN};
+use super::tube::Tube;
+use super::{Bounds, Kind, RUN, Width};
 use crate::numeric::qbc::Pull;
-use kurbo::Point;
+use kurbo::{Point, Rect};
 use std::collections::BTreeMap;
 
 /// A vertex that the curve may have, and the boundary point nearest to it.
@@ -25,21 +26,26 @@ pub(super) struct Band {
     pub(super) boundary: Vec<Point>,
     /// Square of `T_i`, px², for each of them.
     pub(super) squares: Vec<f64>,
+    pub(super) tube: Tube,
     /// The first boundary point, all others of the band, and the first again.
     pub(super) vertices: Vec<Vertex>,
-    index: BTreeMap<(i32, i32), usize>,
+    corner: (i32, i32),
+    across: usize,
+    index: Vec<Option<usize>>,
 }
 
 impl Band {
-    pub(super) fn new(boundary: &[Point], bounds: Bounds, kind: Kind) -> Self {
+    pub(super) fn new(boundary: &[Point], bounds: Bounds, kind: Kind, width: Width) -> Self {
         let admissible = admissible(boundary, bounds);
-        let longest = boundary
-            .windows(2)
-            .map(|w| w[0].distance(w[1]))
-            .fold(0.0, f64::max);
+        // no shorter than the longest chord
+        let chord = extent(boundary).size().to_vec2().hypot();
         let mut best: BTreeMap<(i32, i32), (f64, usize)> = BTreeMap::new();
         for (i, &b) in boundary.iter().enumerate() {
-            let w = width(kind, (longest, bounds.t_max), admissible[i]);
+            let w = admissible[i]
+                + match width {
+                    Width::Tolerance => 0.0,
+                    Width::Bound => beyond(kind, chord, bounds.t_max, admissible[i]),
+                };
             let reach = near(w);
             for dy in -reach..=reach {
                 for dx in -reach..=reach {
@@ -62,43 +68,66 @@ impl Band {
         let mut vertices: Vec<Vertex> = std::iter::once(start(0)).chain(others).collect();
         vertices.sort_by_key(|v| v.stage);
         vertices.push(start(boundary.len()));
-        let index = vertices.iter().enumerate().map(|(i, v)| (v.at, i));
-        let index = index.collect();
+        let least = |axis: fn(&Vertex) -> i32| vertices.iter().map(axis).min().unwrap_or(0);
+        let corner = (least(|v| v.at.0), least(|v| v.at.1));
+        let widest = vertices.iter().map(|v| v.at.0 - corner.0 + 1).max();
+        let across = usize::try_from(widest.unwrap_or(1)).unwrap_or(1);
+        let mut index = Vec::new();
+        for (i, v) in vertices.iter().enumerate() {
+            if let Some(cell) = place(corner, across, v.at) {
+                index.resize(index.len().max(cell + 1), None);
+                index[cell] = Some(i);
+            }
+        }
+        let boundary: Vec<Point> = boundary.iter().chain(boundary.first()).copied().collect();
+        let t: Vec<f64> = admissible
+            .iter()
+            .chain(admissible.first())
+            .copied()
+            .collect();
         Self {
-            boundary: boundary.iter().chain(boundary.first()).copied().collect(),
-            squares: admissible
-                .iter()
-                .chain(admissible.first())
-                .map(|t| t * t + 1e-9)
-                .collect(),
+            tube: Tube::new(&boundary, &t),
+            squares: t.iter().map(|t| t * t + 1e-9).collect(),
+            boundary,
             vertices,
+            corner,
+            across,
             index,
         }
     }
 
     /// The vertex at a place; the last one at the first boundary point.
     pub(super) fn find(&self, at: (i32, i32)) -> Option<usize> {
-        self.index.get(&at).copied()
+        *self.index.get(place(self.corner, self.across, at)?)?
     }
 }
 
-/// `W_j` [sohel sec. III.C, eq. 13-15]; a polygon's vertices lie within T.
-fn width(kind: Kind, (delta, t_max): (f64, f64), t: f64) -> f64 {
+/// The place of a cell in rows of such a width from a corner on.
+pub(super) fn place(corner: (i32, i32), width: usize, (x, y): (i32, i32)) -> Option<usize> {
+    let x = usize::try_from(x - corner.0).ok().filter(|&x| x < width)?;
+    Some(usize::try_from(y - corner.1).ok()? * width + x)
+}
+
+/// `W_j - T_j` [sohel sec. III.C, eq. 13-15]; a polygon's vertices lie within T.
+fn beyond(kind: Kind, chord: f64, t_max: f64, t: f64) -> f64 {
     let rho = f64::from(RUN) * std::f64::consts::SQRT_2;
-    let beyond = match kind {
-        Kind::Polygon => 0.0,
-        Kind::Spline(Pull::Bezier) => {
-            f64::min((3.0 * delta + 4.0 * t_max + 2.0 * t) / 6.0, rho / 4.0)
-        }
-        Kind::Spline(Pull::Qbc) => f64::min(
-            11.0 / 37.0 * (37.0 * delta + 48.0 * t_max + 26.0 * t) / 26.0,
+    let (bound, longest) = match kind {
+        Kind::Polygon => (0.0, 0.0),
+        Kind::Spline(Pull::Bezier) => ((3.0 * chord + 4.0 * t_max + 2.0 * t) / 6.0, rho / 4.0),
+        Kind::Spline(Pull::Qbc) => (
+            11.0 / 37.0 * (37.0 * chord + 48.0 * t_max + 26.0 * t) / 26.0,
             11.0 * rho / 48.0,
         ),
-        Kind::Spline(Pull::QbcN) => {
-            f64::min((5.0 * delta + 6.0 * t_max + 4.0 * t) / 20.0, rho / 6.0)
-        }
+        Kind::Spline(Pull::QbcN) => ((5.0 * chord + 6.0 * t_max + 4.0 * t) / 20.0, rho / 6.0),
     };
-    beyond + t
+    f64::min(bound, longest)
+}
+
+/// The box around a boundary.
+pub(super) fn extent(boundary: &[Point]) -> Rect {
+    let first = boundary.first().copied().unwrap_or_default();
+    let start = Rect::from_points(first, first);
+    boundary.iter().fold(start, |r, &p| r.union_pt(p))
 }
 
 /// `T_i`: `t_max` where the boundary is straight, falling to `t_min` where it turns by 90° within a few px.

@@ -3,16 +3,18 @@
 //! Solves   min bits(vertices), each piece of curve within `T_i` of the boundary points it passes
 //! Takes    the closed boundary of a silhouette, whole px; the distortion bounds `t_max` and `t_min`, px
 //! Gives    vertices, their bits, and the curve's `D_max` and `D_ms`
-//! Symbols  B -> `boundary`, C -> `Band`, `T_i` -> `admissible`, `MinRate` -> label cost, `W_j` -> `width`
-//! Departs  the paper prints no rate: see [`Steps`]. The band holds every whole point within W of the
-//!          boundary, each with its nearest boundary point; T falls from `t_max` to `t_min` as the local
-//!          turn grows. Exact under this code but for 16 chords a piece, which stand for it in the search
-//! Cost     O(|C| r^2 w) for runs of r boundary points and a band w wide: of the pairs that lead to an edge the
-//!          cheapest whose curve fits ends the look    Fails  too short a boundary; bounds out of order
+//! Symbols  B -> `boundary`, C -> `Band`, `T_i` -> `admissible`, `MinRate` -> label cost, `W_j - T_j` -> `beyond`
+//! Departs  the paper prints no rate: see [`Steps`]. The band holds every whole point within T or W of the boundary
+//!          ([`Width`]), each with its nearest boundary point; T falls from `t_max` to `t_min` as the local turn
+//!          grows. Distances are taken both ways, the boundary's from the curve and the curve's from it
+//! Cost     O(|C| r^2 w) for runs of r boundary points and a band w wide. Exact under this code, the band and 16 chords
+//!          a piece: edges and groups of pairs are put aside only where each of their curves leaves the bounds
+//! Fails    too short or too large a boundary; bounds out of order
 
 mod band;
 mod piece;
 mod search;
+mod tube;
 mod vertex;
 
 use crate::numeric::qbc::Pull;
@@ -29,6 +31,9 @@ pub enum CodeError {
     /// Too few points.
     #[error("{0} boundary points; 8 are needed at least")]
     Short(usize),
+    /// Too large, or not finite.
+    #[error("the boundary spans {0} x {1} px; scale it to at most 4096 a side")]
+    Large(f64, f64),
     /// Bounds out of order.
     #[error("the bounds are {0} and {1} px; 0 < t_min <= t_max is needed")]
     Bounds(f64, f64),
@@ -53,6 +58,15 @@ pub struct Bounds {
     pub t_max: f64,
     /// Where it turns most.
     pub t_min: f64,
+}
+
+/// How far from the boundary vertices may lie.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Width {
+    /// `T_i`, no farther than the curve.
+    Tolerance,
+    /// `W_i` of eq. 13 to 15, as far as those of any curve within the bounds need to.
+    Bound,
 }
 
 /// A coded boundary.

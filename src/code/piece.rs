@@ -1,80 +1,159 @@
 //! Pieces of curve, and whether they stay within the bounds.
 
-use super::Kind;
 use super::band::Band;
+use super::{Kind, RUN};
 use kurbo::Point;
+use std::cell::Cell;
 
 /// Edges of the polyline that a piece is measured by.
 const LOOK: usize = 16;
 
+/// Points of a piece in the order that they are looked at: the middle is the likeliest to be too far.
+const ORDER: [usize; LOOK + 1] = [8, 4, 12, 2, 6, 10, 14, 1, 3, 5, 7, 9, 11, 13, 15, 0, LOOK];
+
+/// Every such boundary point is looked at before all are.
+const SPARSE: usize = 4;
+
 /// Points on each piece of the answer: dense enough that their distances are the curve's.
 const DENSE: usize = 64;
 
+/// Weights of the ends and the vertex of a piece, at the points that it is measured by; of edges one end and the other.
 #[derive(Debug)]
 pub(super) struct Piece<'a> {
     pub(super) band: &'a Band,
     pub(super) kind: Kind,
+    weights: [[f64; 3]; LOOK + 1],
+    /// The point of the last piece that lay outside the tube, and the boundary point that one passed too far away.
+    failed: Cell<(usize, usize)>,
 }
 
-impl Piece<'_> {
+impl<'a> Piece<'a> {
+    pub(super) fn new(band: &'a Band, kind: Kind) -> Self {
+        let weights = std::array::from_fn(|k| {
+            let u = k as f64 / LOOK as f64;
+            match kind {
+                Kind::Polygon => [1.0 - u, 0.0, u],
+                Kind::Spline(pull) => pull.quadratic(u),
+            }
+        });
+        Self {
+            band,
+            kind,
+            weights,
+            failed: Cell::new((LOOK / 2, usize::MAX)),
+        }
+    }
+
     /// The boundary point that an edge is parted at, if the edge may be one of a curve within the bounds: nearest to
     /// its middle, which splines pass through; a polygon's edge is all of its curve.
     pub(super) fn foot(&self, from: usize, to: usize) -> Option<usize> {
         let (v, w) = (self.band.vertices[from], self.band.vertices[to]);
         let (p, q) = (v.point(), w.point());
         if self.kind == Kind::Polygon {
-            let within = self.within(|u| p.lerp(q, u), (v.stage, w.stage));
+            let within = self.within([p, p, q], (v.stage, w.stage));
             return within.then_some(w.stage);
         }
-        self.near(p.midpoint(q), v.stage, w.stage)
+        let middle = p.midpoint(q);
+        let feet = (v.stage, w.stage);
+        let Band { boundary, tube, .. } = self.band;
+        if !tube.holds(boundary, middle, feet) {
+            return None;
+        }
+        let squares = boundary[v.stage..=w.stage]
+            .iter()
+            .map(|b| b.distance_squared(middle));
+        let nearest = squares.enumerate().min_by(|a, b| a.1.total_cmp(&b.1));
+        nearest.map(|(i, _)| v.stage + i)
+    }
+
+    /// Whether no curve within the bounds has an edge: a piece that it is half of leaves the tube
+    /// wherever its other end lies.
+    pub(super) fn leaves(&self, from: usize, to: usize) -> bool {
+        /// Beyond this point of the piece its other end tells where it runs.
+        const SOON: usize = 6;
+        /// Longest half of an edge, px.
+        const REACH: f64 = RUN as f64 * std::f64::consts::FRAC_1_SQRT_2;
+        let [p, q] = [from, to].map(|i| self.band.vertices[i].point());
+        let leaves = |vertex: Point| {
+            self.weights[..=SOON].iter().any(|[a, _, c]| {
+                let at = vertex.lerp(p.midpoint(q), *a);
+                self.band.tube.misses(at, c * REACH)
+            })
+        };
+        self.kind != Kind::Polygon && (leaves(p) || leaves(q))
+    }
+
+    /// Whether no piece fits that begins in a disc (its middle and radius, px) and has these last vertices and feet.
+    pub(super) fn strays(
+        &self,
+        (middle, radius): (Point, f64),
+        [w, x]: [usize; 2],
+        feet: (usize, usize),
+    ) -> bool {
+        let [q, x] = [w, x].map(|i| self.band.vertices[i].point());
+        let legs = [middle, q, q.midpoint(x)];
+        let Band {
+            boundary,
+            squares,
+            tube,
+            ..
+        } = self.band;
+        let mut line = [Point::ZERO; LOOK + 1];
+        for k in ORDER {
+            line[k] = self.dot(legs, k);
+            if tube.misses(line[k], self.weights[k][0] * radius) {
+                return true;
+            }
+        }
+        // no point of a piece moves by more than its beginning does
+        missed(&line, (feet.0..=feet.1).step_by(SPARSE), |i| {
+            (boundary[i], (squares[i].sqrt() + radius).powi(2))
+        })
+        .is_some()
     }
 
     /// Whether the piece of three vertices stays within T of the boundary between its ends' feet, both ways.
     pub(super) fn fits(&self, abc: [usize; 3], feet: (usize, usize)) -> bool {
-        let Kind::Spline(pull) = self.kind else {
+        if self.kind == Kind::Polygon {
             return true;
-        };
+        }
         let [a, q, c] = abc.map(|i| self.band.vertices[i].point());
-        let (p, r) = (a.midpoint(q).to_vec2(), q.midpoint(c).to_vec2());
-        let dot = |u: f64| {
-            let [x, y, z] = pull.quadratic(u);
-            (p * x + q.to_vec2() * y + r * z).to_point()
-        };
-        self.within(dot, feet)
+        self.within([a.midpoint(q), q, q.midpoint(c)], feet)
     }
 
-    fn within(&self, dot: impl Fn(f64) -> Point, (first, last): (usize, usize)) -> bool {
-        let near = |c: Point| self.near(c, first, last).is_some();
-        // the middle is the likeliest to be too far
-        if !near(dot(0.5)) {
+    fn within(&self, legs: [Point; 3], (first, last): (usize, usize)) -> bool {
+        let Band {
+            boundary,
+            squares,
+            tube,
+            ..
+        } = self.band;
+        let line: [Point; LOOK + 1] = std::array::from_fn(|k| self.dot(legs, k));
+        let limit = |i: usize| (boundary[i], squares[i]);
+        // what the piece before failed at, one much like this one as a rule
+        let (at, far) = self.failed.get();
+        let holds = |k: usize| tube.holds(boundary, line[k], (first, last));
+        if !holds(at) {
             return false;
         }
-        let line: [Point; LOOK + 1] = std::array::from_fn(|k| dot(k as f64 / LOOK as f64));
-        let passed = |i: usize| {
-            let (p, square) = (self.band.boundary[i], self.band.squares[i]);
-            line.windows(2).any(|w| to_edge(p, w) <= square)
-        };
-        line.iter().all(|&c| near(c)) && (first..=last).all(passed)
+        if (first..=last).contains(&far) && missed(&line, far..=far, limit).is_some() {
+            return false;
+        }
+        if let Some(k) = ORDER.into_iter().find(|&k| !holds(k)) {
+            self.failed.set((k, far));
+            return false;
+        }
+        let sparse = missed(&line, (first..=last).step_by(SPARSE), limit);
+        let far = sparse.or_else(|| missed(&line, first..=last, limit));
+        if let Some(i) = far {
+            self.failed.set((at, i));
+        }
+        far.is_none()
     }
 
-    /// The nearest of these boundary points, if the boundary is within T there.
-    fn near(&self, p: Point, first: usize, last: usize) -> Option<usize> {
-        let Band {
-            boundary, squares, ..
-        } = self.band;
-        let mut best = (f64::INFINITY, first);
-        for (i, b) in boundary[first..=last].iter().enumerate() {
-            let d = b.distance_squared(p);
-            if d < best.0 {
-                best = (d, first + i);
-            }
-        }
-        let (d, i) = best;
-        // between the points the boundary is closer by up to half a step
-        let sides = &boundary[i.saturating_sub(1)..(i + 2).min(boundary.len())];
-        let within = |d: f64| d <= squares[i];
-        let beside = || sides.windows(2).any(|w| within(to_edge(p, w)));
-        (within(d) || beside()).then_some(i)
+    fn dot(&self, [p, q, r]: [Point; 3], k: usize) -> Point {
+        let [x, y, z] = self.weights[k];
+        (p.to_vec2() * x + q.to_vec2() * y + r.to_vec2() * z).to_point()
     }
 
     /// The whole curve, first and last vertex doubled.
@@ -97,6 +176,23 @@ impl Piece<'_> {
         };
         all.windows(3).flat_map(piece).collect()
     }
+}
+
+/// The first of points that a line does not come as near to as it asks for: each with the square of its limit.
+fn missed(
+    line: &[Point],
+    mut points: impl Iterator<Item = usize>,
+    limit: impl Fn(usize) -> (Point, f64),
+) -> Option<usize> {
+    // the chord that the last point was close to is likely the next one's too
+    let (mut chord, chords) = (0, line.len() - 1);
+    points.find(|&i| {
+        let (p, square) = limit(i);
+        let close = |k: &usize| to_edge(p, &line[*k..*k + 2]) <= square;
+        let found = (chord..chords).chain(0..chord).find(close);
+        chord = found.unwrap_or(0);
+        found.is_none()
+    })
 }
 
 /// Square of the distance of a point from an edge.

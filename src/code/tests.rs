@@ -1,5 +1,6 @@
-use super::band::near;
-use super::{Bounds, CodeError, Kind, RUN, Steps, distortion, encode};
+use super::band::{Band, near};
+use super::piece::Piece;
+use super::{Bounds, CodeError, Kind, RUN, Steps, Width, distortion, encode};
 use crate::numeric::qbc::Pull;
 use kurbo::Point;
 
@@ -30,12 +31,91 @@ fn curves_stay_within_the_bounds_and_need_fewer_bits_as_these_grow() {
     for kind in [Kind::Polygon].into_iter().chain(SPLINES) {
         let mut before = u64::MAX;
         for t in [1.0, 2.0] {
-            let coded = encode(&shape, kind, Bounds { t_max: t, t_min: t }, Steps::Eight).unwrap();
+            let coded = encode(
+                &shape,
+                kind,
+                Bounds { t_max: t, t_min: t },
+                Width::Bound,
+                Steps::Eight,
+            )
+            .unwrap();
             assert!(coded.d_max <= t + 0.05, "{kind:?}: {} > {t}", coded.d_max);
             assert!(coded.bits < before, "{kind:?}: {} at {t}", coded.bits);
             assert_eq!(coded.vertices.first(), coded.vertices.last());
             before = coded.bits;
         }
+    }
+}
+
+#[test]
+fn with_vertices_no_farther_than_the_curve_more_pull_needs_fewer_bits() {
+    // Table 4's order; farther vertices cost none of the kinds more, and B-splines gain most by them
+    let (shape, bounds) = (
+        boundary(2.0),
+        Bounds {
+            t_max: 1.0,
+            t_min: 1.0,
+        },
+    );
+    let bits = |kind, width| {
+        encode(&shape, kind, bounds, width, Steps::Any)
+            .unwrap()
+            .bits
+    };
+    let near = SPLINES.map(|kind| bits(kind, Width::Tolerance));
+    let far = SPLINES.map(|kind| bits(kind, Width::Bound));
+    assert!(near.is_sorted_by(|a, b| a > b), "{near:?}");
+    assert!(
+        near.iter().zip(far).all(|(n, f)| *n >= f),
+        "{near:?} {far:?}"
+    );
+    assert!(near[0] - far[0] > near[2] - far[2], "{near:?} {far:?}");
+}
+
+#[test]
+fn what_is_not_looked_at_would_not_be_cheaper() {
+    // Algorithm 1 as it stands: every pair of pairs, no edge or group of pairs put aside
+    let bounds = Bounds {
+        t_max: 1.5,
+        t_min: 1.0,
+    };
+    let shape = boundary(0.5);
+    for (kind, steps) in SPLINES
+        .into_iter()
+        .flat_map(|k| [Steps::Eight, Steps::Any].map(|s| (k, s)))
+    {
+        let band = Band::new(&shape, bounds, kind, Width::Bound);
+        let piece = Piece::new(&band, kind);
+        let last = band.vertices.len() - 1;
+        let mut least = vec![vec![(0, 0, 0, None)]];
+        least.resize(last + 1, Vec::new());
+        for at in 0..last {
+            for &((dx, dy), step) in &steps.words() {
+                let (x, y) = band.vertices[at].at;
+                let Some(to) = band.find((x + dx, y + dy)) else {
+                    continue;
+                };
+                let (from, there) = (band.vertices[at].stage, band.vertices[to].stage);
+                if there <= from || there - from > 4 * shape.len() / 10 {
+                    continue;
+                }
+                let Some(foot) = piece.foot(at, to) else {
+                    continue;
+                };
+                let cost = |&(cost, before, behind, taken): &(u64, usize, usize, _)| {
+                    let fits = piece.fits([before, at, to], (behind, foot));
+                    Some(cost + fits.then(|| steps.cost(taken, step))??)
+                };
+                if let Some(cost) = least[at].iter().filter_map(cost).min() {
+                    least[to].push((cost, at, foot, Some(step)));
+                }
+            }
+        }
+        let closes =
+            |p: &&(u64, usize, usize, _)| piece.fits([p.1, last, last], (p.2, shape.len()));
+        let all = least[last].iter().filter(closes).map(|p| p.0).min();
+        let coded = encode(&shape, kind, bounds, Width::Bound, steps).unwrap();
+        assert_eq!(Some(coded.bits), all, "{kind:?} {steps:?}");
     }
 }
 
@@ -48,11 +128,13 @@ fn splines_need_fewer_bits_than_polygons() {
             t_min: 1.0,
         },
     );
-    let polygon = encode(&shape, Kind::Polygon, bounds, Steps::Eight)
+    let polygon = encode(&shape, Kind::Polygon, bounds, Width::Bound, Steps::Eight)
         .unwrap()
         .bits;
     for kind in SPLINES {
-        let spline = encode(&shape, kind, bounds, Steps::Eight).unwrap().bits;
+        let spline = encode(&shape, kind, bounds, Width::Bound, Steps::Eight)
+            .unwrap()
+            .bits;
         assert!(spline < polygon, "{kind:?}: {spline} and {polygon}");
     }
 }
@@ -134,7 +216,7 @@ fn the_bits_are_those_of_the_vertices() {
         t_min: 1.0,
     };
     for steps in [Steps::Eight, Steps::Any] {
-        let coded = encode(&boundary(1.0), SPLINES[2], bounds, steps).unwrap();
+        let coded = encode(&boundary(1.0), SPLINES[2], bounds, Width::Bound, steps).unwrap();
         let step = |w: &[Point]| {
             let [x, y] = [w[1].x - w[0].x, w[1].y - w[0].y].map(near);
             (x, y)
@@ -155,15 +237,27 @@ fn what_cannot_be_coded_is_told() {
         t_min: 1.0,
     };
     assert_eq!(
-        encode(&[], Kind::Polygon, bounds, Steps::Any),
+        encode(&[], Kind::Polygon, bounds, Width::Bound, Steps::Any),
         Err(CodeError::Short(0))
     );
+    for far in [f64::NAN, 5000.0] {
+        let mut shape = boundary(1.0);
+        shape[3].x = far;
+        let coded = encode(&shape, Kind::Polygon, bounds, Width::Bound, Steps::Any);
+        assert!(matches!(coded, Err(CodeError::Large(..))), "{coded:?}");
+    }
     let wrong = Bounds {
         t_max: 1.0,
         t_min: 2.0,
     };
     assert_eq!(
-        encode(&boundary(1.0), Kind::Polygon, wrong, Steps::Any),
+        encode(
+            &boundary(1.0),
+            Kind::Polygon,
+            wrong,
+            Width::Bound,
+            Steps::Any
+        ),
         Err(CodeError::Bounds(1.0, 2.0))
     );
 }

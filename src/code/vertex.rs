@@ -43,9 +43,23 @@ impl Steps {
         self.cost(before, Step::new(step)?)
     }
 
+    /// All steps that have a word.
+    pub(super) fn words(self) -> Vec<((i32, i32), Step)> {
+        let places = (-RUN..=RUN).flat_map(|dy| (-RUN..=RUN).map(move |dx| (dx, dy)));
+        let steps = places.filter_map(|at| Some((at, Step::new(at)?)));
+        steps.filter(|s| self.cost(None, s.1).is_some()).collect()
+    }
+
+    /// No more than a step's bits, whatever came before it.
+    pub(super) fn least(self, Step { run, .. }: Step) -> u64 {
+        let place = match self {
+            Self::Eight => 0,
+            Self::Any => run.ilog2(),
+        };
+        2 + length(run) + u64::from(place)
+    }
+
     pub(super) fn cost(self, before: Option<Step>, Step { place, run }: Step) -> Option<u64> {
-        let bucket = run.ilog2();
-        let length = u64::from(bucket + if bucket < 2 { 3 } else { 2 });
         // where the run would end straight on, and the first of the places of its sector
         let on = before.map_or(0, |b| (2 * b.place * run + b.run) / (2 * b.run));
         let around = (place - on + run / 2).rem_euclid(8 * run);
@@ -56,10 +70,16 @@ impl Steps {
             _ => return None,
         };
         match self {
-            Self::Eight => (place % run == 0).then_some(turn + length),
-            Self::Any => Some(turn + length + truncated(run, off)),
+            Self::Eight => (place % run == 0).then_some(turn + length(run)),
+            Self::Any => Some(turn + length(run) + truncated(run, off)),
         }
     }
+}
+
+/// The bits of a run.
+fn length(run: i32) -> u64 {
+    let bucket = run.ilog2();
+    u64::from(bucket + if bucket < 2 { 3 } else { 2 })
 }
 
 /// Truncated binary code of one of n places, those with the least |off| first.

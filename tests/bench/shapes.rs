@@ -1,6 +1,6 @@
 //! Shape coding of silhouettes under one vertex code, and the shape descriptor [sohel sec. IV]:
-//! `cargo bench --bench shapes -- [--svg OUT.svg] [--any] SHAPE…` (a shape is black or white on the other;
-//! `--any`: steps to any place too, some minutes).
+//! `cargo bench --bench shapes -- [--svg OUT.svg] [--only eight-T] SHAPE…` (a shape is black or white on the
+//! other; `--only`: one code and band, all of them else).
 #![expect(
     clippy::disallowed_methods,
     clippy::print_stdout,
@@ -9,7 +9,7 @@
 
 use image::Luma;
 use imageproc::contours::find_contours;
-use khatt::code::{Bounds, Kind, Steps, distortion, encode};
+use khatt::code::{Bounds, Kind, Steps, Width, distortion, encode};
 use khatt::numeric::qbc::Pull;
 use kurbo::Point;
 use std::fmt::Write;
@@ -25,6 +25,8 @@ const KINDS: [(&str, Kind); 4] = [
 
 /// The bounds of table 4.
 const BOUNDS: [(f64, f64); 5] = [(1.0, 1.0), (2.0, 1.0), (2.0, 2.0), (3.0, 1.0), (3.0, 2.0)];
+
+const CODES: [(&str, Steps); 2] = [("eight", Steps::Eight), ("any", Steps::Any)];
 
 /// The longest border in a picture, px: of the shape that is not the picture's corner colour.
 fn boundary(path: &str) -> Vec<Point> {
@@ -48,11 +50,9 @@ fn main() {
     let mut args: Vec<String> = env::args().skip(1).filter(|a| a != "--bench").collect();
     let mut option = |name: &str| {
         let i = args.iter().position(|a| a == name)?;
-        args.remove(i);
-        Some(i)
+        args.drain(i..(i + 2).min(args.len())).nth(1)
     };
-    let any = option("--any").is_some();
-    let svg = option("--svg").map(|i| args.remove(i));
+    let (svg, only) = (option("--svg"), option("--only"));
     let shapes: Vec<(&String, Vec<Point>)> = args.iter().map(|a| (a, boundary(a))).collect();
     println!(
         "D_max px and D_ms px² of cubics with control points on the shape: Bézier, QBC, QBC-n\n"
@@ -60,19 +60,27 @@ fn main() {
     for (path, shape) in &shapes {
         descriptor(path, shape);
     }
-    let codes = [("eight directions", Steps::Eight), ("any step", Steps::Any)];
-    for (code, steps) in codes.into_iter().take(if any { 2 } else { 1 }) {
-        println!("\nbits (D_max px, s) by runs: {code}\n");
-        let curves = table(&shapes, steps);
-        if let Some(path) = &svg {
-            let name = path.replace(".svg", &format!("-{}.svg", code.replace(' ', "-")));
-            fs::write(name, plot(&curves)).expect("written");
+    let widths = [("T", Width::Tolerance), ("W", Width::Bound)];
+    for (code, steps) in CODES {
+        for (band, width) in widths {
+            if only
+                .as_deref()
+                .is_some_and(|o| o != format!("{code}-{band}"))
+            {
+                continue;
+            }
+            println!("\nbits (D_max px, s): {code}, vertices within {band} of the boundary\n");
+            let curves = table(&shapes, width, steps);
+            if let Some(path) = &svg {
+                let name = path.replace(".svg", &format!("-{code}-{band}.svg"));
+                fs::write(name, plot(&curves)).expect("written");
+            }
         }
     }
 }
 
 /// Bits of all shapes by bounds and kind; bits and mean square distance of all of them together.
-fn table(shapes: &[(&String, Vec<Point>)], steps: Steps) -> Vec<Vec<(u64, f64)>> {
+fn table(shapes: &[(&String, Vec<Point>)], width: Width, steps: Steps) -> Vec<Vec<(u64, f64)>> {
     let mut curves = vec![Vec::new(); KINDS.len()];
     println!(
         "| shape, T_max / T_min | polygon | B-spline | QBC | QBC-n | QBC-n saves |\n|---|---|---|---|---|---|"
@@ -85,7 +93,7 @@ fn table(shapes: &[(&String, Vec<Point>)], steps: Steps) -> Vec<Vec<(u64, f64)>>
             let mut row = [0; 4];
             for (column, (_, kind)) in KINDS.into_iter().enumerate() {
                 let clock = Instant::now();
-                let coded = encode(shape, kind, Bounds { t_max, t_min }, steps);
+                let coded = encode(shape, kind, Bounds { t_max, t_min }, width, steps);
                 let coded = coded.expect("vertices within the bounds");
                 let (bits, d_max) = (coded.bits, coded.d_max);
                 print!(
