@@ -1,13 +1,15 @@
 //! Least squares of all nodes, directions and handles of a chain at once.
 //!
-//! Solves   min Σ wᵢ ρ(dᵢ / σᵢ) + ½ Σ ((handle / chord − ⅓) / spread)², dᵢ the distance of sample i to the chain
-//! along its normal, ρ Huber's. Gauss–Newton with Levenberg's damping; the feet of the samples slide
+//! Solves   min Σ wᵢ ρ(dᵢ / σᵢ) + ½ Σ ((handle / chord − ⅓) / spread)², dᵢ the distance of sample i to the chain,
+//! ρ Huber's. Gauss–Newton with Levenberg's damping; the feet of the samples slide
 //! along the chain between steps (variable projection), over nodes where they must.
 //!
 //! A row of the Jacobian touches eight numbers of one segment only: x, y, direction and handle of both ends.
 //! Rows are summed over these eight, and the 8 × 8 block of a segment is carried over to the free numbers once.
 
 mod prior;
+#[cfg(test)]
+mod tests;
 
 use super::chain::{Chain, Join, Kind};
 use super::skyline::Skyline;
@@ -329,8 +331,8 @@ impl Refit {
         cost
     }
 
-    /// Moves a foot to the nearest place near by; returns how far it is from the sample along the unit normal there, and that
-    /// normal.
+    /// Moves a foot to the nearest place near by; returns how far it is from the sample along a unit vector, and that vector:
+    /// the normal there, or beyond an end the way from the sample.
     fn slide(&self, at: Point, foot: &mut Foot) -> (f64, Vec2) {
         let n = self.powers.len();
         foot.segment = foot.segment.min(n - 1);
@@ -366,9 +368,16 @@ impl Refit {
         }
         foot.t = foot.t.clamp(0.0, 1.0);
         let (p, d, dd) = self.powers[foot.segment].at(foot.t);
+        let off = p - at;
+        // beyond an end the whole distance counts: the tangent there meets what it does not
+        let past = (foot.t <= 0.0 && off.dot(d) > 0.0) || (foot.t >= 1.0 && off.dot(d) < 0.0);
+        let distance = off.hypot();
+        if past && distance > 1e-9 {
+            return (distance, off / distance);
+        }
         let along = if d.hypot2() > 1e-12 { d } else { dd };
         let normal = Vec2::new(-along.y, along.x) / along.hypot().max(1e-12);
-        ((p - at).dot(normal), normal)
+        (off.dot(normal), normal)
     }
 
     /// Carries the blocks over to the free numbers and leaves the step in `self.step`.
