@@ -40,7 +40,7 @@ pub fn normalised(values: &[f32], width: usize, model: &[f32]) -> Vec<f32> {
     let [ink, inks, paper, papers] = sums.each_ref().map(|s| total(s));
     let ink = single(mean(ink, inks, 1.0));
     let paper = single(mean(paper, papers, 0.0));
-    if ink - paper < CONTRAST {
+    if values.is_empty() || ink - paper < CONTRAST {
         return values.to_vec();
     }
     let counts = || sums[1].iter().zip(&sums[3]);

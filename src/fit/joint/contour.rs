@@ -6,15 +6,19 @@ use super::{Joint, STRAY, judge, tidy};
 use crate::numeric::chain::{Chain, Join, Node};
 use crate::numeric::joins::level_ends;
 use crate::numeric::refit::Foot;
-use crate::types::{Span, Spans};
+use crate::types::{Span, Spans, Verdict};
 use kurbo::{BezPath, Point};
 
 /// No corner moves further than this from where it was found, tolerances.
 const CORNER_REACH: f64 = 12.0;
 
-/// The path of a contour with corners, all nodes refined at once; `None` where it has no corner or the curves lose
-/// their way.
-pub(super) fn welded(joint: &Joint, spans: &Spans, tolerance_px: f64) -> Option<BezPath> {
+/// The path of a contour with corners, all nodes refined at once, and whether it keeps to the tolerance; `None` where it has
+/// no corner or the curves lose their way.
+pub(super) fn welded(
+    joint: &Joint,
+    spans: &Spans,
+    tolerance_px: f64,
+) -> Option<(BezPath, Verdict)> {
     let spans: Vec<&[Point]> = spans
         .iter()
         .map(|s| (!s.is_ring()).then_some(s.points()))
@@ -31,10 +35,15 @@ pub(super) fn welded(joint: &Joint, spans: &Spans, tolerance_px: f64) -> Option<
     let kept = corners.len() == spans.len()
         && corners.iter().zip(&spans).all(near)
         && keeps(chain, &corners, &spans, STRAY * tolerance_px);
+    let verdict = if found.worst().iter().all(|w| *w <= tolerance_px) {
+        Verdict::Met
+    } else {
+        Verdict::Exhausted
+    };
     kept.then(|| {
         tidy::smooth(&mut found);
         level_ends(&mut found.chain);
-        found.chain.to_path()
+        (found.chain.to_path(), verdict)
     })
 }
 

@@ -15,7 +15,7 @@ mod piece;
 mod samples;
 mod tidy;
 
-use super::judge::judge;
+use super::judge::{judge, points_to_curve};
 use super::path;
 use super::{FitError, Fitter};
 use crate::types::{Fitted, Span, Spans, Verdict};
@@ -41,6 +41,9 @@ impl Default for Joint {
 
 /// Searches with half the noise each in the spans that miss the tolerance.
 const TIGHTER: usize = 2;
+/// A contour's fit that lies so many times as far from the points as its spans' own, in the root mean square, has lost its
+/// way.
+const DERAILED: f64 = 1.4;
 /// With so few points their own polygon is better than curves that miss the tolerance.
 const FEW: usize = 6;
 /// And with so many halves are, which curves may meet.
@@ -63,10 +66,21 @@ impl Fitter for Joint {
     }
 
     fn contour(&self, spans: &Spans, tolerance_px: f64) -> Result<BezPath, FitError> {
-        match contour::welded(self, spans, tolerance_px) {
-            Some(path) => Ok(path),
-            None => path::joined(self, spans, tolerance_px),
+        let whole = contour::welded(self, spans, tolerance_px);
+        if let Some((path, Verdict::Met)) = whole {
+            return Ok(path);
         }
+        let apart = path::joined(self, spans, tolerance_px)?;
+        let inner = |s: Span<'_>| {
+            let within = s.points().iter().skip(1).rev().skip(1);
+            within.copied().collect::<Vec<_>>()
+        };
+        let points: Vec<Point> = spans.iter().flat_map(inner).collect();
+        let off = |path: &BezPath| points_to_curve(&points, path).rms_px;
+        Ok(match whole {
+            Some((path, _)) if off(&path) <= DERAILED * off(&apart) => path,
+            _ => apart,
+        })
     }
 }
 
