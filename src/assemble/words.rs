@@ -458,6 +458,29 @@ mod tests {
     }
 
     #[test]
+    fn gaps_under_tails_tell_nothing_of_sides() {
+        let mut rooms = [(45.0, 45.0); 8];
+        rooms[6].0 = -30.0;
+        let mut hand = rooms;
+        // uneven open gaps, and what follows reh nearer to it than those would have it
+        for (i, (left, right)) in [
+            (4, (4.0, 0.0)),
+            (5, (-4.0, -3.0)),
+            (6, (4.0, 3.0)),
+            (7, (0.0, 5.0)),
+        ] {
+            hand[i].0 += left;
+            hand[i].1 += right;
+        }
+        let words: Vec<Word> = WORDS.iter().map(|w| written(&font(&hand), w)).collect();
+        let mut drafts = font(&rooms);
+        learn(&mut drafts, &words, 45.0, 1000.0);
+        // half of what open gaps want in the median, 7
+        let left = drafts[6].outline.contours()[0].bounding_box().x0;
+        assert!((left - (3.5 - 30.0)).abs() < 1e-6, "{left}");
+    }
+
+    #[test]
     fn sides_that_join_or_are_given_stay() {
         let hand = font(&[(80.0, 80.0); 8]);
         let words: Vec<Word> = WORDS.iter().map(|w| written(&hand, w)).collect();

@@ -32,7 +32,7 @@ pub enum CodeError {
     #[error("{0} boundary points; 8 are needed at least")]
     Short(usize),
     /// Too large, or not finite.
-    #[error("the boundary spans {0} x {1} px; scale it to at most 4096 a side")]
+    #[error("the boundary spans {0} x {1} px; scale it to at most 1024 a side")]
     Large(f64, f64),
     /// Bounds out of order.
     #[error("the bounds are {0} and {1} px; 0 < t_min <= t_max is needed")]

@@ -45,8 +45,8 @@ pub fn encode(
 ) -> Result<Coded, CodeError> {
     /// Fewer points enclose nothing worth a curve.
     const FEW: usize = 8;
-    /// Larger shapes take too long, px.
-    const LARGE: f64 = 4096.0;
+    /// Larger shapes take too long, and their tubes too much memory, px.
+    const LARGE: f64 = 1024.0;
     if boundary.len() < FEW {
         return Err(CodeError::Short(boundary.len()));
     }
