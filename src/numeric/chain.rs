@@ -8,6 +8,9 @@
 use kurbo::{BezPath, CubicBez, PathEl, Point, Vec2};
 use std::ops::Range;
 
+/// A line of a path that is so near to an axis is meant to be parallel to it, radians.
+const LEVEL_LINE: f64 = 1e-4;
+
 /// What a node holds fixed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Join {
@@ -209,7 +212,7 @@ impl Chain {
     }
 
     /// The line that gives smooth node `i` its direction.
-    pub(super) fn line_beside(&self, i: usize) -> Option<usize> {
+    pub fn line_beside(&self, i: usize) -> Option<usize> {
         let line = |s: &usize| self.kinds[*s] == Kind::Line;
         let before = self.before(i).filter(line);
         before.or_else(|| self.after(i).filter(line))
@@ -241,7 +244,7 @@ impl Chain {
     }
 
     /// Reads a path of lines and cubics back. Nodes whose sides differ by less than `turn` radians are
-    /// smooth, and extrema where that direction is as near to an axis. The ends of an open path are
+    /// smooth, and extrema where that direction is as near to an axis; beside a line it must all but be on it. The ends of an open path are
     /// [`Join::End`]. `None` for a path with quadratics, with fewer than two nodes, or with a second move.
     #[must_use]
     pub fn from_path(path: &BezPath, turn: f64) -> Option<Self> {
@@ -311,13 +314,18 @@ fn node_between(
     let curved = [before, after]
         .iter()
         .any(|s| matches!(s, Some((Kind::Cubic, _))));
+    let line = [before, after]
+        .iter()
+        .any(|s| matches!(s, Some((Kind::Line, _))));
+    // a line that is made parallel to an axis takes its other end along
+    let level = if line { turn.min(LEVEL_LINE) } else { turn };
     let join = if before.is_none() || after.is_none() {
         Join::End
     } else if !curved || arrive.cross(leave).atan2(arrive.dot(leave)).abs() >= turn {
         Join::Corner
-    } else if leave.y.abs() < turn && arrive.y.abs() < turn {
+    } else if leave.y.abs() < level && arrive.y.abs() < level {
         Join::Horizontal
-    } else if leave.x.abs() < turn && arrive.x.abs() < turn {
+    } else if leave.x.abs() < level && arrive.x.abs() < level {
         Join::Vertical
     } else {
         let mean = arrive + leave;

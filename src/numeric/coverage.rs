@@ -33,16 +33,28 @@ impl Coverage {
         self.width
     }
 
+    /// Rows, px.
+    #[must_use]
+    pub const fn height(&self) -> usize {
+        self.height
+    }
+
     /// Adds a closed polygon, px, y up. Points that are not finite are passed over.
     pub fn add(&mut self, ring: &[Point]) {
+        let finite = || ring.iter().copied().filter(|p| p.is_finite());
+        self.chords(finite().chain(finite().take(1)));
+    }
+
+    /// Adds a part of a polygon's edge, px, y up; parts that make a ring add what the ring does.
+    pub fn line(&mut self, points: &[Point]) {
+        self.chords(points.iter().copied().filter(|p| p.is_finite()));
+    }
+
+    fn chords(&mut self, points: impl Iterator<Item = Point>) {
         let top = self.height as f64;
-        let mut ends = ring
-            .iter()
-            .filter(|p| p.is_finite())
-            .map(|p| (p.x, top - p.y));
-        let Some(first) = ends.next() else { return };
-        let mut from = first;
-        for to in ends.chain([first]) {
+        let mut ends = points.map(|p| (p.x, top - p.y));
+        let Some(mut from) = ends.next() else { return };
+        for to in ends {
             self.edge(from, to);
             from = to;
         }
@@ -56,7 +68,8 @@ impl Coverage {
             (b, a, -1.0)
         };
         let (top, bottom) = (a.1.max(0.0), b.1.min(self.height as f64));
-        if bottom <= top {
+        let right = self.width as f64;
+        if bottom <= top || a.0.min(b.0) >= right {
             return;
         }
         let slope = (b.0 - a.0) / (b.1 - a.1);
@@ -65,7 +78,6 @@ impl Coverage {
             if y1 <= y0 {
                 continue;
             }
-            let right = self.width as f64;
             let x = |y: f64| (a.0 + slope * (y - a.1)).clamp(0.0, right);
             let (x0, x1) = (x(y0), x(y1));
             self.run(row, (x0.min(x1), x0.max(x1)), sign * (y1 - y0));

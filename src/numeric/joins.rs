@@ -43,7 +43,7 @@ pub fn inner_extrema(c: &CubicBez) -> impl Iterator<Item = (f64, Join)> + use<> 
     })
 }
 
-/// Puts a node on a cubic where it turns back; the curve stays as it is.
+/// Puts a node on a cubic, which stays as it is; at an extremum the node takes its axis.
 pub fn divide(chain: &mut Chain, segment: usize, t: f64, join: Join) {
     let c = chain.cubic(segment);
     let (l, r) = (c.subsegment(0.0..t), c.subsegment(t..1.0));
@@ -53,7 +53,8 @@ pub fn divide(chain: &mut Chain, segment: usize, t: f64, join: Join) {
     let d = c.deriv().eval(t).to_vec2();
     let along = match join {
         Join::Horizontal => Vec2::new(1f64.copysign(d.x), 0.0),
-        _ => Vec2::new(0.0, 1f64.copysign(d.y)),
+        Join::Vertical => Vec2::new(0.0, 1f64.copysign(d.y)),
+        _ => d / d.hypot().max(1e-12),
     };
     let node = Node {
         point: l.p3,

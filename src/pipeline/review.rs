@@ -3,7 +3,7 @@
 use super::picture::{Options, fit, sharp};
 use crate::{
     fit::FitError,
-    refine::{Comparison, Cornered, Doubts, drawn_in},
+    refine::{Comparison, Cornered, Doubts},
     types::Gray,
 };
 use kurbo::{BezPath, Point};
@@ -14,7 +14,7 @@ const SAME_PX: f64 = 1.5;
 const REVISIONS: usize = 3;
 
 /// The paths of contours, those with doubtful corners fit again as far as the picture bears it out, and all nodes settled
-/// in the picture.
+/// in the picture and wrong places mended.
 pub(super) fn reviewed(
     coverage: &Gray,
     found: &[Cornered],
@@ -36,17 +36,7 @@ pub(super) fn reviewed(
         doubts = revised;
         again = refit(coverage, found, (paths, &doubts), options)?;
     }
-    let settled = seen.settled(&again);
-    if doubts.iter().all(|d| d.round.is_empty()) {
-        return Ok(settled);
-    }
-    let upheld = seen.upheld(&doubts, (paths, &settled));
-    if upheld == doubts {
-        return Ok(settled);
-    }
-    let again = refit(coverage, found, (paths, &upheld), options)?;
-    let kept = seen.settled(&drawn_in(&again, &upheld));
-    Ok(seen.as_well(settled, kept))
+    Ok(seen.mended(&seen.settled(&again)))
 }
 
 /// The paths, those anew whose corners are doubted.

@@ -9,7 +9,7 @@ use super::{
     residual::{Blot, Residual},
 };
 use crate::types::{Contour, Gray};
-use kurbo::{CubicBez, PathSeg, Point, Vec2};
+use kurbo::{CubicBez, Point, Vec2};
 
 /// Below this turn an arc of a few pixels leaves out less than the grain hides, radians.
 pub(super) const TELLING: f64 = 1.4;
@@ -62,34 +62,6 @@ pub(super) fn undrawn(residual: &Residual<'_>, path: &[CubicBez]) -> Vec<Point> 
         (part > 1.0).then_some(after.p0)
     });
     corners.collect()
-}
-
-/// From the corner between two segments to the tip that the picture has ink for: a corner between sides that hardly
-/// part is easily put pixels too far out.
-pub(super) fn inwards(residual: &Residual<'_>, before: &PathSeg, after: &PathSeg) -> Vec2 {
-    let sides = [before, after].map(PathSeg::to_cubic);
-    let (u, v) = (arriving(&sides[0]), leaving(&sides[1]));
-    let (u, v) = (u.normalize(), v.normalize());
-    let radius = limit(residual);
-    let Some(part) = round(residual, sides[1].p0, (u, v), radius) else {
-        return Vec2::ZERO;
-    };
-    let half = u.cross(v).atan2(u.dot(v)).abs() / 2.0;
-    let ink = part.max(0.0) * radius * radius * (half.tan() - half);
-    // a tip of length d whose sides part by 2a holds d² tan a, and a is what half lacks of a right angle
-    let length = (ink * half.tan()).sqrt();
-    let shortest = sides
-        .map(|c| c.p0.distance(c.p3))
-        .into_iter()
-        .fold(f64::INFINITY, f64::min);
-    let way = match (before, after) {
-        // straight sides stay as they are
-        (PathSeg::Line(_), PathSeg::Line(_)) => return Vec2::ZERO,
-        (PathSeg::Line(_), _) => -u,
-        (_, PathSeg::Line(_)) => v,
-        _ => (v - u).normalize(),
-    };
-    way * length.min(0.5 * shortest)
 }
 
 /// Largest radius, px, of an arc that is still taken for a corner.

@@ -14,13 +14,16 @@
 mod blunt;
 mod comparison;
 mod corners;
+mod mend;
 mod nodes;
 mod residual;
 #[cfg(test)]
 mod tests;
+mod variants;
+mod window;
 
 pub use blunt::Overlooked;
-pub use comparison::{Comparison, Doubts, Tip, drawn_in};
+pub use comparison::{Comparison, Doubts};
 pub use corners::confirmed;
 
 use crate::{

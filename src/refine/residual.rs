@@ -143,6 +143,19 @@ impl Residual<'_> {
         (0..=index(2.5 * sigma)).map(weight).collect()
     }
 
+    /// The picture's coverage, ink and paper levelled.
+    pub(super) fn seen(&self) -> &Gray {
+        &self.seen
+    }
+
+    /// Puts other differences into the pixels from column `x` of row `y` (from the top) on.
+    pub(super) fn replace(&mut self, (x, y): (usize, usize), off: &[f32]) {
+        let at = y * self.seen.width() + x;
+        if let Some(to) = self.off.get_mut(at..at + off.len()) {
+            to.copy_from_slice(off);
+        }
+    }
+
     /// Deviation of the lens' blur alone, px.
     pub(super) const fn lens_px(&self) -> f64 {
         self.lens

@@ -1,0 +1,193 @@
+//! Other structures of a few nodes: what a drawing may have where another was fit.
+
+use crate::numeric::{
+    chain::{Chain, Join, Kind, Node},
+    joins::divide,
+};
+use kurbo::{CubicBez, ParamCurve, ParamCurveDeriv, ParamCurveNearest, Point, Vec2};
+
+/// How much of each side a corner that is cut off may lose, px.
+const CUTS_PX: [f64; 2] = [0.8, 2.0];
+/// And as a part of the side at most.
+const CUT: f64 = 0.4;
+/// A round corner's handles, as parts of the way to its tip: those of a circle.
+const ROUND: f64 = 0.55;
+/// Segments at most in whose place a corner may be.
+const RUN: usize = 3;
+/// Sides lead to a corner no further than this, in gaps between them.
+const AHEAD: f64 = 6.0;
+/// So near to a curve's end no node is put, parameter.
+const INSIDE: f64 = 0.02;
+/// How precisely the nearest place on a curve is found, px.
+const NEAREST_PX: f64 = 1e-3;
+
+/// Structures that differ from an open chain's by a few nodes within `reach` px of `p`, those of fewest nodes first.
+pub(super) fn variants(chain: &Chain, p: Point, reach: f64) -> Vec<Chain> {
+    let last = chain.kinds.len();
+    let near = |i: &usize| chain.nodes[*i].point.distance(p) < reach;
+    let mut out = Vec::new();
+    for i in (1..last).filter(near) {
+        if chain.nodes[i].join == Join::Corner {
+            for px in CUTS_PX {
+                out.push(cut(chain, i, px, Kind::Line));
+                out.push(cut(chain, i, px, Kind::Cubic));
+            }
+        } else {
+            out.push(joined(chain, i, Join::Corner));
+        }
+        out.push(dropped(chain, i));
+        let runs = (i + 1..last).take(RUN).take_while(near);
+        out.extend(runs.map(|j| met(chain, i, j)));
+    }
+    let off = |i: &usize| chain.cubic(*i).nearest(p, NEAREST_PX);
+    let nearest = (0..last).map(|i| (i, off(&i)));
+    let nearest = nearest.min_by(|a, b| a.1.distance_sq.total_cmp(&b.1.distance_sq));
+    if let Some((i, at)) = nearest {
+        out.push(other_kind(chain, i));
+        let cubic = chain.kinds[i] == Kind::Cubic;
+        if cubic && (INSIDE..1.0 - INSIDE).contains(&at.t) {
+            let mut smooth = chain.clone();
+            divide(&mut smooth, i, at.t, Join::Smooth);
+            let corner = joined(&smooth, i + 1, Join::Corner);
+            out.extend([smooth, corner]);
+        }
+    }
+    out.sort_by_key(|c| c.nodes.len());
+    out
+}
+
+/// With another join at node `i`.
+fn joined(chain: &Chain, i: usize, join: Join) -> Chain {
+    let mut chain = chain.clone();
+    chain.nodes[i].join = join;
+    chain
+}
+
+/// With a curve in place of a line, or a line in place of a curve.
+fn other_kind(chain: &Chain, i: usize) -> Chain {
+    let mut out = chain.clone();
+    if chain.kinds[i] == Kind::Cubic {
+        out.kinds[i] = Kind::Line;
+        return out;
+    }
+    let (a, b) = chain.ends(i);
+    let along = chain.direction(i);
+    let third = out.nodes[a].point.distance(out.nodes[b].point) / 3.0;
+    out.kinds[i] = Kind::Cubic;
+    (out.nodes[a].leave, out.nodes[a].ahead) = (along, third);
+    (out.nodes[b].arrive, out.nodes[b].back) = (along, third);
+    out
+}
+
+/// With corner `i` cut off about `px` from its tip, by a line or by a curve that goes on smoothly.
+fn cut(chain: &Chain, i: usize, px: f64, by: Kind) -> Chain {
+    let mut out = chain.clone();
+    let reversed = |c: CubicBez| CubicBez::new(c.p3, c.p2, c.p1, c.p0);
+    let sides = [chain.cubic(i - 1), reversed(chain.cubic(i))];
+    let [before, after] = sides.map(|c| c.subsegment(0.0..1.0 - behind(&c, px)));
+    let after = reversed(after);
+    let tip = chain.nodes[i].point;
+    let join = match by {
+        Kind::Line => Join::Corner,
+        Kind::Cubic => Join::Smooth,
+    };
+    out.nodes[i - 1].ahead = before.p0.distance(before.p1);
+    out.nodes[i + 1].back = after.p2.distance(after.p3);
+    let (u, v) = (
+        unit(before.deriv().eval(1.0).to_vec2()),
+        unit(after.deriv().eval(0.0).to_vec2()),
+    );
+    let first = Node {
+        point: before.p3,
+        join,
+        arrive: u,
+        leave: u,
+        back: before.p2.distance(before.p3),
+        ahead: ROUND * tip.distance(before.p3),
+    };
+    let second = Node {
+        point: after.p0,
+        join,
+        arrive: v,
+        leave: v,
+        back: ROUND * tip.distance(after.p0),
+        ahead: after.p0.distance(after.p1),
+    };
+    out.nodes.splice(i..=i, [first, second]);
+    out.kinds.insert(i, by);
+    out
+}
+
+/// How far before the end of a curve, in its parameter, it is about `px` from there.
+fn behind(c: &CubicBez, px: f64) -> f64 {
+    let length = c.p0.distance(c.p1) + c.p1.distance(c.p2) + c.p2.distance(c.p3);
+    let px = px.min(CUT * length);
+    let mut t = (px / length.max(1e-9)).min(CUT);
+    for _ in 0..4 {
+        let gone = c.eval(1.0 - t).distance(c.p3);
+        t = (t * (px / gone.max(1e-9)).clamp(0.5, 2.0)).min(0.5);
+    }
+    t
+}
+
+/// Without node `i`.
+fn dropped(chain: &Chain, i: usize) -> Chain {
+    let mut out = chain.clone();
+    let (before, after) = (chain.cubic(i - 1), chain.cubic(i));
+    let length = |c: &CubicBez| c.p0.distance(c.p1) + c.p1.distance(c.p2) + c.p2.distance(c.p3);
+    let third = (length(&before) + length(&after)) / 3.0;
+    let along = unit(after.p3 - before.p0);
+    let lines = [i - 1, i].map(|s| chain.kinds[s] == Kind::Line);
+    let free = |n: usize| matches!(chain.nodes[n].join, Join::Corner | Join::End);
+    if lines[0] && free(i - 1) {
+        out.nodes[i - 1].leave = along;
+    }
+    if lines[1] && free(i + 1) {
+        out.nodes[i + 1].arrive = along;
+    }
+    out.nodes[i - 1].ahead = third;
+    out.nodes[i + 1].back = third;
+    out.nodes.remove(i);
+    out.kinds.remove(i);
+    out.kinds[i - 1] = if lines == [true; 2] {
+        Kind::Line
+    } else {
+        Kind::Cubic
+    };
+    out
+}
+
+/// With one corner in place of the nodes from `i` to `j`, where both sides lead.
+fn met(chain: &Chain, i: usize, j: usize) -> Chain {
+    let mut out = chain.clone();
+    let (a, b) = (chain.nodes[i], chain.nodes[j]);
+    let along = |segment: usize, own: Vec2| match chain.kinds[segment] {
+        Kind::Line => chain.direction(segment),
+        Kind::Cubic => own,
+    };
+    let (u, v) = (along(i - 1, a.arrive), along(j, b.leave));
+    let gap = b.point - a.point;
+    let cross = u.cross(v);
+    let (on, back) = (gap.cross(v) / cross, -gap.cross(u) / cross);
+    let far = AHEAD * gap.hypot();
+    let (point, on, back) = if (0.0..far).contains(&on) && (0.0..far).contains(&back) {
+        (a.point + on * u, on, back)
+    } else {
+        (a.point.midpoint(b.point), 0.0, 0.0)
+    };
+    let corner = Node {
+        point,
+        join: Join::Corner,
+        arrive: u,
+        leave: v,
+        back: a.back + on,
+        ahead: b.ahead + back,
+    };
+    out.nodes.splice(i..=j, [corner]);
+    out.kinds.drain(i..j);
+    out
+}
+
+fn unit(v: Vec2) -> Vec2 {
+    v / v.hypot().max(1e-12)
+}

@@ -1,0 +1,472 @@
+//! A few nodes against the pixels around them, by least squares of the pixels themselves.
+//!
+//! Solves   min Σ (seen − blurred fill)² over the window's pixels + Σ (way the curves went beyond it)², over the numbers of
+//! the nodes inside. Gauss–Newton with Levenberg's damping; derivatives by differences, of which each draws no more than
+//! the segments that a number moves.
+//!
+//! Where an outline turns within the lens' reach no point of its contour tells where it is by itself: the picture of the
+//! whole place does.
+
+use super::residual::Residual;
+use crate::numeric::{
+    cast::{index, single},
+    chain::{Chain, Join, Kind},
+    coverage::{Coverage, blur},
+    skyline::Skyline,
+};
+use crate::types::Contour;
+use kurbo::{CubicBez, ParamCurve, ParamCurveDeriv, Point, Vec2};
+use std::{f64::consts::PI, ops::Range};
+
+/// Chords leave a curve by no more than this, px.
+const CHORD_PX: f64 = 0.02;
+/// Way along a curve beyond the window for one anchor, px, and how many there are on a curve at most.
+const STEP_PX: f64 = 2.0;
+const MOST_ANCHORS: f64 = 32.0;
+/// Steps of the least squares.
+const STEPS: usize = 14;
+/// A step that lowers the squares by less than this part, or by less than this, is the last.
+const PROGRESS: f64 = 0.01;
+const LITTLE: f64 = 1e-3;
+/// Steps as good as the last that a fit is trusted to take still.
+const HOPE: f64 = 4.0;
+/// Differences that derivatives are taken by, px and radians.
+const DELTA: f64 = 0.01;
+/// No node moves further in a step, px, no direction turns more, radians, and no handle changes by a larger part.
+const STRIDE_PX: f64 = 1.0;
+const SWING: f64 = 0.4;
+const STRETCH: f64 = 0.5;
+/// The shortest handle, px.
+const SHORTEST_PX: f64 = 0.02;
+/// Handles of drawn curves are about this part of the chord, and stray from it by so much.
+const HANDLE: (f64, f64) = (0.37, 0.4);
+
+/// A rectangle of the picture and what is known of the paths in it.
+#[derive(Debug)]
+pub(super) struct Window {
+    columns: Range<usize>,
+    /// from the top
+    rows: Range<usize>,
+    /// left and bottom, px, y up
+    origin: Vec2,
+    /// pixels at each side that only lend their light
+    margin: usize,
+    lens: f64,
+    /// picture minus the blurred fill of all that does not move
+    still: Vec<f32>,
+    /// weight of a handle's prior
+    prior: f64,
+    anchors: Vec<Anchor>,
+}
+
+/// Where a curve that moves ran beyond the window, and which way out of the ink.
+#[derive(Debug)]
+struct Anchor {
+    at: Point,
+    outward: Vec2,
+    weight: f64,
+}
+
+/// A number of a node.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Number {
+    X,
+    Y,
+    /// direction of both sides
+    Turn,
+    Arrive,
+    Leave,
+    Back,
+    Ahead,
+}
+
+/// A chain in a window, and what is left of the picture.
+#[derive(Debug)]
+pub(super) struct Drawn {
+    chords: Vec<Vec<Point>>,
+    /// segment and parameter nearest to each anchor
+    feet: Vec<(usize, f64)>,
+    /// differences left in all pixels, row by row from the top
+    off: Vec<f32>,
+    /// of the inner pixels, of the anchors, and of two handles a segment
+    left: Vec<f32>,
+    /// squares of all these
+    sum: f64,
+    /// and without the handles
+    pub(super) squares: f64,
+}
+
+impl Window {
+    /// The window that reaches `reach` px from `p` to each side. `moving` is an open part of a path, the `lines` of all else
+    /// need not close; `prior` weighs handles against pixels.
+    pub(super) fn new<'r>(
+        residual: &Residual<'_>,
+        (p, reach): (Point, f64),
+        lines: impl Iterator<Item = &'r [Point]>,
+        moving: &Chain,
+        prior: f64,
+    ) -> Self {
+        let seen = residual.seen();
+        let lens = residual.lens_px();
+        let margin = index((3.5 * lens).ceil());
+        let whole = index(reach.ceil()) + margin;
+        let around = |c: f64, n: usize| {
+            let c = index(c.max(0.0)).min(n.saturating_sub(1));
+            c.saturating_sub(whole)..(c + whole + 1).min(n)
+        };
+        let height = seen.height();
+        let columns = around(p.x, seen.width());
+        let rows = around(height as f64 - p.y, height);
+        let mut window = Self {
+            origin: Vec2::new(columns.start as f64, (height - rows.end) as f64),
+            columns,
+            rows,
+            margin,
+            lens,
+            still: Vec::new(),
+            prior,
+            anchors: Vec::new(),
+        };
+        let mut fill = Coverage::new(window.columns.len(), window.rows.len());
+        for line in lines {
+            let line: Vec<Point> = line.iter().map(|q| *q - window.origin).collect();
+            fill.line(&line);
+        }
+        window.still = window.blurred(&fill);
+        let rows = window.rows.clone().map(|y| seen.row(y));
+        let pixels = rows.flat_map(|row| &row[window.columns.clone()]);
+        let pairs = window.still.iter_mut().zip(pixels);
+        pairs.for_each(|(still, seen)| *still = seen - *still);
+        window.drop_anchors(moving);
+        window
+    }
+
+    /// Pixels that count.
+    pub(super) fn pixels(&self) -> f64 {
+        let inner = |n: usize| n.saturating_sub(2 * self.margin) as f64;
+        inner(self.columns.len()) * inner(self.rows.len())
+    }
+
+    /// The chain as it is.
+    pub(super) fn drawn(&self, chain: &Chain) -> Drawn {
+        let chords: Vec<Vec<Point>> = (0..chain.kinds.len())
+            .map(|i| self.chords(chain, i))
+            .collect();
+        let feet = self
+            .anchors
+            .iter()
+            .map(|a| foot(a.at - self.origin, &chords))
+            .collect();
+        self.with(chain, chords, feet)
+    }
+
+    /// Moves what is free of the chain to the least squares. Given up as soon as `enough` is out of reach.
+    pub(super) fn fit(&self, chain: &mut Chain, enough: f64) -> Drawn {
+        chain.settle();
+        let numbers = numbers(chain);
+        let mut now = self.drawn(chain);
+        let mut lambda = 1e-3;
+        let mut columns: Vec<Vec<f32>> = Vec::new();
+        for _ in 0..STEPS {
+            if columns.is_empty() {
+                let column = |number: &(usize, Number)| self.derivative(chain, &now, *number);
+                columns = numbers.iter().map(column).collect();
+            }
+            let Some(mut step) = solved(&columns, &now.left, lambda) else {
+                break;
+            };
+            shorten(chain, &numbers, &mut step);
+            let mut trial = chain.clone();
+            for (number, by) in numbers.iter().zip(&step) {
+                nudge(&mut trial, *number, *by);
+            }
+            trial.settle();
+            let chords = (0..trial.kinds.len()).map(|i| self.chords(&trial, i));
+            let new = self.with(&trial, chords.collect(), self.slid(&trial, &now.feet));
+            let gain = now.sum - new.sum;
+            if gain > 0.0 {
+                (*chain, now) = (trial, new);
+                columns.clear();
+                lambda = (lambda * 0.2_f64).max(1e-6);
+                if gain < (PROGRESS * now.sum).max(LITTLE) || now.squares - HOPE * gain > enough {
+                    break;
+                }
+            } else {
+                lambda *= 10.0;
+                if lambda > 1e4 {
+                    break;
+                }
+            }
+        }
+        now
+    }
+
+    /// Puts what is left into the window's place of the picture.
+    pub(super) fn write(&self, drawn: &Drawn, residual: &mut Residual<'_>) {
+        let m = self.margin;
+        let lines = drawn.off.chunks_exact(self.columns.len().max(1));
+        for (y, line) in self.rows.clone().zip(lines) {
+            if (self.rows.start + m..self.rows.end.saturating_sub(m)).contains(&y) {
+                let inner = line.get(m..line.len().saturating_sub(m));
+                residual.replace((self.columns.start + m, y), inner.unwrap_or_default());
+            }
+        }
+    }
+
+    fn with(&self, chain: &Chain, chords: Vec<Vec<Point>>, feet: Vec<(usize, f64)>) -> Drawn {
+        let mut fill = Coverage::new(self.columns.len(), self.rows.len());
+        chords.iter().for_each(|c| fill.line(c));
+        let mut off = self.blurred(&fill);
+        let pairs = off.iter_mut().zip(&self.still);
+        pairs.for_each(|(off, still)| *off = still - *off);
+        let mut left = self.inner(&off);
+        let past = self.anchors.iter().zip(&feet);
+        left.extend(past.map(|(a, f)| single(a.passed(&chain.cubic(f.0), f.1))));
+        let squares = dot(&left, &left);
+        for i in 0..chain.kinds.len() {
+            left.extend(self.handles(chain, i).map(single));
+        }
+        let sum = dot(&left, &left);
+        Drawn {
+            chords,
+            feet,
+            off,
+            left,
+            sum,
+            squares,
+        }
+    }
+
+    /// By how much what is left of a chain grows with a number.
+    fn derivative(&self, chain: &Chain, now: &Drawn, number: (usize, Number)) -> Vec<f32> {
+        let mut moved = chain.clone();
+        nudge(&mut moved, number, DELTA);
+        moved.settle();
+        let differs = |i: &usize| moved.cubic(*i) != chain.cubic(*i);
+        let other: Vec<usize> = (0..chain.kinds.len()).filter(differs).collect();
+        let mut fill = Coverage::new(self.columns.len(), self.rows.len());
+        for &i in &other {
+            fill.line(&self.chords(&moved, i));
+            fill.line(&now.chords[i].iter().rev().copied().collect::<Vec<_>>());
+        }
+        let mut out = self.inner(&self.blurred(&fill));
+        out.iter_mut().for_each(|v| *v = -*v);
+        let past = self.anchors.iter().zip(&now.feet);
+        out.extend(past.map(|(a, &(i, t))| {
+            if other.contains(&i) {
+                single(a.passed(&moved.cubic(i), t) - a.passed(&chain.cubic(i), t))
+            } else {
+                0.0
+            }
+        }));
+        for i in 0..chain.kinds.len() {
+            let (a, b) = (self.handles(&moved, i), self.handles(chain, i));
+            out.extend([a[0] - b[0], a[1] - b[1]].map(single));
+        }
+        out.iter_mut().for_each(|v| *v /= single(DELTA));
+        out
+    }
+
+    /// The values of the pixels that count.
+    fn inner(&self, all: &[f32]) -> Vec<f32> {
+        let m = self.margin;
+        let lines = all.chunks_exact(self.columns.len().max(1));
+        let lines = lines.skip(m).take(self.rows.len().saturating_sub(2 * m));
+        let inner = lines.flat_map(|l| l.get(m..l.len().saturating_sub(m)));
+        inner.flatten().copied().collect()
+    }
+
+    /// How unlike drawn ones the handles of a segment are.
+    fn handles(&self, chain: &Chain, segment: usize) -> [f64; 2] {
+        if chain.kinds[segment] == Kind::Line {
+            return [0.0; 2];
+        }
+        let (a, b) = chain.ends(segment);
+        let (a, b) = (&chain.nodes[a], &chain.nodes[b]);
+        let chord = a.point.distance(b.point).max(0.1);
+        let (usual, spread) = HANDLE;
+        [a.ahead, b.back].map(|handle| self.prior * (handle / chord - usual) / spread)
+    }
+
+    /// A segment as chords, evenly in its parameter, in the window's own space.
+    fn chords(&self, chain: &Chain, segment: usize) -> Vec<Point> {
+        let c = chain.cubic(segment);
+        let bend = (c.p0 - c.p1 + (c.p2 - c.p1)).hypot2();
+        let bend = bend.max((c.p1 - c.p2 + (c.p3 - c.p2)).hypot2()).sqrt();
+        // 6 bend is the largest second derivative, and chords of step h leave a curve by an eighth of h² of it
+        let count = match chain.kinds[segment] {
+            Kind::Line => 1,
+            Kind::Cubic => index((6.0 * bend / (8.0 * CHORD_PX)).sqrt().ceil()).max(1),
+        };
+        let at = |k: usize| c.eval(k as f64 / count as f64) - self.origin;
+        (0..=count).map(at).collect()
+    }
+
+    /// The feet of the anchors after a step.
+    fn slid(&self, chain: &Chain, feet: &[(usize, f64)]) -> Vec<(usize, f64)> {
+        let slid = |(a, &(i, t)): (&Anchor, &(usize, f64))| {
+            let c = chain.cubic(i);
+            let (off, d) = (c.eval(t) - a.at, c.deriv().eval(t).to_vec2());
+            let t = t - off.dot(d) / d.hypot2().max(1e-12);
+            (i, t.clamp(0.0, 1.0))
+        };
+        self.anchors.iter().zip(feet).map(slid).collect()
+    }
+
+    fn blurred(&self, fill: &Coverage) -> Vec<f32> {
+        let mut model = fill.samples();
+        blur(&mut model, fill.width(), self.lens);
+        model
+    }
+
+    /// Whether a place counts with its pixels.
+    fn holds(&self, p: Point) -> bool {
+        let q = p - self.origin;
+        let m = self.margin as f64;
+        (m..=self.columns.len() as f64 - m).contains(&q.x)
+            && (m..=self.rows.len() as f64 - m).contains(&q.y)
+    }
+
+    fn drop_anchors(&mut self, chain: &Chain) {
+        let blur = self.lens.hypot(Contour::PIXEL_BLUR_PX);
+        for i in 0..chain.kinds.len() {
+            let c = chain.cubic(i);
+            let length = polygon_px(&c);
+            let count = index((length / STEP_PX.max(length / MOST_ANCHORS)).ceil());
+            // an edge that moves by d changes the squares of each px along it by d² of this
+            let weight = (length / (count as f64) / (2.0 * PI.sqrt() * blur)).sqrt();
+            for k in 0..count {
+                let t = (k as f64 + 0.5) / count as f64;
+                let (at, along) = (c.eval(t), c.deriv().eval(t).to_vec2());
+                if !self.holds(at) && along.hypot() > 1e-9 {
+                    self.anchors.push(Anchor {
+                        at,
+                        outward: Vec2::new(along.y, -along.x) / along.hypot(),
+                        weight,
+                    });
+                }
+            }
+        }
+    }
+}
+
+impl Anchor {
+    /// How far beyond it a curve runs, weighed.
+    fn passed(&self, c: &CubicBez, t: f64) -> f64 {
+        self.weight * (c.eval(t) - self.at).dot(self.outward)
+    }
+}
+
+/// Segment and parameter of the place on chords that is nearest to a point.
+fn foot(at: Point, chords: &[Vec<Point>]) -> (usize, f64) {
+    let mut nearest = (f64::INFINITY, (0, 0.0));
+    for (i, chords) in chords.iter().enumerate() {
+        let count = (chords.len() - 1) as f64;
+        for (k, (a, b)) in chords.iter().zip(chords.iter().skip(1)).enumerate() {
+            let (d, to) = (*b - *a, at - *a);
+            let t = (to.dot(d) / d.hypot2().max(1e-12)).clamp(0.0, 1.0);
+            let off = (t * d - to).hypot2();
+            if off < nearest.0 {
+                nearest = (off, (i, (k as f64 + t) / count));
+            }
+        }
+    }
+    nearest.1
+}
+
+/// The step of the least squares with Levenberg's damping.
+fn solved(columns: &[Vec<f32>], left: &[f32], lambda: f64) -> Option<Vec<f64>> {
+    let mut matrix = Skyline::default();
+    matrix.reset(&vec![0; columns.len()]);
+    let mut step: Vec<f64> = columns.iter().map(|c| -dot(c, left)).collect();
+    for (i, a) in columns.iter().enumerate() {
+        for (j, b) in columns.iter().enumerate().take(i + 1) {
+            matrix.add(i, j, dot(a, b));
+        }
+        // so that a number on which nothing depends stays where it is
+        matrix.add(i, i, 1e-9);
+    }
+    matrix.solve_damped(lambda, &mut step).then_some(step)
+}
+
+/// Sum of products, in lanes that add up side by side.
+fn dot(a: &[f32], b: &[f32]) -> f64 {
+    const LANES: usize = 16;
+    let (mut sums, (a, b)) = (
+        [0.0_f32; LANES],
+        (a.chunks_exact(LANES), b.chunks_exact(LANES)),
+    );
+    let rest = a.remainder().iter().zip(b.remainder());
+    let rest: f64 = rest.map(|(x, y)| f64::from(x * y)).sum();
+    for (a, b) in a.zip(b) {
+        let pairs = a.iter().zip(b);
+        sums.iter_mut()
+            .zip(pairs)
+            .for_each(|(s, (x, y))| *s += x * y);
+    }
+    rest + sums.iter().map(|s| f64::from(*s)).sum::<f64>()
+}
+
+/// The free numbers of an open chain.
+fn numbers(chain: &Chain) -> Vec<(usize, Number)> {
+    let mut out = Vec::new();
+    for (i, node) in chain.nodes.iter().enumerate() {
+        let cubic = |s| chain.kind(s) == Some(Kind::Cubic);
+        let (before, after) = (cubic(chain.before(i)), cubic(chain.after(i)));
+        if !node.join.is_fixed() {
+            out.extend([(i, Number::X), (i, Number::Y)]);
+        }
+        match node.join {
+            Join::Smooth if chain.line_beside(i).is_none() => out.push((i, Number::Turn)),
+            Join::Corner | Join::End | Join::Loose => {
+                out.extend(before.then_some((i, Number::Arrive)));
+                out.extend(after.then_some((i, Number::Leave)));
+            }
+            _ => {}
+        }
+        out.extend(before.then_some((i, Number::Back)));
+        out.extend(after.then_some((i, Number::Ahead)));
+    }
+    out
+}
+
+fn nudge(chain: &mut Chain, (i, number): (usize, Number), by: f64) {
+    let node = &mut chain.nodes[i];
+    let turn = |v: &mut Vec2| {
+        let (sin, cos) = by.sin_cos();
+        *v = Vec2::new(cos * v.x - sin * v.y, sin * v.x + cos * v.y);
+    };
+    match number {
+        Number::X => node.point.x += by,
+        Number::Y => node.point.y += by,
+        Number::Turn => {
+            turn(&mut node.arrive);
+            turn(&mut node.leave);
+        }
+        Number::Arrive => turn(&mut node.arrive),
+        Number::Leave => turn(&mut node.leave),
+        Number::Back => node.back = (node.back + by).max(SHORTEST_PX),
+        Number::Ahead => node.ahead = (node.ahead + by).max(SHORTEST_PX),
+    }
+}
+
+/// Shortens a step that goes too far.
+fn shorten(chain: &Chain, numbers: &[(usize, Number)], step: &mut [f64]) {
+    let most = |&(i, number): &(usize, Number)| match number {
+        Number::X | Number::Y => STRIDE_PX,
+        Number::Turn | Number::Arrive | Number::Leave => SWING,
+        Number::Back => (STRETCH * chain.nodes[i].back).max(STRIDE_PX),
+        Number::Ahead => (STRETCH * chain.nodes[i].ahead).max(STRIDE_PX),
+    };
+    let part = numbers
+        .iter()
+        .zip(&*step)
+        .map(|(number, by)| most(number) / by.abs().max(1e-12))
+        .fold(1.0, f64::min);
+    step.iter_mut().for_each(|by| *by *= part);
+}
+
+/// Length of a curve's control polygon, px.
+fn polygon_px(c: &CubicBez) -> f64 {
+    c.p0.distance(c.p1) + c.p1.distance(c.p2) + c.p2.distance(c.p3)
+}
