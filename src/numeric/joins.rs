@@ -11,6 +11,8 @@ const SOFT: f64 = 0.44;
 const LEVEL: f64 = 0.02;
 /// A curve that leaves its direction within so short a handle, px, and turns more than this there, radians, has a corner.
 const AT_ONCE: (f64, f64) = (0.5, 1.0);
+/// A direction is parallel to an axis whose other component is less.
+const ON_AXIS: f64 = 1e-6;
 /// A curve that turns back so near to its corner is meant to end where it is level: chords, and px.
 const BESIDE: (f64, f64) = (0.25, 6.0);
 /// A node at an extremum is so far from the next at least, px.
@@ -127,6 +129,41 @@ fn level_end(chain: &mut Chain, i: usize) {
     }
 }
 
+/// By how much the handles of a cubic, its first and its last, pass the level of an extremum that it ends in on the other side:
+/// it would turn back once more. As parts of the handles.
+#[must_use]
+pub fn past_levels(chain: &Chain, segment: usize) -> [f64; 2] {
+    let (a, b) = chain.ends(segment);
+    let (a, b) = (&chain.nodes[a], &chain.nodes[b]);
+    let chord = b.point - a.point;
+    // the way of a handle across an axis that the other end runs along, by what is there to go
+    let past = |handle: Vec2, along: Vec2| {
+        let axes = [(along.x, handle.x, chord.x), (along.y, handle.y, chord.y)];
+        let over = |(along, handle, whole): (f64, f64, f64)| {
+            let over = handle - whole;
+            let passes = f64::abs(along) < ON_AXIS && over * whole > 0.0;
+            if passes { over / handle } else { 0.0 }
+        };
+        axes.into_iter().map(over).fold(0.0, f64::max)
+    };
+    [
+        past(a.ahead * a.leave, b.arrive),
+        past(b.back * b.arrive, a.leave),
+    ]
+}
+
+/// Shortens handles that pass the level of an extremum at the other end of their cubic.
+pub fn keep_levels(chain: &mut Chain) {
+    for i in 0..chain.kinds.len() {
+        if chain.kinds[i] == Kind::Cubic {
+            let [first, last] = past_levels(chain, i);
+            let (a, b) = chain.ends(i);
+            chain.nodes[a].ahead *= 1.0 - first;
+            chain.nodes[b].back *= 1.0 - last;
+        }
+    }
+}
+
 /// Whether a corner of which one side at least is curved turns too little to be one: the blur hid a smooth join.
 #[must_use]
 pub fn is_soft(chain: &Chain, i: usize) -> bool {
@@ -223,6 +260,23 @@ mod tests {
         let end = chain.cubic(0);
         assert!((end.p2.y - end.p3.y).abs() < 1e-12);
         assert_eq!(end.p3, Point::new(50.0, 50.0));
+    }
+
+    #[test]
+    fn a_handle_ends_at_the_level_of_the_extremum_beyond() {
+        let path = kurbo::BezPath::from_svg("M0 0C0 20 -4 40 16 60L90 -10Z").unwrap();
+        let mut chain = Chain::from_path(&path, 0.001).unwrap();
+        assert_eq!(past_levels(&chain, 0), [0.0, 0.2]);
+        keep_levels(&mut chain);
+        let c = chain.cubic(0);
+        assert!(
+            c.p2.x.abs() < 1e-9 && c.p1 == Point::new(0.0, 20.0),
+            "{c:?}"
+        );
+        assert_eq!(inner_extrema(&c).count(), 0);
+        let within = chain.clone();
+        keep_levels(&mut chain);
+        assert_eq!(chain, within);
     }
 
     #[test]

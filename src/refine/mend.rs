@@ -11,7 +11,7 @@ use super::{
 };
 use crate::numeric::{
     chain::{Chain, Join},
-    joins::{divide_at_extrema, is_soft, sharpen, soften},
+    joins::{divide_at_extrema, is_soft, keep_levels, sharpen, soften},
 };
 use kurbo::{BezPath, ParamCurve, ParamCurveNearest, Point, Vec2};
 use std::f64::consts::PI;
@@ -303,10 +303,18 @@ fn fit(window: &Window, chain: &mut Chain, enough: f64) -> Drawn {
         }
     }
     divide_at_extrema(chain);
+    let drawn = if *chain == before {
+        drawn
+    } else {
+        window.fit(chain, enough)
+    };
+    let before = chain.clone();
+    keep_levels(chain);
     if *chain == before {
-        return drawn;
+        drawn
+    } else {
+        window.drawn(chain)
     }
-    window.fit(chain, enough)
 }
 
 /// By how much a chain turns around a node, radians: handles may be too short to show.

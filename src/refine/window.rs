@@ -12,6 +12,7 @@ use crate::numeric::{
     cast::{index, single},
     chain::{Chain, Join, Kind},
     coverage::{Coverage, blur},
+    joins::past_levels,
     skyline::Skyline,
 };
 use crate::types::Contour;
@@ -40,6 +41,8 @@ const STRETCH: f64 = 0.5;
 const SHORTEST_PX: f64 = 0.02;
 /// Handles of drawn curves are about this part of the chord, and stray from it by so much.
 const HANDLE: (f64, f64) = (0.37, 0.4);
+/// What a px of a handle past the level of an extremum weighs.
+const PAST: f64 = 2.0;
 
 /// A rectangle of the picture and what is known of the paths in it.
 #[derive(Debug)]
@@ -88,7 +91,7 @@ pub(super) struct Drawn {
     feet: Vec<(usize, f64)>,
     /// differences left in all pixels, row by row from the top
     off: Vec<f32>,
-    /// of the inner pixels, of the anchors, and of two handles a segment
+    /// of the inner pixels, of the anchors, and of the handles, four a segment
     left: Vec<f32>,
     /// squares of all these
     sum: f64,
@@ -261,7 +264,7 @@ impl Window {
         }));
         for i in 0..chain.kinds.len() {
             let (a, b) = (self.handles(&moved, i), self.handles(chain, i));
-            out.extend([a[0] - b[0], a[1] - b[1]].map(single));
+            out.extend(a.iter().zip(b).map(|(a, b)| single(a - b)));
         }
         out.iter_mut().for_each(|v| *v /= single(DELTA));
         out
@@ -277,15 +280,18 @@ impl Window {
     }
 
     /// How unlike drawn ones the handles of a segment are.
-    fn handles(&self, chain: &Chain, segment: usize) -> [f64; 2] {
+    fn handles(&self, chain: &Chain, segment: usize) -> [f64; 4] {
         if chain.kinds[segment] == Kind::Line {
-            return [0.0; 2];
+            return [0.0; 4];
         }
         let (a, b) = chain.ends(segment);
         let (a, b) = (&chain.nodes[a], &chain.nodes[b]);
         let chord = a.point.distance(b.point).max(0.1);
         let (usual, spread) = HANDLE;
-        [a.ahead, b.back].map(|handle| self.prior * (handle / chord - usual) / spread)
+        let [ahead, back] =
+            [a.ahead, b.back].map(|handle| self.prior * (handle / chord - usual) / spread);
+        let [first, last] = past_levels(chain, segment);
+        [ahead, back, first * a.ahead * PAST, last * b.back * PAST]
     }
 
     /// A segment as chords, evenly in its parameter, in the window's own space.
