@@ -395,6 +395,10 @@ mod tests {
 
     #[test]
     fn a_line_beside_an_extremum_is_parallel_to_its_axis() {
+        let leaning = BezPath::from_svg("M0 0L1 200C1.15 230 20 250 50 250").unwrap();
+        let chain = Chain::from_path(&leaning, 0.01).unwrap();
+        assert_eq!(chain.nodes[1].join, Join::Smooth);
+        assert_eq!(chain.nodes[1].point, Point::new(1.0, 200.0));
         let path = BezPath::from_svg("M0 0L0.001 60C0 90 20 110 50 110").unwrap();
         let chain = Chain::from_path(&path, 0.01).unwrap();
         assert_eq!(chain.nodes[1].join, Join::Vertical);

@@ -109,7 +109,7 @@ fn blunt(
 }
 
 /// Length of a curve's control polygon, px.
-fn polygon_px(c: &CubicBez) -> f64 {
+pub(super) fn polygon_px(c: &CubicBez) -> f64 {
     c.p0.distance(c.p1) + c.p1.distance(c.p2) + c.p2.distance(c.p3)
 }
 

@@ -13,19 +13,23 @@ use crate::numeric::{
     chain::{Chain, Join},
     joins::{divide_at_extrema, is_soft, keep_levels, sharpen, soften},
 };
-use kurbo::{BezPath, ParamCurve, ParamCurveNearest, Point, Vec2};
+use kurbo::{BezPath, ParamCurve, ParamCurveNearest, Point, Rect, Shape, Vec2};
 use std::f64::consts::PI;
 
 /// Directions that differ by less are one, radians.
 const SMOOTH: f64 = 0.0175;
+/// Chords cut off next to nothing of a path, px.
+const CHORD_PX: f64 = 0.001;
 /// Way along an edge between places that are looked at, px, around each of which differences are summed up so far, px.
 const STEP_PX: f64 = 1.5;
 const NEAR_PX: f64 = 4.0;
-/// Pixels that this takes.
+/// Pixels that are summed up.
 const NEAR: f64 = 81.0;
 /// Sum of squares there from which a place is wrong, and from which in the picture's grain.
 const WRONG: f64 = 0.025;
 const WRONG_GRAIN: f64 = 90.0;
+/// Places that are tried at most, the worst first: a picture of noise is wrong everywhere.
+const MOST: usize = 1000;
 /// Places nearer to one that was tried are that one, px.
 const SAME_PX: f64 = 5.0;
 /// How far the nodes around move, px, and what each px of the lens' deviation adds; and times this where that mends little.
@@ -35,12 +39,11 @@ const WIDE: f64 = 2.0;
 /// What a node must save, squares, and in the picture's grain.
 const NODE: f64 = 0.1;
 const NODE_GRAIN: f64 = 48.0;
-/// The part of what is wrong, beyond grain, that a change of structure must mend.
+/// The part of what is wrong, beyond grain, that a change of structure must mend, and a place for its nodes to move at all.
 const WORTH: f64 = 0.4;
+const GAIN: f64 = 0.3;
 /// A structure that no outline may have gives way to one that leaves so many times as much.
 const ASTRAY: f64 = 1.1;
-/// And that a place must gain for its nodes to move at all.
-const GAIN: f64 = 0.3;
 /// Changes of structure in a place, one upon the other.
 const CHANGES: usize = 3;
 /// A handle's prior is as heavy as so many pixels' grain.
@@ -66,8 +69,8 @@ const HOME_PX: f64 = 2.0;
 pub(super) fn mended(residual: &Residual<'_>, paths: &[BezPath]) -> Vec<BezPath> {
     let read = |p: &BezPath| Chain::from_path(p, SMOOTH);
     let mut chains: Vec<Option<Chain>> = paths.iter().map(read).collect();
-    let mut rings: Vec<Vec<Point>> = paths.iter().map(ring).collect();
-    let mut residual = residual.against(rings.iter().map(Vec::as_slice));
+    let mut rings: Vec<Ring> = paths.iter().map(Ring::new).collect();
+    let mut residual = residual.against(rings.iter().map(|r| r.chords.as_slice()));
     let wrong = Wrong::new(&residual);
     let mut out = paths.to_vec();
     let mut tried: Vec<Point> = Vec::new();
@@ -75,6 +78,9 @@ pub(super) fn mended(residual: &Residual<'_>, paths: &[BezPath]) -> Vec<BezPath>
         let left = residual.squares(p, NEAR_PX);
         if left <= wrong.least || tried.iter().any(|q| q.distance(p) < SAME_PX) {
             continue;
+        }
+        if tried.len() == MOST {
+            break;
         }
         tried.push(p);
         let Some(chain) = &chains[k] else { continue };
@@ -89,18 +95,26 @@ pub(super) fn mended(residual: &Residual<'_>, paths: &[BezPath]) -> Vec<BezPath>
         if let Some((chain, window, drawn)) = found {
             window.write(&drawn, &mut residual);
             out[k] = chain.to_path();
-            rings[k] = ring(&out[k]);
+            rings[k] = Ring::new(&out[k]);
             chains[k] = Some(chain);
         }
     }
     out
 }
 
-/// A path as chords that come back to its start.
-fn ring(path: &BezPath) -> Vec<Point> {
-    let mut ring = polygon(path, 0.001);
-    ring.extend(ring.first().copied());
-    ring
+/// A closed path as chords that come back to its start.
+struct Ring {
+    chords: Vec<Point>,
+    bounds: Rect,
+}
+
+impl Ring {
+    fn new(path: &BezPath) -> Self {
+        let mut chords = polygon(path, CHORD_PX);
+        chords.extend(chords.first().copied());
+        let bounds = path.bounding_box();
+        Self { chords, bounds }
+    }
 }
 
 /// What counts as wrong in a picture.
@@ -120,11 +134,11 @@ impl Wrong {
     }
 
     /// Places along rings with more than that, and their rings, the worst first.
-    fn places(&self, residual: &Residual<'_>, rings: &[Vec<Point>]) -> Vec<(usize, Point)> {
+    fn places(&self, residual: &Residual<'_>, rings: &[Ring]) -> Vec<(usize, Point)> {
         let mut places = Vec::new();
         for (k, ring) in rings.iter().enumerate() {
             let mut last = Point::new(f64::INFINITY, 0.0);
-            for (a, b) in ring.iter().zip(ring.iter().skip(1)) {
+            for (a, b) in ring.chords.iter().zip(ring.chords.iter().skip(1)) {
                 let mut gone = 0.0;
                 while gone < a.distance(*b) {
                     let p = a.lerp(*b, gone / a.distance(*b));
@@ -150,7 +164,7 @@ struct Place<'a> {
     chain: &'a Chain,
     at: Point,
     /// all paths as chords, and the index of this one
-    others: (&'a [Vec<Point>], usize),
+    others: (&'a [Ring], usize),
 }
 
 impl Place<'_> {
@@ -175,11 +189,12 @@ impl Place<'_> {
                 Join::Clamped
             };
         }
-        let rest = ring(&turned.part(count..n).to_path());
-        let rest = rest.split_last().map_or(&rest[..0], |(_, open)| open);
+        let rest = polygon(&turned.part(count..n).to_path(), CHORD_PX);
         let (rings, own) = self.others;
-        let others = rings.iter().enumerate().filter(|(k, _)| *k != own);
-        let lines = others.map(|(_, r)| r.as_slice()).chain([rest]);
+        let around = Window::bounds(residual, (self.at, reach));
+        let others = rings.iter().enumerate();
+        let others = others.filter(|(k, r)| *k != own && r.bounds.overlaps(around));
+        let lines = others.map(|(_, r)| r.chords.as_slice()).chain([&*rest]);
         let prior = (PRIOR_GRAIN * wrong.grain).sqrt();
         let window = Window::new(residual, (self.at, reach), lines, &part, prior);
         let left = residual.squares(self.at, NEAR_PX) - NEAR * wrong.grain;

@@ -4,7 +4,7 @@
 //! |---|---|
 //! | coverage ([`Gray`]), [`Contour`]s with possible corners | which of them are drawn ([`confirmed`]) |
 //! | coverage, contours with their corners | the same, moved by fractions of a pixel ([`contours`]) |
-//! | coverage, fitted paths | doubts about their corners, nodes settled ([`Comparison`]) |
+//! | coverage, fitted paths | doubts about their corners, nodes settled, wrong places mended ([`Comparison`]) |
 //!
 //! An iso-contour is not the drawing's edge: blur pulls it inwards where the edge bends and rounds its
 //! corners, thin strokes lose to both their sides, and it follows the noise of two pixels at a time.

@@ -4,6 +4,7 @@
 //! directions and handles follow by least squares, joins kept. This is the gradient of the squared difference itself,
 //! corners included, which the contour only knows from their sides.
 
+use super::blunt::polygon_px;
 use super::comparison::polygon;
 use super::residual::Residual;
 use crate::numeric::{
@@ -86,7 +87,7 @@ fn step(chain: &mut Chain, residual: &Residual<'_>, refit: &mut Refit) {
     let (mut samples, mut feet) = (Vec::new(), Vec::new());
     for segment in 0..chain.kinds.len() {
         let c = chain.cubic(segment);
-        let length = c.p0.distance(c.p1) + c.p1.distance(c.p2) + c.p2.distance(c.p3);
+        let length = polygon_px(&c);
         let count = index((length / STEP_PX).ceil()).max(FEWEST);
         for k in 0..count {
             let t = (k as f64 + 0.5) / count as f64;

@@ -1,5 +1,6 @@
 //! Other structures of a few nodes: what a drawing may have where another was fit.
 
+use super::blunt::polygon_px;
 use crate::numeric::{
     chain::{Chain, Join, Kind, Node},
     joins::divide,
@@ -120,7 +121,7 @@ fn cut(chain: &Chain, i: usize, px: f64, by: Kind) -> Chain {
 
 /// How far before the end of a curve, in its parameter, it is about `px` from there.
 fn behind(c: &CubicBez, px: f64) -> f64 {
-    let length = c.p0.distance(c.p1) + c.p1.distance(c.p2) + c.p2.distance(c.p3);
+    let length = polygon_px(c);
     let px = px.min(CUT * length);
     let mut t = (px / length.max(1e-9)).min(CUT);
     for _ in 0..4 {
@@ -134,8 +135,7 @@ fn behind(c: &CubicBez, px: f64) -> f64 {
 fn dropped(chain: &Chain, i: usize) -> Chain {
     let mut out = chain.clone();
     let (before, after) = (chain.cubic(i - 1), chain.cubic(i));
-    let length = |c: &CubicBez| c.p0.distance(c.p1) + c.p1.distance(c.p2) + c.p2.distance(c.p3);
-    let third = (length(&before) + length(&after)) / 3.0;
+    let third = (polygon_px(&before) + polygon_px(&after)) / 3.0;
     let along = unit(after.p3 - before.p0);
     let lines = [i - 1, i].map(|s| chain.kinds[s] == Kind::Line);
     let free = |n: usize| matches!(chain.nodes[n].join, Join::Corner | Join::End);

@@ -7,7 +7,7 @@
 //! Where an outline turns within the lens' reach no point of its contour tells where it is by itself: the picture of the
 //! whole place does.
 
-use super::residual::Residual;
+use super::{blunt::polygon_px, residual::Residual};
 use crate::numeric::{
     cast::{index, single},
     chain::{Chain, Join, Kind},
@@ -16,11 +16,13 @@ use crate::numeric::{
     skyline::Skyline,
 };
 use crate::types::Contour;
-use kurbo::{CubicBez, ParamCurve, ParamCurveDeriv, Point, Vec2};
+use kurbo::{CubicBez, ParamCurve, ParamCurveDeriv, Point, Rect, Vec2};
 use std::{f64::consts::PI, ops::Range};
 
 /// Chords leave a curve by no more than this, px.
 const CHORD_PX: f64 = 0.02;
+/// And are no more: a step may throw a handle far out.
+const MOST_CHORDS: usize = 1000;
 /// Way along a curve beyond the window for one anchor, px, and how many there are on a curve at most.
 const STEP_PX: f64 = 2.0;
 const MOST_ANCHORS: f64 = 32.0;
@@ -111,8 +113,7 @@ impl Window {
     ) -> Self {
         let seen = residual.seen();
         let lens = residual.lens_px();
-        let margin = index((3.5 * lens).ceil());
-        let whole = index(reach.ceil()) + margin;
+        let (margin, whole) = margins(lens, reach);
         let around = |c: f64, n: usize| {
             let c = index(c.max(0.0)).min(n.saturating_sub(1));
             c.saturating_sub(whole)..(c + whole + 1).min(n)
@@ -142,6 +143,13 @@ impl Window {
         pairs.for_each(|(still, seen)| *still = seen - *still);
         window.drop_anchors(moving);
         window
+    }
+
+    /// What the window of a place can see; of a ring that does not overlap this, nothing.
+    pub(super) fn bounds(residual: &Residual<'_>, (p, reach): (Point, f64)) -> Rect {
+        let (_, whole) = margins(residual.lens_px(), reach);
+        let side = 2.0 * (whole as f64 + 1.0);
+        Rect::from_center_size(p, (side, side))
     }
 
     /// Pixels that count.
@@ -302,7 +310,9 @@ impl Window {
         // 6 bend is the largest second derivative, and chords of step h leave a curve by an eighth of h² of it
         let count = match chain.kinds[segment] {
             Kind::Line => 1,
-            Kind::Cubic => index((6.0 * bend / (8.0 * CHORD_PX)).sqrt().ceil()).max(1),
+            Kind::Cubic => {
+                index((6.0 * bend / (8.0 * CHORD_PX)).sqrt().ceil()).clamp(1, MOST_CHORDS)
+            }
         };
         let at = |k: usize| c.eval(k as f64 / count as f64) - self.origin;
         (0..=count).map(at).collect()
@@ -354,6 +364,12 @@ impl Window {
             }
         }
     }
+}
+
+/// Pixels at each side of a window that only lend their light, and all from its middle to its side.
+fn margins(lens: f64, reach: f64) -> (usize, usize) {
+    let margin = index((3.5 * lens).ceil());
+    (margin, index(reach.ceil()) + margin)
 }
 
 impl Anchor {
@@ -470,9 +486,4 @@ fn shorten(chain: &Chain, numbers: &[(usize, Number)], step: &mut [f64]) {
         .map(|(number, by)| most(number) / by.abs().max(1e-12))
         .fold(1.0, f64::min);
     step.iter_mut().for_each(|by| *by *= part);
-}
-
-/// Length of a curve's control polygon, px.
-fn polygon_px(c: &CubicBez) -> f64 {
-    c.p0.distance(c.p1) + c.p1.distance(c.p2) + c.p2.distance(c.p3)
 }
