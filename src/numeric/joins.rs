@@ -17,8 +17,8 @@ const ON_AXIS: f64 = 1e-6;
 const BESIDE: (f64, f64) = (0.25, 6.0);
 /// A node at an extremum is so far from the next at least, px.
 const APART_PX: f64 = 2.0;
-/// By how much a curve turns back at least for that, and at most to end level, px.
-const DEPTH_PX: f64 = 0.3;
+/// A curve that turns back by no more may yet end level, px.
+pub const DEPTH_PX: f64 = 0.3;
 
 /// Parameters inside a cubic where it turns back in y (`Horizontal`) or x (`Vertical`).
 pub fn inner_extrema(c: &CubicBez) -> impl Iterator<Item = (f64, Join)> + use<> {
@@ -70,8 +70,8 @@ pub fn divide(chain: &mut Chain, segment: usize, t: f64, join: Join) {
     chain.kinds.insert(segment, Kind::Cubic);
 }
 
-/// Puts nodes on cubics where they turn back, but for touches: drawings have nodes there.
-pub fn divide_at_extrema(chain: &mut Chain) {
+/// Puts nodes on cubics where they turn back by more than `depth_px`, px: drawings have nodes there.
+pub fn divide_at_extrema(chain: &mut Chain, depth_px: f64) {
     let mut i = 0;
     while i < chain.kinds.len() {
         let c = chain.cubic(i);
@@ -84,7 +84,7 @@ pub fn divide_at_extrema(chain: &mut Chain) {
                 } else {
                     off.x
                 };
-                off.hypot() > APART_PX && depth.abs() > DEPTH_PX
+                off.hypot() > APART_PX && depth.abs() > depth_px
             })
         };
         let cubic = chain.kinds[i] == Kind::Cubic;
@@ -238,7 +238,7 @@ mod tests {
         let path = kurbo::BezPath::from_svg("M0 0C30 40 60 -40 90 0L90 -90Z").unwrap();
         let mut chain = Chain::from_path(&path, 0.001).unwrap();
         let before = chain.cubic(0);
-        divide_at_extrema(&mut chain);
+        divide_at_extrema(&mut chain, DEPTH_PX);
         assert_eq!(
             chain.kinds[..4],
             [Kind::Cubic, Kind::Cubic, Kind::Cubic, Kind::Line]
@@ -248,7 +248,7 @@ mod tests {
             assert!(chain.nodes[i + 1].point.distance(before.eval(range)) < 1e-9);
         }
         let once = chain.clone();
-        divide_at_extrema(&mut chain);
+        divide_at_extrema(&mut chain, DEPTH_PX);
         assert_eq!(chain, once);
     }
 

@@ -11,7 +11,7 @@ use super::{
 };
 use crate::numeric::{
     chain::{Chain, Join},
-    joins::{divide_at_extrema, is_soft, keep_levels, sharpen, soften},
+    joins::{DEPTH_PX, divide_at_extrema, is_soft, keep_levels, sharpen, soften},
 };
 use kurbo::{BezPath, ParamCurve, ParamCurveNearest, Point, Rect, Shape, Vec2};
 use std::f64::consts::PI;
@@ -65,7 +65,7 @@ const SHORT_PX: f64 = 0.25;
 const HOME: f64 = 1.5;
 const HOME_PX: f64 = 2.0;
 
-/// The paths, changed where a few nodes explain the picture better.
+/// The paths, changed where a few nodes explain the picture better, and with nodes at all extrema in the end.
 pub(super) fn mended(residual: &Residual<'_>, paths: &[BezPath]) -> Vec<BezPath> {
     let read = |p: &BezPath| Chain::from_path(p, SMOOTH);
     let mut chains: Vec<Option<Chain>> = paths.iter().map(read).collect();
@@ -97,6 +97,14 @@ pub(super) fn mended(residual: &Residual<'_>, paths: &[BezPath]) -> Vec<BezPath>
             out[k] = chain.to_path();
             rings[k] = Ring::new(&out[k]);
             chains[k] = Some(chain);
+        }
+    }
+    for (chain, path) in chains.iter_mut().zip(&mut out) {
+        let Some(chain) = chain else { continue };
+        let before = chain.kinds.len();
+        divide_at_extrema(chain, 0.0);
+        if chain.kinds.len() > before {
+            *path = chain.to_path();
         }
     }
     out
@@ -317,7 +325,7 @@ fn fit(window: &Window, chain: &mut Chain, enough: f64) -> Drawn {
             };
         }
     }
-    divide_at_extrema(chain);
+    divide_at_extrema(chain, DEPTH_PX);
     let drawn = if *chain == before {
         drawn
     } else {

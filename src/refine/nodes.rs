@@ -10,7 +10,7 @@ use super::residual::Residual;
 use crate::numeric::{
     cast::index,
     chain::Chain,
-    joins::{divide_at_extrema, is_soft, level_ends, sharpen, soften},
+    joins::{DEPTH_PX, divide_at_extrema, is_soft, level_ends, sharpen, soften},
     refit::{Foot, Refit, Sample, Scale, Stop},
 };
 use kurbo::{BezPath, ParamCurve, ParamCurveDeriv, Point, Vec2};
@@ -39,7 +39,7 @@ const REACH_PX: f64 = 2.0;
 pub(super) fn settled(residual: &Residual<'_>, paths: &[BezPath]) -> Vec<BezPath> {
     let chains = paths.iter().map(|p| {
         let mut chain = Chain::from_path(p, SMOOTH)?;
-        divide_at_extrema(&mut chain);
+        divide_at_extrema(&mut chain, DEPTH_PX);
         Some(chain)
     });
     let start: Vec<Option<Chain>> = chains.collect();

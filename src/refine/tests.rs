@@ -2,8 +2,9 @@ use super::*;
 use crate::numeric::{
     cast::index,
     coverage::{Coverage, blur},
+    joins::inner_extrema,
 };
-use kurbo::{BezPath, ParamCurve, ParamCurveNearest};
+use kurbo::{BezPath, ParamCurve, ParamCurveNearest, PathSeg};
 
 /// The picture of a polygon through a lens.
 fn picture(ring: &[Point], size: usize, lens: f64) -> Gray {
@@ -263,6 +264,17 @@ fn a_path_that_explains_its_picture_stays_as_it_is() {
             assert_eq!(got, path, "lens {lens}");
         }
     }
+}
+
+#[test]
+fn a_curve_that_turns_back_before_its_corner_has_a_node_there() {
+    let path = "M8.2 8.4L40.3 8.4L40.3 40C30 40.4 20 40.1 8.2 30.1Z";
+    let path = BezPath::from_svg(path).unwrap();
+    let got = mended(&photograph(&path, 0.0), &path, Contour::PIXEL_BLUR_PX);
+    assert!(apart(&got, &path) < 1e-3);
+    let inner = |s: PathSeg| inner_extrema(&s.to_cubic()).count();
+    assert_eq!(path.segments().map(inner).sum::<usize>(), 1);
+    assert_eq!(got.segments().map(inner).sum::<usize>(), 0);
 }
 
 #[test]
