@@ -26,7 +26,7 @@ const NEAR_PX: f64 = 4.0;
 /// Pixels that are summed up.
 const NEAR: f64 = 81.0;
 /// Sum of squares there from which a place is wrong, and from which in the picture's grain.
-const WRONG: f64 = 0.025;
+const WRONG: f64 = 0.018;
 const WRONG_GRAIN: f64 = 90.0;
 /// Places that are tried at most, the worst first: a picture of noise is wrong everywhere.
 const MOST: usize = 1000;
