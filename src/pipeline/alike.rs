@@ -3,17 +3,20 @@
 use super::letter::Letter;
 use crate::assemble::{Drawn, Note};
 use crate::numeric::distance::Polyline;
+use crate::types::Outline;
 use kurbo::{Affine, BezPath, Point, Rect, Vec2, flatten};
 use rayon::prelude::*;
 
 /// Two outlines are one drawing where they lie nowhere farther apart than this share of the em: a hand never
 /// repeats itself that well.
 const SAME: f64 = 0.004;
+/// How far the points that are compared lie apart at most, as a share of the outline's longer side.
+const STEP: f64 = 0.02;
 
 /// Remarks on letters whose outlines coincide once they stand on one place.
 pub(super) fn notes(letters: &[Letter], drawn: &[Drawn], units_per_em: u16) -> Vec<Note> {
     let near = SAME * f64::from(units_per_em);
-    let shapes: Vec<Option<Shape>> = drawn.par_iter().map(Shape::of).collect();
+    let shapes: Vec<Option<Shape>> = drawn.par_iter().map(|d| Shape::of(&d.outline)).collect();
     let note = |(i, shape): (usize, &Option<Shape>)| {
         let twin = shapes[..i].iter().position(|other| {
             let pair = shape.as_ref().zip(other.as_ref());
@@ -36,11 +39,12 @@ struct Shape {
 }
 
 impl Shape {
-    fn of(drawn: &Drawn) -> Option<Self> {
-        let bounds = drawn.outline.bounds()?;
+    fn of(outline: &Outline) -> Option<Self> {
+        let bounds = outline.bounds()?;
         let home = Affine::translate(-Vec2::new(bounds.x0, bounds.y0));
-        let rings = drawn.outline.contours().iter();
-        let rings: Vec<Vec<Point>> = rings.map(|c| ring(&(home * c))).collect();
+        let step = STEP * bounds.width().max(bounds.height()).max(1.0);
+        let rings = outline.contours().iter();
+        let rings: Vec<Vec<Point>> = rings.map(|c| ring(&(home * c), step)).collect();
         let lines = rings.iter().filter_map(|r| Polyline::new(r.clone()));
         Some(Self {
             size: bounds.with_origin(Point::ORIGIN),
@@ -59,10 +63,44 @@ impl Shape {
     }
 }
 
-/// The points of a closed path's chords.
-fn ring(contour: &BezPath) -> Vec<Point> {
-    let mut points = Vec::new();
-    flatten(contour, 0.5, |el| points.extend(el.end_point()));
-    points.extend(points.first().copied());
+/// The points of a closed path's chords, none farther than `step` from the next: an i's corners alone lie on an l.
+fn ring(contour: &BezPath, step: f64) -> Vec<Point> {
+    let mut points: Vec<Point> = Vec::new();
+    let mut go = |to: Point| {
+        let from = *points.last().unwrap_or(&to);
+        let parts = (from.distance(to) / step).ceil().max(1.0);
+        let mut part = 1.0;
+        while part <= parts {
+            points.push(from.lerp(to, part / parts));
+            part += 1.0;
+        }
+    };
+    let mut first = None;
+    flatten(contour, 0.5, |el| {
+        if let Some(p) = el.end_point() {
+            first = first.or(Some(p));
+            go(p);
+        }
+    });
+    first.into_iter().for_each(go);
     points
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use kurbo::Shape as _;
+
+    #[test]
+    fn a_stem_is_not_a_stem_with_a_dot() {
+        let of = |bars: &[(f64, f64)]| {
+            let bars = bars
+                .iter()
+                .map(|(low, high)| Rect::new(0.0, *low, 80.0, *high));
+            let paths = bars.map(|bar| bar.to_path(0.1)).collect();
+            Shape::of(&Outline::new(paths).unwrap()).unwrap()
+        };
+        let (l, i) = (of(&[(0.0, 729.0)]), of(&[(0.0, 524.0), (624.0, 729.0)]));
+        assert!(l.lies_on(&l, 4.0) && !(i.lies_on(&l, 4.0) && l.lies_on(&i, 4.0)));
+    }
 }

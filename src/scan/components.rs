@@ -91,6 +91,13 @@ impl Component {
         2.0 * self.area as f64 / ((sides.max(flats) + sides.min(flats) / 2) as f64).max(1.0)
     }
 
+    /// Whether a pixel is its.
+    pub(super) fn covers(&self, x: usize, y: usize) -> bool {
+        let after = self.runs.partition_point(|r| (r.y, r.start) <= (y, x));
+        let before = after.checked_sub(1).map(|i| self.runs[i]);
+        before.is_some_and(|r| r.y == y && x < r.end)
+    }
+
     /// The pieces into which a border through its pixels cuts it.
     pub(super) fn parted(&self, inside: impl Fn(usize, usize) -> bool) -> Vec<Self> {
         let mut sides = [Vec::new(), Vec::new()];

@@ -80,8 +80,8 @@ impl Edges {
             upper: Vec::new(),
         };
         for c in components {
-            let below = |r: &Run, x: usize| covers(&c.runs, r.y + 1, x);
-            let above = |r: &Run, x: usize| r.y > 0 && covers(&c.runs, r.y - 1, x);
+            let below = |r: &Run, x: usize| c.covers(x, r.y + 1);
+            let above = |r: &Run, x: usize| r.y > 0 && c.covers(x, r.y - 1);
             for r in &c.runs {
                 for x in (r.start.next_multiple_of(step)..r.end).step_by(step) {
                     let at = |dy: f64| Point::new(x as f64 + 0.5, r.y as f64 + dy);
@@ -135,12 +135,4 @@ pub(super) fn energy_of(places: impl Iterator<Item = f64> + Clone) -> f64 {
     }
     let pairs = bins.windows(2).map(|w| (w[0] + w[1]).powi(2));
     pairs.sum()
-}
-
-/// Whether one of the runs, in order of rows and columns, has the pixel.
-fn covers(runs: &[Run], y: usize, x: usize) -> bool {
-    let after = runs.partition_point(|r| (r.y, r.start) <= (y, x));
-    after
-        .checked_sub(1)
-        .is_some_and(|i| runs[i].y == y && x < runs[i].end)
 }

@@ -17,7 +17,9 @@ const X_HEADS: &str = "xzvwu";
 /// Small letters with a bow at x-height.
 const X_BOWS: &str = "acemnors";
 /// Arabic letters whose body stands on the line when nothing follows.
-const ARABIC_STANDING: &str = "اأإآٱدذڈبتثپٹفكکگهةطظ";
+const ARABIC_STANDING: &str = "اأإآٱدذڈهةطظ";
+/// Arabic letters that end in a bowl which dips below the line when nothing follows.
+const ARABIC_BOWLS: &str = "بتثپٹفكکگ";
 /// Arabic letters that do not stand on the line though something follows.
 const ARABIC_HANGING: &str = "جحخچم";
 
@@ -46,8 +48,21 @@ pub(super) enum Pieces {
     DotAbove,
     /// A body and dots below it.
     DotBelow,
+    /// A letter and a mark.
+    Marked,
     /// Nobody knows.
     Unknown,
+}
+
+/// What letters are told apart by when they are measured together.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Kind {
+    /// Arabic: dots and marks stand off the body and may lie below it.
+    Arabic,
+    /// A small letter.
+    Small,
+    /// All else.
+    Other,
 }
 
 /// How a letter meets the baseline.
@@ -79,8 +94,7 @@ pub(super) enum Head {
 pub(super) struct Shape {
     pub(super) foot: Foot,
     pub(super) head: Head,
-    /// Dots and marks stand off the body and may lie below it.
-    pub(super) dotted: bool,
+    pub(super) kind: Kind,
     pub(super) pieces: Pieces,
     /// It is as large as most letters are.
     pub(super) full: bool,
@@ -96,7 +110,7 @@ impl Shape {
         let any = |c: Option<char>, set: &str| c.is_some_and(|c| set.contains(c));
         let plain = base == letter;
         let pieces = match () {
-            () if !plain => Pieces::Unknown,
+            () if letter.is_some() && !plain => Pieces::Marked,
             () if any(base, ONE_PIECE) => Pieces::One,
             () if any(base, DOT_ABOVE) => Pieces::DotAbove,
             () if any(base, DOT_BELOW) => Pieces::DotBelow,
@@ -110,16 +124,17 @@ impl Shape {
         let arabic = letter.is_some_and(|c| ('\u{600}'..'\u{700}').contains(&c));
         if arabic {
             let joined = matches!(form, "init" | "medi");
-            let stands = if joined {
-                !any(letter, ARABIC_HANGING)
-            } else {
-                any(letter, ARABIC_STANDING)
+            let foot = match () {
+                () if joined && !any(letter, ARABIC_HANGING) => Foot::Flat,
+                () if !joined && any(letter, ARABIC_STANDING) => Foot::Flat,
+                () if !joined && any(letter, ARABIC_BOWLS) => Foot::Round,
+                () => Foot::None,
             };
             let alef = letter == Some('ا');
             return Self {
-                foot: if stands { Foot::Flat } else { Foot::None },
+                foot,
                 head: if alef { Head::Alef } else { Head::None },
-                dotted: true,
+                kind: Kind::Arabic,
                 pieces,
                 full,
                 heavy,
@@ -141,7 +156,11 @@ impl Shape {
         Self {
             foot,
             head: head.map_or(Head::None, |h| h.1),
-            dotted: false,
+            kind: if letter.is_some_and(char::is_lowercase) {
+                Kind::Small
+            } else {
+                Kind::Other
+            },
             pieces,
             full,
             heavy,
@@ -178,6 +197,7 @@ mod tests {
             ("uni0041", Foot::Flat, Head::None),
             ("beh-ar.init", Foot::Flat, Head::None),
             ("uni062C.medi", Foot::None, Head::None),
+            ("uni0628.fina", Foot::Round, Head::None),
             ("alef-ar", Foot::Flat, Head::Alef),
             (".notdef", Foot::None, Head::None),
         ] {

@@ -1,6 +1,6 @@
 //! Equal cells in rows and columns.
 
-use super::{Layer, Reason, Slot, furniture, position};
+use super::{Layer, Reason, Slot, furniture, gap, position};
 use crate::scan::clean::Page;
 use crate::scan::components::Component;
 use crate::scan::error::ScanError;
@@ -9,6 +9,7 @@ use crate::scan::letters::{Pieces, Shape};
 use crate::scan::options::Options;
 use crate::types::Label;
 use glyphs_reader::glyphdata::GlyphData;
+use kurbo::Point;
 use std::ops::Range;
 
 /// A piece longer than this many cells is no letter if it is thin or hollow.
@@ -19,6 +20,8 @@ const LINE_COVER: f64 = 0.12;
 const LINE_WIDTH: f64 = 0.06;
 /// Small parts this near to a border of cells, as a share of the pitch, go to the nearer letter.
 const NEAR: f64 = 0.2;
+/// What a distance within the cell counts beside one to another cell's letter.
+const HOME: f64 = 0.6;
 /// A part smaller than this share of the largest part of its cell is a dot or an accent.
 const SMALL: f64 = 0.4;
 /// Ink in a cell without a name counts from this share of a usual cell's ink.
@@ -162,7 +165,8 @@ fn share(
     // ink beside the grid belongs to the next cell if that holds nothing else or it stands close
     let empty: Vec<bool> = cells.iter().map(Vec::is_empty).collect();
     for (i, cell) in beyond {
-        let near = |&b: &usize| gap(&all[i], &all[b]) < NEAR * y.pitch.min(x.pitch) / 2.0;
+        let near =
+            |&b: &usize| gap(all[i].upright, all[b].upright) < NEAR * y.pitch.min(x.pitch) / 2.0;
         if empty[cell] || cells[cell].iter().any(near) {
             cells[cell].push(i);
         } else {
@@ -225,20 +229,35 @@ fn settle_small_parts(all: &[Component], cells: &mut [Vec<usize>], x: &Axis, y: 
     for (from, parts) in cells.iter().enumerate() {
         for &part in parts {
             let c = &all[part];
-            let near = y.clearance(c.centre.y) < NEAR || x.clearance(c.centre.x) < NEAR;
             let main = bodies[from].map_or(0, |b| all[b].area);
             // the only ink of its cell may be a letter that sits high or low, or a neighbour's dot
-            if !near || (bodies[from] != Some(part) && c.area as f64 > SMALL * main as f64) {
+            let alone = bodies[from] == Some(part);
+            if !alone && c.area as f64 > SMALL * main as f64 {
                 continue;
             }
+            let others = parts.iter().filter(|&&p| bodies[from] != Some(p));
+            let group = if alone {
+                vec![part]
+            } else {
+                group(all, part, others)
+            };
+            let is_near = |at: Point| y.clearance(at.y) < NEAR || x.clearance(at.x) < NEAR;
+            if !group.iter().any(|&i| is_near(all[i].centre)) {
+                continue;
+            }
+            let place = group
+                .iter()
+                .fold(c.upright, |r, &i| r.union(all[i].upright));
             let around = neighbours(from, columns, cells.len() / columns);
             let candidates =
                 around.filter_map(|to| bodies[to].filter(|&b| b != part).map(|b| (to, b)));
             let nearest = candidates
                 .filter(|&(to, b)| to == from || (c.area as f64) < SMALL * all[b].area as f64)
-                .map(|(to, b)| (gap(c, &all[b]), to))
+                .map(|(to, b)| {
+                    let home = if to == from { HOME } else { 1.0 };
+                    (home * gap(place, all[b].upright), to)
+                })
                 .min_by(|a, b| a.0.total_cmp(&b.0));
-            let alone = bodies[from] == Some(part);
             let close = NEAR * y.pitch.min(x.pitch) / 2.0;
             let nearest = nearest.filter(|n| n.1 != from && (!alone || n.0 < close));
             moves.extend(nearest.map(|(_, to)| (part, from, to)));
@@ -257,12 +276,25 @@ fn neighbours(cell: usize, columns: usize, rows: usize) -> impl Iterator<Item = 
     near(r, rows).flat_map(move |r| near(c, columns).map(move |c| r * columns + c))
 }
 
-/// Distance of two boxes, px.
-fn gap(a: &Component, b: &Component) -> f64 {
-    let (a, b) = (a.upright, b.upright);
-    let dx = (a.x0 - b.x1).max(b.x0 - a.x1).max(0.0);
-    let dy = (a.y0 - b.y1).max(b.y0 - a.y1).max(0.0);
-    dx.hypot(dy)
+/// The small parts of a cell that belong together with one of them, as two or three dots do: each nearer to another than
+/// it is large.
+fn group<'a>(
+    all: &[Component],
+    part: usize,
+    others: impl Iterator<Item = &'a usize>,
+) -> Vec<usize> {
+    let size = |i: usize| all[i].upright.width().max(all[i].upright.height());
+    let mut left: Vec<usize> = others.copied().filter(|&i| i != part).collect();
+    let mut found = vec![part];
+    let mut next = 0;
+    while let Some(&i) = found.get(next) {
+        let with = |j: &usize| gap(all[i].upright, all[*j].upright) < size(i).min(size(*j));
+        let (near, far): (Vec<usize>, Vec<usize>) = left.into_iter().partition(with);
+        found.extend(near);
+        left = far;
+        next += 1;
+    }
+    found
 }
 
 /// Gives the cells their labels.

@@ -1,11 +1,13 @@
 //! Baseline and scale: from the many letters of the rows, never from one letter's own ink.
 
+use super::ends::ends;
 use super::{Layer, Slot, Warning};
 use crate::numeric::median::median;
+use crate::numeric::view::View;
 use crate::scan::clean::Page;
 use crate::scan::components::Component;
 use crate::scan::error::ScanError;
-use crate::scan::letters::{Foot, Head, Shape};
+use crate::scan::letters::{Foot, Head, Kind, Shape};
 use crate::scan::options::{Options, Scale};
 use glyphs_reader::glyphdata::GlyphData;
 use kurbo::Rect;
@@ -50,19 +52,25 @@ impl Letter {
     }
 }
 
-/// Measures baselines and scale.
+/// Measures baselines and scale; `upright` says how a slot's ink is seen.
 pub(super) fn measure(
     layer: &Layer,
     all: &[Component],
     page: &Page,
     options: &Options,
+    upright: impl Fn(&Slot) -> View,
 ) -> Result<Guides, ScanError> {
     let names = GlyphData::default();
-    let letters: Vec<Letter> = layer
-        .slots
-        .iter()
-        .filter_map(|s| letter(s, all, &names))
-        .collect();
+    let letter = |s: &Slot| {
+        let (view, gray) = (upright(s), &page.sheet.gray);
+        let exact = |i: &usize| {
+            let (top, bottom) = ends(&all[*i], gray, &view);
+            let rough = all[*i].upright;
+            (all[*i].area, Rect::new(rough.x0, top, rough.x1, bottom))
+        };
+        letter(s, &s.parts.iter().map(exact).collect::<Vec<_>>(), &names)
+    };
+    let letters: Vec<Letter> = layer.slots.iter().filter_map(letter).collect();
     let drop = drops(&letters, layer.rows);
     let (px_per_em, warning) = scale(&letters, &drop, page, options)?;
     Ok(Guides {
@@ -72,13 +80,13 @@ pub(super) fn measure(
     })
 }
 
-fn letter(slot: &Slot, all: &[Component], names: &GlyphData) -> Option<Letter> {
+/// A slot's letter of its parts' areas and boxes.
+fn letter(slot: &Slot, parts: &[(usize, Rect)], names: &GlyphData) -> Option<Letter> {
     let shape = Shape::of(&slot.label, names);
-    let boxes = || slot.parts.iter().map(|&i| all[i].upright);
-    let whole = boxes().reduce(|a, b| a.union(b))?;
-    let largest = slot.parts.iter().max_by_key(|&&i| all[i].area)?;
-    let body = if shape.dotted {
-        all[*largest].upright
+    let whole = parts.iter().map(|p| p.1).reduce(|a, b| a.union(b))?;
+    let largest = parts.iter().max_by_key(|p| p.0)?.1;
+    let body = if shape.kind == Kind::Arabic {
+        largest
     } else {
         whole
     };
@@ -94,12 +102,14 @@ fn letter(slot: &Slot, all: &[Component], names: &GlyphData) -> Option<Letter> {
 /// How far each row's baseline lies below its slots' levels, px. All rows share it, up to a drift along the
 /// page; the letters of a row move their own baseline as far as their number justifies.
 fn drops(letters: &[Letter], rows: usize) -> Vec<f64> {
-    let standing = feet(letters, Foot::Flat, 0.0);
+    let standing = standing(letters);
     let enough = standing.len() >= rows && standing.len() >= 3;
     let bowed = if enough {
         Vec::new()
     } else {
-        feet(letters, Foot::Round, OVERSHOOT)
+        let all = feet(letters, Foot::Round, |_| true).into_iter();
+        all.map(|(row, off, height)| (row, off - OVERSHOOT * height))
+            .collect()
     };
     let mut off: Vec<(usize, f64)> = standing.into_iter().chain(bowed).collect();
     if off.is_empty() {
@@ -138,11 +148,7 @@ struct Line {
 
 impl Line {
     fn through(points: &[(usize, f64)]) -> Self {
-        let of =
-            |r: usize| -> Vec<f64> { points.iter().filter(|p| p.0 == r).map(|p| p.1).collect() };
-        let last = points.iter().map(|p| p.0).max().unwrap_or(0);
-        let rows = (0..=last).filter_map(|r| Some((r as f64, median(of(r))?)));
-        let slope = slope(&rows.collect::<Vec<_>>());
+        let slope = median(slopes(&medians(points))).unwrap_or(0.0);
         let flat: Vec<f64> = points.iter().map(|p| p.1 - slope * p.0 as f64).collect();
         Self {
             level: median(flat).unwrap_or(0.0),
@@ -155,24 +161,64 @@ impl Line {
     }
 }
 
-/// Row, and distance of the baseline from the level, of every letter that meets it so.
-fn feet(letters: &[Letter], foot: Foot, overshoot: f64) -> Vec<(usize, f64)> {
-    let such = letters.iter().filter(|l| l.shape.foot == foot);
-    such.map(|l| (l.row, l.body.y1 - overshoot * l.body.height() - l.level))
+/// Row, how far the lowest ink lies below the level, and height of the body, of every letter that meets the baseline so.
+fn feet(letters: &[Letter], foot: Foot, of: impl Fn(&Letter) -> bool) -> Vec<(usize, f64, f64)> {
+    let such = letters.iter().filter(|l| l.shape.foot == foot && of(l));
+    such.map(|l| (l.row, l.body.y1 - l.level, l.body.height()))
         .collect()
 }
 
-/// The median slope through pairs of points; 0 for fewer than three.
-fn slope(points: &[(f64, f64)]) -> f64 {
+/// Row, and distance of the foot from the level, of the letters that stand flat. Where small letters reach as deep as
+/// their own bows do, and capitals do not, they end in an italic's hooks: these are raised to the capitals' line.
+fn standing(letters: &[Letter]) -> Vec<(usize, f64)> {
+    let of = |foot: Foot, small: bool| -> Vec<(usize, f64)> {
+        let all = feet(letters, foot, |l| (l.shape.kind == Kind::Small) == small);
+        all.into_iter().map(|(row, off, _)| (row, off)).collect()
+    };
+    let (capitals, mut small) = (of(Foot::Flat, false), of(Foot::Flat, true));
+    let bows = [false, true].map(|s| of(Foot::Round, s));
+    let (dip, own) = (dip(&bows[0], &capitals), dip(&bows[1], &small));
+    if let Some((dip, _)) = dip
+        .zip(own)
+        .filter(|(dip, own)| *dip > 0.0 && *own < dip / 2.0)
+    {
+        let pairs = |v: &[(usize, f64)]| slopes(&medians(v));
+        let drift = median([pairs(&capitals), pairs(&small)].concat()).unwrap_or(0.0);
+        let level = |v: &[(usize, f64)]| median(v.iter().map(|o| o.1 - drift * o.0 as f64));
+        let hook = level(&small).unwrap_or(0.0) - level(&capitals).unwrap_or(0.0);
+        small.iter_mut().for_each(|o| o.1 -= hook.clamp(0.0, dip));
+    }
+    capitals.into_iter().chain(small).collect()
+}
+
+/// How far bows reach below flat feet in the rows that have both.
+fn dip(bows: &[(usize, f64)], flat: &[(usize, f64)]) -> Option<f64> {
+    let flat = medians(flat);
+    let beside = medians(bows).into_iter().filter_map(|(row, bow)| {
+        let foot = flat.iter().find(|f| f.0.total_cmp(&row).is_eq())?;
+        Some(bow - foot.1)
+    });
+    median(beside)
+}
+
+/// Rows and the medians of their values.
+fn medians(points: &[(usize, f64)]) -> Vec<(f64, f64)> {
+    let last = points.iter().map(|p| p.0).max().unwrap_or(0);
+    let of = |r: usize| points.iter().filter(move |p| p.0 == r).map(|p| p.1);
+    let rows = (0..=last).filter_map(|r| Some((r as f64, median(of(r))?)));
+    rows.collect()
+}
+
+/// The slopes through all pairs of points; none for fewer than three points.
+fn slopes(points: &[(f64, f64)]) -> Vec<f64> {
     if points.len() < 3 {
-        return 0.0;
+        return Vec::new();
     }
     let pairs = points
         .iter()
         .enumerate()
         .flat_map(|(i, a)| points[i + 1..].iter().map(move |b| (a, b)));
-    let slopes: Vec<f64> = pairs.map(|(a, b)| (b.1 - a.1) / (b.0 - a.0)).collect();
-    median(slopes).unwrap_or(0.0)
+    pairs.map(|(a, b)| (b.1 - a.1) / (b.0 - a.0)).collect()
 }
 
 /// Pixels an em, and a word where nobody gave it.
@@ -251,4 +297,49 @@ fn extent(letters: &[Letter], drop: &[f64]) -> Option<f64> {
         .map(|l| l.whole.y1 - l.baseline(drop))
         .reduce(f64::max)?;
     Some((above + below).max(1.0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::types::Label;
+
+    /// Letters of rows of a height of 100 px whose lowest ink lies at these depths.
+    fn letters(rows: &[&[(&str, f64)]]) -> Vec<Letter> {
+        let names = GlyphData::default();
+        let of = |row: usize, label: &str, depth: f64| {
+            let body = Rect::new(0.0, depth - 100.0, 50.0, depth);
+            Letter {
+                row,
+                level: 0.0,
+                shape: Shape::of(&Label(label.to_owned()), &names),
+                body,
+                whole: body,
+            }
+        };
+        let all = rows.iter().enumerate();
+        all.flat_map(|(r, row)| row.iter().map(move |&(l, d)| of(r, l, d)))
+            .collect()
+    }
+
+    #[test]
+    fn hooks_of_an_italic_are_no_baseline() {
+        let capitals: &[_] = &[("H", 0.0), ("E", 0.1), ("O", 10.0), ("T", 0.0)];
+        let hooks: &[_] = &[("n", 7.0), ("i", 7.1), ("o", 7.0), ("m", 7.0)];
+        let feet: &[_] = &[("n", 0.0), ("i", 0.1), ("o", 7.0), ("m", 0.0)];
+        let figures: &[_] = &[("1", 0.0), ("2", 0.0)];
+        for small in [hooks, feet] {
+            let rows = [capitals, capitals, capitals, small, small, figures];
+            let drop = drops(&letters(&rows), rows.len());
+            assert!(drop.iter().all(|d| d.abs() < 0.5), "{drop:?}");
+        }
+    }
+
+    #[test]
+    fn bowls_of_arabic_letters_are_no_baseline() {
+        let bowls: &[_] = &[("ب", 20.0), ("uni0628.fina", 20.0), ("uni0628.init", 0.0)];
+        let stems: &[_] = &[("ا", 0.0), ("uni0637.medi", 0.0), ("ط", 0.0)];
+        let drop = drops(&letters(&[stems, bowls, bowls, stems]), 4);
+        assert!(drop.iter().all(|d| d.abs() < 0.5), "{drop:?}");
+    }
 }

@@ -5,6 +5,7 @@ use crate::scan::components::Component;
 use crate::scan::letters::Shape;
 use glyphs_reader::glyphdata::GlyphData;
 use kurbo::Rect;
+use std::ops::Range;
 
 /// A letter larger than this many usual letters may be two, or hold a line.
 const LARGE: f64 = 2.5;
@@ -21,12 +22,12 @@ pub fn is_full(c: char) -> bool {
     c.is_alphanumeric() && c != 'ء'
 }
 
-/// Warns of the cells whose ink is odd; pieces from `freed` on were cut off a printed box.
+/// Warns of the cells whose ink is odd; the pieces in `freed` were cut off a printed box.
 pub(super) fn warnings(
     slots: &[&Slot],
     all: &[Component],
     picture: Rect,
-    freed: usize,
+    freed: Range<usize>,
 ) -> Vec<Warning> {
     let bounds = |s: &Slot, of: fn(&Component) -> Rect| {
         let boxes = s.parts.iter().map(|&i| of(&all[i]));
@@ -53,7 +54,7 @@ pub(super) fn warnings(
                 "its ink reaches the picture's edge: scan the whole page",
             ));
         }
-        if slot.parts.iter().any(|&i| i >= freed) {
+        if slot.parts.iter().any(|i| freed.contains(i)) {
             out.push(Warning::of(
                 slot,
                 "its ink touches the printed box: what lies along the line is left out",

@@ -6,7 +6,7 @@
 use super::Layer;
 use crate::numeric::median::median;
 use crate::scan::components::Component;
-use crate::scan::letters::{Foot, Head, Pieces, Shape};
+use crate::scan::letters::{Foot, Head, Kind, Pieces, Shape};
 use glyphs_reader::glyphdata::GlyphData;
 use kurbo::{Point, Rect};
 
@@ -65,7 +65,7 @@ pub(super) fn misfit(layer: &Layer, all: &[Component], drop: &[f64]) -> Option<f
     let drawn: Vec<Drawn> = drawn.collect();
     let height = median(drawn.iter().map(|d| d.body().0.height()))?.max(1.0);
     let feet = drawn.iter().filter_map(|d| {
-        let foot = if d.shape.dotted {
+        let foot = if d.shape.kind == Kind::Arabic {
             d.body().0.y1
         } else {
             d.whole.y1
@@ -114,7 +114,7 @@ fn pieces(d: &Drawn) -> Option<f64> {
     let above: f64 = above.sum();
     match (d.shape.pieces, dots.count()) {
         (Pieces::One, extra) => Some(f64::from(u8::from(extra > 0))),
-        (Pieces::Unknown, _) | (_, 0) => None,
+        (Pieces::Unknown | Pieces::Marked, _) | (_, 0) => None,
         (Pieces::DotAbove, _) => Some(f64::from(above <= 0.0)),
         (Pieces::DotBelow, _) => Some(f64::from(above >= 0.0)),
     }
