@@ -70,7 +70,7 @@ pub fn divide(chain: &mut Chain, segment: usize, t: f64, join: Join) {
     chain.kinds.insert(segment, Kind::Cubic);
 }
 
-/// Puts nodes on cubics where they turn back by more than `depth_px`, px: drawings have nodes there.
+/// Puts nodes on cubics where they turn back by more than `depth_px`: drawings have nodes there.
 pub fn divide_at_extrema(chain: &mut Chain, depth_px: f64) {
     let mut i = 0;
     while i < chain.kinds.len() {
