@@ -11,6 +11,7 @@ pub mod joins;
 pub mod levels;
 pub mod median;
 pub mod minimise;
+pub mod powers;
 pub mod qbc;
 pub mod refit;
 pub mod shortest;

@@ -10,7 +10,7 @@ use crate::{
     types::{Contour, Gray},
 };
 use kurbo::{Point, Vec2};
-use std::{borrow::Cow, f64::consts::TAU};
+use std::{borrow::Cow, f64::consts::TAU, iter::successors};
 
 /// The neighbourhood that moves an edge is at least this wide, px: narrower, it would hang on the one
 /// pixel that happens to be next.
@@ -85,17 +85,36 @@ impl Residual<'static> {
         rings: impl Iterator<Item = &'r [Point]>,
         blur_px: f64,
     ) -> Self {
-        let pixel = Contour::PIXEL_BLUR_PX;
-        let lens = (blur_px * blur_px - pixel * pixel).max(0.0).sqrt();
-        let spread = blur_px.max(MIN_SPREAD_PX);
-        let mut fill = Coverage::new(gray.width(), gray.height());
-        let mut off = Vec::new();
-        draw(rings, (&mut fill, &mut off), lens);
+        let lens = lens(blur_px);
+        let (fill, off) = drawn(gray, rings, lens);
         // with the edges known, pixels up to them say what ink and paper are
         let seen = normalised(gray.samples(), gray.width(), &off);
+        let seen = Cow::Owned(gray.with_samples(seen));
+        Self::compared(seen, (fill, off), (blur_px, lens))
+    }
+}
+
+impl<'g> Residual<'g> {
+    /// The same for a picture whose levels are known.
+    pub(super) fn levelled<'r>(
+        seen: &'g Gray,
+        rings: impl Iterator<Item = &'r [Point]>,
+        blur_px: f64,
+    ) -> Self {
+        let lens = lens(blur_px);
+        let drawn = drawn(seen, rings, lens);
+        Self::compared(Cow::Borrowed(seen), drawn, (blur_px, lens))
+    }
+
+    fn compared(
+        seen: Cow<'g, Gray>,
+        (fill, model): (Coverage, Vec<f32>),
+        (blur_px, lens): (f64, f64),
+    ) -> Self {
+        let spread = blur_px.max(MIN_SPREAD_PX);
         let mut residual = Self {
-            seen: Cow::Owned(gray.with_samples(seen)),
-            off,
+            seen,
+            off: model,
             fill,
             lens,
             spread,
@@ -106,9 +125,7 @@ impl Residual<'static> {
         residual.compare();
         residual
     }
-}
 
-impl Residual<'_> {
     /// The same picture and levels against other rings.
     pub(super) fn against<'r>(&self, rings: impl Iterator<Item = &'r [Point]>) -> Residual<'_> {
         let mut residual = Residual {
@@ -231,16 +248,20 @@ impl Residual<'_> {
         let (cx, cy) = (p.x - 0.5, h as f64 - p.y - 0.5);
         let reach = self.reach_px();
         let span = |c: f64, n: usize| index((c - reach).ceil())..index(c + reach + 1.0).min(n);
-        let weight = |d: f64| (-0.5 * (d / self.spread).powi(2)).exp();
-        let columns: Vec<(usize, f64)> = span(cx, w).map(|x| (x, weight(x as f64 - cx))).collect();
+        let (rows, columns) = (span(cy, h), span(cx, w));
         let (mut sum, mut total) = (0.0, 0.0);
-        for y in span(cy, h) {
-            let wy = weight(y as f64 - cy);
-            let row = &self.off[y * w..(y + 1) * w];
-            for &(x, wx) in &columns {
-                sum += wx * wy * f64::from(row[x]);
-                total += wx * wy;
-            }
+        for (y, wy) in rows.clone().zip(self.bell(rows.start as f64 - cy)) {
+            // a place outside the picture has none
+            let row = self.off[y * w..(y + 1) * w].get(columns.clone());
+            let line = row
+                .into_iter()
+                .flatten()
+                .zip(self.bell(columns.start as f64 - cx));
+            let line = line.fold((0.0, 0.0), |(sum, total), (off, wx)| {
+                (sum + wx * f64::from(*off), total + wx)
+            });
+            sum += wy * line.0;
+            total += wy * line.1;
         }
         if total > 0.0 {
             self.gain * sum / total
@@ -248,6 +269,34 @@ impl Residual<'_> {
             0.0
         }
     }
+
+    /// Weights at distance `d`, `d` + 1, `d` + 2 … px of a place.
+    fn bell(&self, d: f64) -> impl Iterator<Item = f64> {
+        let narrow = (self.spread * self.spread).recip();
+        let first = (-0.5 * d * d * narrow).exp();
+        // each is the one before it times what itself shrinks evenly
+        let (ratio, shrink) = ((-(d + 0.5) * narrow).exp(), (-narrow).exp());
+        let next = move |(w, ratio): &(f64, f64)| Some((w * ratio, ratio * shrink));
+        successors(Some((first, ratio)), next).map(|(w, _)| w)
+    }
+}
+
+/// Deviation of the lens' blur alone, px, where it and the pixel's box make `blur_px`.
+fn lens(blur_px: f64) -> f64 {
+    let pixel = Contour::PIXEL_BLUR_PX;
+    (blur_px * blur_px - pixel * pixel).max(0.0).sqrt()
+}
+
+/// The fill of rings in a picture as large as that, and what the lens makes of it.
+fn drawn<'r>(
+    gray: &Gray,
+    rings: impl Iterator<Item = &'r [Point]>,
+    lens: f64,
+) -> (Coverage, Vec<f32>) {
+    let mut fill = Coverage::new(gray.width(), gray.height());
+    let mut model = Vec::new();
+    draw(rings, (&mut fill, &mut model), lens);
+    (fill, model)
 }
 
 /// The blurred fill of rings.

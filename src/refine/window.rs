@@ -283,8 +283,10 @@ impl Window {
         let m = self.margin;
         let lines = all.chunks_exact(self.columns.len().max(1));
         let lines = lines.skip(m).take(self.rows.len().saturating_sub(2 * m));
-        let inner = lines.flat_map(|l| l.get(m..l.len().saturating_sub(m)));
-        inner.flatten().copied().collect()
+        let inner = lines.filter_map(|l| l.get(m..l.len().saturating_sub(m)));
+        let mut out = Vec::with_capacity(all.len());
+        inner.for_each(|l| out.extend_from_slice(l));
+        out
     }
 
     /// How unlike drawn ones the handles of a segment are.

@@ -15,7 +15,7 @@ mod piece;
 mod samples;
 mod tidy;
 
-use super::judge::{judge, points_to_curve};
+use super::judge::{Judgement, judge, points_to_curve};
 use super::path;
 use super::{FitError, Fitter};
 use crate::types::{Fitted, Span, Spans, Verdict};
@@ -92,10 +92,7 @@ impl Joint {
         if points.len() < 3 || length <= 0.0 {
             return Ok(polygon(span));
         }
-        let pinned = self.pinned(span, tolerance_px).map(|(path, parameters)| {
-            let judged = judge(span, &path);
-            (path, parameters, judged)
-        });
+        let pinned = self.pinned(span, tolerance_px);
         let short = points.len() <= SHORT;
         let near = |worst: f64| worst.is_finite() && !(short && worst > tolerance_px);
         let Some((path, parameters, judged)) = pinned.filter(|p| near(p.2.points.max_px)) else {
@@ -143,13 +140,9 @@ impl Joint {
         })
     }
 
-    /// The path that ends where the span does, and how many numbers of it were free: the most refined one that
-    /// keeps to the span, for a least-squares step can throw a handle far out.
-    fn pinned(&self, span: Span<'_>, tolerance_px: f64) -> Option<(BezPath, usize)> {
-        let keeps = |path: &BezPath| {
-            let max = judge(span, path).max_px();
-            path.is_finite() && max <= STRAY * tolerance_px
-        };
+    /// The path that ends where the span does, how many numbers of it were free, and how far it is off: the most refined
+    /// one that keeps to the span, for a least-squares step can throw a handle far out.
+    fn pinned(&self, span: Span<'_>, tolerance_px: f64) -> Option<(BezPath, usize, Judgement)> {
         let s = [Samples::new(span)];
         let mut found = self.search(&s, tolerance_px, |mut drafts| drafts.pop())?;
         let points = span.points();
@@ -159,8 +152,12 @@ impl Joint {
         let loose = found.chain.clone();
         found.settle(20, 1e-3);
         let mut stages = [found.chain, loose, found.chosen].into_iter();
-        let kept = stages.find(|chain| keeps(&chain.to_path()))?;
-        Some((kept.to_path(), found.refit.free(&kept)))
+        stages.find_map(|chain| {
+            let path = chain.to_path();
+            let judged = judge(span, &path);
+            let keeps = path.is_finite() && judged.max_px() <= STRAY * tolerance_px;
+            keeps.then(|| (path, found.refit.free(&chain), judged))
+        })
     }
 
     /// The least structure that follows the points of some spans; `weld` makes one draft of theirs.

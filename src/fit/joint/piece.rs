@@ -2,11 +2,14 @@
 
 use super::candidate::Candidate;
 use super::samples::Samples;
-use crate::numeric::chain::Join;
-use kurbo::{Point, Vec2};
+use crate::numeric::{
+    chain::Join,
+    powers::{LANES, Powers},
+};
+use kurbo::{CubicBez, Point, Vec2};
 
 /// Samples looked at, at most: enough to see where a cubic fails.
-const LOOKS: usize = 12;
+const LOOKS: usize = 3 * LANES;
 /// Deviation of a candidate's direction, radians: that of a parabola through a dozen noisy points.
 const TURN: f64 = 0.03;
 /// Deviation of the direction at a given end, radians, where the parabola is one-sided.
@@ -16,8 +19,6 @@ const ROUNDS: usize = 4;
 /// A cubic whose cost is so many times what it may be, and so many nats more, once its first step is taken bends too hard
 /// for one: what further steps would find there rounds a corner.
 const FAR: f64 = 25.0;
-/// A step of a foot after which the next is next to nothing, parameter.
-const NEAR: f64 = 0.01;
 /// Usual length of a handle, chords, and its spread.
 const HANDLE: (f64, f64) = (0.37, 0.4);
 /// Deviation of a given end from where the curve ends, sigmas: corners are found less exactly than sides.
@@ -116,6 +117,9 @@ const fn slack(join: Join) -> f64 {
     }
 }
 
+/// A point to pass, its parameter, and what it tells.
+type Look = (Point, f64, f64);
+
 /// A cubic between two candidates whose places and directions may give way as far as they are uncertain.
 struct Trial<'a> {
     ends: [&'a Candidate; 2],
@@ -125,8 +129,7 @@ struct Trial<'a> {
     /// Deviations of the first four.
     slacks: [f64; 4],
     chord: f64,
-    /// Points to pass, their parameters, and what they tell.
-    looks: [(Point, f64, f64); LOOKS],
+    looks: [Look; LOOKS],
     count: usize,
     sigma: f64,
     /// Measurements that a point stands for.
@@ -236,10 +239,18 @@ impl<'a> Trial<'a> {
         );
         let (nu, nw) = (perp(self.ends[0].heading), perp(self.ends[1].heading));
         let (p0, p3) = (self.places[0] + v[0] * nu, self.places[1] + v[2] * nw);
-        let curve = [p0, p0 + v[4] * u, p3 - v[5] * w, p3];
-        for (point, t, tells) in self.looks.iter_mut().take(self.count) {
-            let (offset, along) = foot(curve, *point, t);
-            let n = perp(along);
+        let powers = Powers::new(&CubicBez::new(p0, p0 + v[4] * u, p3 - v[5] * w, p3));
+        let (fours, _) = self.looks.as_chunks_mut::<LANES>();
+        for looks in fours.iter_mut().take(self.count.div_ceil(LANES)) {
+            let at = looks.map(|(point, ..)| point);
+            let anywhere = (f64::INFINITY, 0.0..=1.0);
+            let t = powers.feet(at, looks.map(|(_, t, _)| t), anywhere);
+            looks.iter_mut().zip(t).for_each(|(l, t)| l.1 = t);
+        }
+        for (point, t, tells) in self.looks.iter().take(self.count) {
+            let (foot, along, _) = powers.at(*t);
+            let offset = foot - *point;
+            let n = perp(along / along.hypot().max(1e-12));
             let d = offset.dot(n);
             let r = d.abs() / self.sigma;
             let (rho, pull) = if r > ROBUST {
@@ -300,30 +311,6 @@ const fn place(join: Join, sigma: f64) -> f64 {
 
 fn perp(v: Vec2) -> Vec2 {
     Vec2::new(-v.y, v.x)
-}
-
-/// Moves `t` towards the foot of `at`; returns curve − point there and the unit direction.
-fn foot(c: [Point; 4], at: Point, t: &mut f64) -> (Vec2, Vec2) {
-    let [p0, p1, p2, p3] = c.map(Point::to_vec2);
-    let (b, c, d) = (
-        3.0 * (p1 - p0),
-        3.0 * (p0 - 2.0 * p1 + p2),
-        p3 - p0 + 3.0 * (p1 - p2),
-    );
-    let value = |t: f64| ((d * t + c) * t + b) * t + p0 - at.to_vec2();
-    let slope = |t: f64| (3.0 * t * d + 2.0 * c) * t + b;
-    for _ in 0..2 {
-        let (f, s) = (value(*t), slope(*t));
-        let speed = s.hypot2();
-        let bend = speed + f.dot(6.0 * *t * d + 2.0 * c);
-        let step = f.dot(s) / bend.max(0.25 * speed).max(1e-12);
-        *t = (*t - step).clamp(0.0, 1.0);
-        if step.abs() < NEAR {
-            break;
-        }
-    }
-    let s = slope(*t);
-    (value(*t), s / s.hypot().max(1e-12))
 }
 
 /// Cholesky of a 6 × 6; the solution replaces `g`.

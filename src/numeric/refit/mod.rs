@@ -5,15 +5,22 @@
 //! along the chain between steps (variable projection), over nodes where they must.
 //!
 //! A row of the Jacobian touches eight numbers of one segment only: x, y, direction and handle of both ends.
-//! Rows are summed over these eight, and the 8 × 8 block of a segment is carried over to the free numbers once.
+//! Their products are summed for each segment, and its 8 × 8 block is carried over to the free numbers once.
 
+mod moments;
 mod prior;
 #[cfg(test)]
 mod tests;
 
 use super::chain::{Chain, Join, Kind};
+use super::powers::{LANES, Powers};
 use super::skyline::Skyline;
-use kurbo::{CubicBez, Point, Vec2};
+use kurbo::{Point, Vec2};
+use moments::{Moments, Term};
+use std::{
+    array::from_fn,
+    ops::{Range, RangeInclusive},
+};
 
 /// A point that the chain should pass.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -63,42 +70,17 @@ const HOPE: f64 = 4.0;
 const HOOK: f64 = 1.75;
 /// How far a loose end may go, in deviations of a sample: as far as a corner is found astray.
 const LOOSE: f64 = 16.0;
-/// A step of a foot after which the next is next to nothing, parameter.
-const NEAR: f64 = 0.01;
+/// How far a foot goes in one step, and how far beyond its segment before it is asked for on the next, parameter.
+const SLIDE: (f64, RangeInclusive<f64>) = (0.3, -0.2..=1.2);
 /// How far in one step, in shorter sides.
 const STRIDE: f64 = 0.35;
 
-/// Sums over the rows of one segment, the lower half of them. Order of the eight: x, y, direction, handle of the start;
+/// Normal equations of one segment, the lower half of them. Order of the eight: x, y, direction, handle of the start;
 /// handle, direction, x, y of the end.
 #[derive(Debug, Clone, Copy, Default)]
 struct Block {
     hessian: [[f64; 8]; 8],
     gradient: [f64; 8],
-}
-
-impl Block {
-    /// Adds a row of the Jacobian.
-    fn add(&mut self, row: &[f64; 8], weight: f64, distance: f64) {
-        for (g, r) in self.gradient.iter_mut().zip(row) {
-            *g += weight * distance * r;
-        }
-        // two rows at a time, each as long as the longer of them: whole pairs of numbers
-        self.pair::<2>(row, weight);
-        self.pair::<4>(row, weight);
-        self.pair::<6>(row, weight);
-        self.pair::<8>(row, weight);
-    }
-
-    fn pair<const END: usize>(&mut self, row: &[f64; 8], weight: f64) {
-        let two = END - 2..END;
-        for (to, r) in self.hessian[two.clone()].iter_mut().zip(&row[two]) {
-            let by = weight * r;
-            to[..END]
-                .iter_mut()
-                .zip(&row[..END])
-                .for_each(|(h, r)| *h += by * r);
-        }
-    }
 }
 
 /// A number of a node that an optimiser may or may not move.
@@ -108,6 +90,14 @@ enum Slot {
     Free(usize),
     /// Direction of this line.
     Along(usize),
+}
+
+/// One of a segment's eight numbers grows with a free one, by so much.
+#[derive(Debug, Clone, Copy)]
+struct Use {
+    row: usize,
+    free: usize,
+    by: f64,
 }
 
 #[derive(Debug, Clone, Copy)]
@@ -120,38 +110,15 @@ struct Slots {
     ahead: Slot,
 }
 
-/// A cubic by powers of t.
-#[derive(Debug, Clone, Copy)]
-struct Powers([Vec2; 4]);
-
-impl Powers {
-    fn new(c: &CubicBez) -> Self {
-        let [p0, p1, p2, p3] = [c.p0, c.p1, c.p2, c.p3].map(Point::to_vec2);
-        Self([
-            p0,
-            3.0 * (p1 - p0),
-            3.0 * (p0 - 2.0 * p1 + p2),
-            p3 - p0 + 3.0 * (p1 - p2),
-        ])
-    }
-
-    fn at(&self, t: f64) -> (Point, Vec2, Vec2) {
-        let [a, b, c, d] = self.0;
-        let p = ((d * t + c) * t + b) * t + a;
-        (
-            p.to_point(),
-            (3.0 * t * d + 2.0 * c) * t + b,
-            6.0 * t * d + 2.0 * c,
-        )
-    }
-}
-
 /// Working memory of [`Refit::run`], used again from call to call.
 #[derive(Debug, Clone, Default)]
 pub struct Refit {
     /// Nodes over which no foot slides: corners, whose sides may run close together, and ends.
     sealed: Vec<bool>,
     slots: Vec<Slots>,
+    spread: Vec<Use>,
+    /// Those of each segment.
+    uses: Vec<Range<usize>>,
     powers: Vec<Powers>,
     blocks: Vec<Block>,
     saved: Vec<Block>,
@@ -313,22 +280,73 @@ impl Refit {
         // feet first: each is a long chain of steps by itself, and apart from the sums several go on at once
         let mut off = std::mem::take(&mut self.off);
         off.clear();
-        let pairs = samples.iter().zip(feet.iter_mut());
+        let (fours, rest) = samples.as_chunks::<LANES>();
+        let (four_feet, rest_feet) = feet.as_chunks_mut::<LANES>();
+        for (samples, feet) in fours.iter().zip(four_feet) {
+            off.extend(self.slide_together(samples, feet));
+        }
+        let pairs = rest.iter().zip(rest_feet);
         off.extend(pairs.map(|(sample, foot)| self.slide(sample.at, foot)));
-        for ((sample, foot), (distance, normal)) in samples.iter().zip(feet).zip(&off) {
-            let precision = sample.sigma.recip();
-            let u = distance.abs() * precision;
-            let (rho, pull) = if u < scale.robust {
-                (0.5 * u * u, 1.0)
-            } else {
-                (scale.robust * (u - 0.5 * scale.robust), scale.robust / u)
-            };
-            cost += sample.weight * rho;
-            let weight = sample.weight * pull * precision * precision;
-            self.blocks[foot.segment].add(&row(chain, *foot, *normal), weight, *distance);
+        let mut at = 0;
+        for feet in feet.chunk_by(|a, b| a.segment == b.segment) {
+            let segment = feet[0].segment;
+            let mut moments = Moments::new(chain.kinds[segment]);
+            let run = at..at + feet.len();
+            at = run.end;
+            let run = feet.iter().zip(&samples[run.clone()]).zip(&off[run]);
+            let mut terms = run.map(|((foot, sample), &(distance, normal))| {
+                let precision = sample.sigma.recip();
+                let u = distance.abs() * precision;
+                let (rho, pull) = if u < scale.robust {
+                    (0.5 * u * u, 1.0)
+                } else {
+                    (scale.robust * (u - 0.5 * scale.robust), scale.robust / u)
+                };
+                cost += sample.weight * rho;
+                Term {
+                    t: foot.t,
+                    normal,
+                    distance,
+                    weight: sample.weight * pull * precision * precision,
+                }
+            });
+            while let Some(first) = terms.next() {
+                let mut together = [Term::default(); LANES];
+                together[0] = first;
+                together[1..]
+                    .iter_mut()
+                    .zip(&mut terms)
+                    .for_each(|(to, t)| *to = t);
+                moments.add(&together);
+            }
+            moments.write(chain, segment, &mut self.blocks[segment]);
         }
         self.off = off;
         cost
+    }
+
+    /// [`Self::slide`] for several samples; for those that stay on one segment, as nearly all do, side by side.
+    fn slide_together(
+        &self,
+        samples: &[Sample; LANES],
+        feet: &mut [Foot; LANES],
+    ) -> [(f64, Vec2); LANES] {
+        let segment = feet[0].segment;
+        if feet.iter().any(|f| f.segment != segment) || segment >= self.powers.len() {
+            return from_fn(|k| self.slide(samples[k].at, &mut feet[k]));
+        }
+        let powers = &self.powers[segment];
+        let at = samples.each_ref().map(|s| s.at);
+        let t = powers.feet(at, feet.each_ref().map(|f| f.t), SLIDE);
+        let inside = |t: f64| t > 0.0 && t < 1.0;
+        if !t.iter().copied().all(inside) {
+            return from_fn(|k| self.slide(samples[k].at, &mut feet[k]));
+        }
+        feet.iter_mut().zip(t).for_each(|(f, t)| f.t = t);
+        from_fn(|k| {
+            let (p, d, dd) = powers.at(t[k]);
+            across(p - at[k], d, dd)
+        })
     }
 
     /// Moves a foot to the nearest place near by; returns how far it is from the sample along a unit vector, and that vector:
@@ -338,16 +356,8 @@ impl Refit {
         foot.segment = foot.segment.min(n - 1);
         let mut came = 0i8;
         for _ in 0..4 {
-            for _ in 0..2 {
-                let (p, d, dd) = self.powers[foot.segment].at(foot.t);
-                let speed = d.hypot2();
-                let bend = speed + (p - at).dot(dd);
-                let step = (p - at).dot(d) / bend.max(0.25 * speed).max(1e-12);
-                foot.t = (foot.t - step.clamp(-0.3, 0.3)).clamp(-0.2, 1.2);
-                if step.abs() < NEAR {
-                    break;
-                }
-            }
+            let powers = &self.powers[foot.segment];
+            [foot.t] = powers.feet([at], [foot.t], SLIDE);
             let over = foot.t > 1.0;
             if !over && foot.t >= 0.0 {
                 break;
@@ -375,39 +385,31 @@ impl Refit {
         if past && distance > 1e-9 {
             return (distance, off / distance);
         }
-        let along = if d.hypot2() > 1e-12 { d } else { dd };
-        let normal = Vec2::new(-along.y, along.x) / along.hypot().max(1e-12);
-        (off.dot(normal), normal)
+        across(off, d, dd)
     }
 
     /// Carries the blocks over to the free numbers and leaves the step in `self.step`.
     fn solve(&mut self, chain: &Chain, free: usize, lambda: f64) -> bool {
+        self.spread(chain);
         self.first.clear();
         self.first.extend(0..free);
-        for i in 0..chain.kinds.len() {
-            let spread = self.spread(chain, i);
-            let vars = || spread.iter().flat_map(|s| s.iter().flatten());
-            let least = vars().map(|v| v.0).min().unwrap_or(0);
-            for (v, _) in vars() {
-                self.first[*v] = self.first[*v].min(least);
+        for uses in self.uses.iter().map(|r| &self.spread[r.clone()]) {
+            let least = uses.iter().map(|u| u.free).min().unwrap_or(0);
+            for u in uses {
+                self.first[u.free] = self.first[u.free].min(least);
             }
         }
         self.matrix.reset(&self.first);
         self.step.clear();
         self.step.resize(free, 0.0);
-        for (i, block) in self.blocks.iter().enumerate() {
-            let spread = self.spread(chain, i);
-            for (k, to) in spread.iter().enumerate() {
-                for &(v, c) in to.iter().flatten() {
-                    self.step[v] -= c * block.gradient[k];
-                    for (l, other) in spread.iter().enumerate() {
-                        for &(u, d) in other.iter().flatten() {
-                            if u <= v {
-                                self.matrix
-                                    .add(v, u, c * d * block.hessian[k.max(l)][k.min(l)]);
-                            }
-                        }
-                    }
+        for (block, uses) in self.blocks.iter().zip(&self.uses) {
+            let uses = &self.spread[uses.clone()];
+            for a in uses {
+                self.step[a.free] -= a.by * block.gradient[a.row];
+                for b in uses.iter().filter(|b| b.free <= a.free) {
+                    let (row, column) = (a.row.max(b.row), a.row.min(b.row));
+                    let value = a.by * b.by * block.hessian[row][column];
+                    self.matrix.add(a.free, b.free, value);
                 }
             }
         }
@@ -418,26 +420,37 @@ impl Refit {
         self.matrix.solve_damped(lambda, &mut self.step)
     }
 
-    /// How each of a segment's eight numbers depends on the free ones.
-    fn spread(&self, chain: &Chain, segment: usize) -> [[Option<(usize, f64)>; 4]; 8] {
-        let (a, b) = chain.ends(segment);
-        let (p, q) = (&self.slots[a], &self.slots[b]);
-        let slots = [p.x, p.y, p.leave, p.ahead, q.back, q.arrive, q.x, q.y];
-        slots.map(|slot| match slot {
-            Slot::Fixed => [None; 4],
-            Slot::Free(v) => [Some((v, 1.0)), None, None, None],
-            Slot::Along(line) => {
-                let (a, b) = chain.ends(line);
-                let d = chain.nodes[b].point - chain.nodes[a].point;
-                let d = d / d.hypot2().max(1e-12);
-                let (s, e) = (&self.slots[a], &self.slots[b]);
-                let of = |slot: Slot, c: f64| match slot {
-                    Slot::Free(v) => Some((v, c)),
-                    _ => None,
+    /// How the eight numbers of each segment depend on the free ones.
+    fn spread(&mut self, chain: &Chain) {
+        self.spread.clear();
+        self.uses.clear();
+        for segment in 0..chain.kinds.len() {
+            let start = self.spread.len();
+            let (a, b) = chain.ends(segment);
+            let (p, q) = (self.slots[a], self.slots[b]);
+            let slots = [p.x, p.y, p.leave, p.ahead, q.back, q.arrive, q.x, q.y];
+            for (row, slot) in slots.into_iter().enumerate() {
+                let mut follow = |slot: Slot, by: f64| {
+                    if let Slot::Free(free) = slot {
+                        self.spread.push(Use { row, free, by });
+                    }
                 };
-                [of(s.x, d.y), of(s.y, -d.x), of(e.x, -d.y), of(e.y, d.x)]
+                match slot {
+                    Slot::Along(line) => {
+                        let (a, b) = chain.ends(line);
+                        let d = chain.nodes[b].point - chain.nodes[a].point;
+                        let d = d / d.hypot2().max(1e-12);
+                        let (s, e) = (self.slots[a], self.slots[b]);
+                        follow(s.x, d.y);
+                        follow(s.y, -d.x);
+                        follow(e.x, -d.y);
+                        follow(e.y, d.x);
+                    }
+                    own => follow(own, 1.0),
+                }
             }
-        })
+            self.uses.push(start..self.spread.len());
+        }
     }
 
     fn drop_anchors(&mut self, chain: &Chain, scale: Scale) {
@@ -496,6 +509,13 @@ impl Refit {
     }
 }
 
+/// How far a curve is off along its normal, and the normal.
+fn across(off: Vec2, d: Vec2, dd: Vec2) -> (f64, Vec2) {
+    let along = if d.hypot2() > 1e-12 { d } else { dd };
+    let normal = Vec2::new(-along.y, along.x) / along.hypot().max(1e-12);
+    (off.dot(normal), normal)
+}
+
 /// Turns directions at corners and ends back towards the chords.
 fn unhook(chain: &mut Chain) {
     for i in 0..chain.kinds.len() {
@@ -530,28 +550,4 @@ fn shorter_side(chain: &Chain, i: usize) -> f64 {
         .flatten()
         .map(length);
     sides.fold(f64::INFINITY, f64::min)
-}
-
-/// How the distance at a foot changes with the eight numbers of its segment.
-fn row(chain: &Chain, foot: Foot, n: Vec2) -> [f64; 8] {
-    let (a, b) = chain.ends(foot.segment);
-    let (a, b) = (&chain.nodes[a], &chain.nodes[b]);
-    let (t, s) = (foot.t, 1.0 - foot.t);
-    if chain.kinds[foot.segment] == Kind::Line {
-        return [n.x * s, n.y * s, 0.0, 0.0, 0.0, 0.0, n.x * t, n.y * t];
-    }
-    let (b1, b2) = (3.0 * s * s * t, 3.0 * s * t * t);
-    let (start, end) = (s * s * s + b1, t * t * t + b2);
-    // n · (direction turned by a right angle) = direction × … : d/dθ of a unit vector.
-    let (turn0, turn1) = (a.leave.cross(n), b.arrive.cross(n));
-    [
-        n.x * start,
-        n.y * start,
-        b1 * a.ahead * turn0,
-        b1 * a.leave.dot(n),
-        -b2 * b.arrive.dot(n),
-        -b2 * b.back * turn1,
-        n.x * end,
-        n.y * end,
-    ]
 }
