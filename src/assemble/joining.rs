@@ -7,13 +7,16 @@
 //! half the overlap, it is replaced by a square tab of that length. So at every join two strokes lie over
 //! each other with the same edges: no gap, and no step beyond what an end was too far away to be moved.
 //!
+//! Many styles draw no stroke where a letter's body itself can be met: a stem, a bow, a tooth. Such a body stays as it was
+//! drawn; the advance ends at its edge, and the next letter's stroke runs into it.
+//!
 //! Slanted and Nastaliq styles join at many heights. There strokes stay as they were drawn, and the middle of each
 //! end becomes a cursive anchor (`entry`, `exit`): text programs shift letters until the ends of two meet.
 
 use super::stroke::{self, Edges, End, Side, Tab, Warp};
 use super::{Draft, Note};
 use crate::types::Outline;
-use kurbo::Shape;
+use kurbo::{BezPath, Shape};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -63,12 +66,24 @@ const DEPTH: f64 = 0.012;
 /// Thinnest and thickest stroke that can be a joining one, em.
 const THICKNESS: (f64, f64) = (0.008, 0.3);
 
+/// How much thicker a stroke becomes over a length of its end at most, part of that length: half a right angle between its
+/// edges. What opens wider is a body's bow or tooth.
+const OPENING: f64 = 1.0;
+
 /// The most that an edge's slope is changed: a sixth of a right angle. A stroke that runs on more
 /// steeply than that is no end but a bend.
 const MOST_SHEAR: f64 = 0.27;
 
 /// How far an ink's end may lie from the whole letter's and still be the same, em.
 const SAME: f64 = 0.01;
+
+/// How many times as thick as the others, or as thin, a joining stroke is at most, and the least part of it that lies at their
+/// height. What is unlike them and has ink at all of their height is a body.
+const THICKER: f64 = 1.75;
+const COMMON: f64 = 1.0 / 3.0;
+
+/// How far before a tip a ray may meet it by the arithmetic of crossings, font units.
+const SAME_TIP: f64 = 1e-3;
 
 /// Rounds in which the choice of ends and their median settle: they did in two on every font seen.
 const ROUNDS: u32 = 4;
@@ -155,14 +170,24 @@ impl Joint {
 
 /// Joins the drafts: their outlines and, on joined sides, the ends of their advances.
 pub(super) fn set(drafts: &mut [Draft], em: f64, options: &Options) -> (Report, Vec<Note>) {
-    let mut joints = joints(drafts, em);
-    let mut notes: Vec<Note> = joints
-        .iter()
-        .filter(|j| j.ends.is_empty())
-        .filter_map(|j| drafts.get(j.draft).map(|d| no_stroke(d, j.side)))
-        .collect();
-    joints.retain(|j| !j.ends.is_empty());
+    let mut joints = joints(drafts, em, options.method);
     let contract = contract(&mut joints, em, options);
+    let mut notes = Vec::new();
+    let edges = contract.filter(|_| options.method == Method::Contract);
+    joints.retain(|joint| {
+        let Some(draft) = drafts.get_mut(joint.draft) else {
+            return false;
+        };
+        let x = edges.and_then(|c| met(draft, joint, c.edges));
+        match joint.side {
+            Side::Left => draft.joint.0 = x,
+            Side::Right => draft.joint.1 = x,
+        }
+        if x.is_none() && joint.ends.is_empty() {
+            notes.push(no_stroke(draft, joint.side));
+        }
+        x.is_none() && !joint.ends.is_empty()
+    });
     let Some(contract) = contract else {
         return (Report::default(), notes);
     };
@@ -203,7 +228,7 @@ pub(super) fn set(drafts: &mut [Draft], em: f64, options: &Options) -> (Report, 
     (report, notes)
 }
 
-fn joints(drafts: &[Draft], em: f64) -> Vec<Joint> {
+fn joints(drafts: &[Draft], em: f64, method: Method) -> Vec<Joint> {
     let mut out = Vec::new();
     for (draft, d) in drafts.iter().enumerate() {
         let Some(form) = d.id.form() else { continue };
@@ -214,9 +239,13 @@ fn joints(drafts: &[Draft], em: f64) -> Vec<Joint> {
             if !joined {
                 continue;
             }
-            let is_stroke =
-                |e: &End| (THICKNESS.0 * em..THICKNESS.1 * em).contains(&(e.edges.1 - e.edges.0));
-            let mut ends = stroke::ends(d.outline.contours(), side, DEPTH * em);
+            let contours = d.outline.contours();
+            // slanted styles run steeply and cross their own bodies' heights
+            let leaves = |e: &End| method == Method::Cursive || leaves(e, contours, side);
+            let is_stroke = |e: &End| {
+                (THICKNESS.0 * em..THICKNESS.1 * em).contains(&(e.edges.1 - e.edges.0)) && leaves(e)
+            };
+            let mut ends = stroke::ends(contours, side, DEPTH * em);
             ends.retain(is_stroke);
             ends.sort_by(|a, b| a.tip.total_cmp(&b.tip));
             out.push(Joint {
@@ -228,6 +257,31 @@ fn joints(drafts: &[Draft], em: f64) -> Vec<Joint> {
         }
     }
     out
+}
+
+/// Whether a stroke leaves a letter there: it does not open like a bow, and no ink of its contour lies before it, so that
+/// the next letter's stroke can reach it.
+fn leaves(end: &End, contours: &[BezPath], side: Side) -> bool {
+    let opening = side.inward(end.slopes.1 - end.slopes.0);
+    let own = contours.get(end.contour..=end.contour).unwrap_or(&[]);
+    let first = stroke::face(own, side, end.edges);
+    opening < OPENING && first.is_some_and(|(first, _)| first > end.tip - SAME_TIP)
+}
+
+/// Where the advance ends of a letter whose body the strokes of this height meet; none where a stroke leaves it, or where it has
+/// no ink at that height.
+fn met(draft: &Draft, joint: &Joint, (low, high): Edges) -> Option<f64> {
+    let thick = high - low;
+    let (first, last) = stroke::face(draft.outline.contours(), joint.side, (low, high))?;
+    let is_body = joint.end().is_none_or(|end| {
+        let (from, to) = end.edges;
+        let thicker = (to - from).max(thick) / (to - from).min(thick);
+        let common = to.min(high) - from.max(low);
+        let alike = thicker < THICKER && common > COMMON * (to - from).min(thick);
+        !alike && last - first < thick
+    });
+    // what stands out before the last of its ink lies within the next letter's stroke
+    is_body.then(|| joint.side.inward(last.min(first + thick)))
 }
 
 fn no_stroke(draft: &Draft, side: Side) -> Note {

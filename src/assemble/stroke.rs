@@ -3,7 +3,7 @@
 //! Sums are done in `u`, the distance inward from the side: `u = x` on the left, `u = -x` on the
 //! right. So one piece of code serves both.
 
-use kurbo::{BezPath, ParamCurve, PathEl, PathSeg, Point};
+use kurbo::{BezPath, Line, ParamCurve, PathEl, PathSeg, Point, Shape};
 
 /// A side of a glyph.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
@@ -57,6 +57,31 @@ pub(super) struct End {
     pub(super) slopes: Edges,
     /// Where the contour crosses the cut: after the tip, and before it.
     crossings: (Place, Place),
+}
+
+/// Heights at which a letter's face is felt, evenly between the edges of a stroke that meets it.
+const RAYS: u32 = 5;
+
+/// Inward distances at which a stroke that comes from that side meets ink: the first and the last of its heights. None where
+/// it has no ink before it at one of them.
+pub(super) fn face(contours: &[BezPath], side: Side, (low, high): Edges) -> Option<Edges> {
+    let bounds = contours
+        .iter()
+        .map(Shape::bounding_box)
+        .reduce(|a, b| a.union(b))?
+        .inflate(1.0, 1.0);
+    let meets = |k: u32| {
+        let y = low + (high - low) * (f64::from(k) + 0.5) / f64::from(RAYS);
+        let ray = Line::new((bounds.x0, y), (bounds.x1, y));
+        let segments = contours.iter().flat_map(BezPath::segments);
+        let met = segments.flat_map(|s| s.intersect_line(ray));
+        met.map(|at| side.inward(ray.eval(at.line_t).x))
+            .reduce(f64::min)
+    };
+    let met: Option<Vec<f64>> = (0..RAYS).map(meets).collect();
+    met?.into_iter()
+        .map(|u| (u, u))
+        .reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
 }
 
 /// A contour's segments and samples in order.
@@ -358,7 +383,6 @@ fn smooth(t: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use kurbo::Shape;
 
     /// A bowl with a stroke that leaves to the left at the baseline.
     fn letter() -> BezPath {

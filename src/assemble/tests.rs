@@ -105,3 +105,42 @@ fn wrong_labels_are_errors_with_their_place() {
     );
     assert!(all(&["beh-ar", "uni0628"]).contains("U+0628"));
 }
+
+#[test]
+fn a_body_that_no_stroke_leaves_stays_as_drawn() {
+    // a stem that is met, with a notch inside; a bow; a tooth
+    let bodies = [
+        "M0 0L300 0L300 400L220 400L220 60L60 60L40 90L60 120L0 120Z",
+        "M0 0L200 -40C270 -40 300 0 300 50C300 120 250 160 200 160L0 160Z",
+        "M0 0L290 0L300 20L270 180L250 180L210 60L0 60Z",
+    ];
+    for svg in bodies {
+        let body = Drawn {
+            outline: Outline::new(vec![BezPath::from_svg(svg).unwrap()]).unwrap(),
+            ..drawn("dal-ar.fina")
+        };
+        let labels = ["beh-ar.medi", "teh-ar.medi", "seen-ar.medi"];
+        let shapes = labels.iter().map(|l| drawn(l)).chain([body.clone()]);
+        let built = font(shapes.collect(), Info::default(), &Options::default()).unwrap();
+        assert!(built.notes.is_empty(), "{svg}: {:?}", built.notes);
+        let glyph = built.font.glyph("dal-ar.fina").unwrap();
+        let (was, is) = (body.outline.bounds().unwrap(), glyph.outline.bounds());
+        let is = is.unwrap();
+        let met = glyph.advance - is.x1;
+        assert!((-20.0..=0.5).contains(&met), "{svg}: {met}");
+        let off =
+            |p: Option<kurbo::Point>, q: Option<kurbo::Point>| p.zip(q).map(|(p, q)| p.distance(q));
+        let home = glyph
+            .outline
+            .transformed(Affine::translate((was.x0 - is.x0, 0.0)));
+        let pairs = home.contours()[0]
+            .iter()
+            .zip(body.outline.contours()[0].iter());
+        let moved = pairs.filter_map(|(a, b)| off(a.end_point(), b.end_point()));
+        assert!(
+            moved.fold(0.0, f64::max) < 0.75,
+            "{svg}: {:?}",
+            home.contours()
+        );
+    }
+}

@@ -32,6 +32,11 @@ impl Opened {
     /// Reads a project file.
     pub(crate) fn new(path: &Path) -> Result<Self, Failure> {
         let name = files::name(path);
+        if path.is_dir() {
+            let file = files::name(&path.join("font.toml"));
+            return Err(Failure::new(format!("{name} is a folder"))
+                .help(format!("name the project file in it: {file}")));
+        }
         let bytes = files::read(path)?;
         let digests = Digests::default();
         digests.is(path, &bytes);

@@ -113,7 +113,16 @@ impl<'a> Source<'a> {
         corrections.apply(&mut page.cut, self.units_per_em);
         page.cut.cells.retain(|c| !corrections.ignores(&c.label));
         let wanted = wanted.iter().filter(|w| !corrections.ignores(&w.1));
-        let problems = gaps(&page, wanted);
+        let mut problems = gaps(&page, wanted);
+        if let (Layout::Grid(rows, columns), true) = (self.table.layout, problems.len() >= MANY) {
+            problems.push(Problem::Sheet {
+                sheet: page.name.clone(),
+                why: format!(
+                    "{} cells of the grid are empty: does the page have {rows} rows and {columns} columns of cells?",
+                    problems.len()
+                ),
+            });
+        }
         if problems.is_empty() {
             Ok(Page {
                 table: self.number,
@@ -178,6 +187,9 @@ pub(super) fn cells(
     let page = read(table, (labels, &[]), project.font.units_per_em, world)?;
     Ok(page.cut.cells)
 }
+
+/// Empty cells from which on it is asked whether the grid is the page's.
+const MANY: usize = 3;
 
 /// Millimetres an inch.
 const MM_PER_INCH: f64 = 25.4;

@@ -171,7 +171,7 @@ impl Problem {
         Some(match self {
             Self::File { .. } => "paths start from the project file's folder",
             Self::Empty(_) => {
-                "draw the letter, or leave it out: ignore = true under [cells.NAME], or _ in `glyphs`"
+                "draw the letter clear of its neighbours, or leave it out: ignore = true under [cells.NAME], or _ in `glyphs`"
             }
             Self::Label { .. } => {
                 "give a character, an AGL name, uniXXXX, or a name such as beh-ar.init"

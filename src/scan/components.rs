@@ -98,8 +98,29 @@ impl Component {
         before.is_some_and(|r| r.y == y && x < r.end)
     }
 
+    /// Column and row of all its pixels.
+    pub(super) fn pixels(&self) -> impl Iterator<Item = (usize, usize)> {
+        let row = |&r: &Run| (r.start..r.end).map(move |x| (x, r.y));
+        self.runs.iter().flat_map(row)
+    }
+
     /// The pieces into which a border through its pixels cuts it.
     pub(super) fn parted(&self, inside: impl Fn(usize, usize) -> bool) -> Vec<Self> {
+        let sides = self.sides(inside);
+        if sides.iter().any(Vec::is_empty) {
+            return vec![self.clone()];
+        }
+        sides.iter().flat_map(|runs| self.pieces(runs)).collect()
+    }
+
+    /// The pieces that are left without some of its pixels.
+    pub(super) fn without(&self, gone: impl Fn(usize, usize) -> bool) -> Vec<Self> {
+        let [left, _] = self.sides(gone);
+        self.pieces(&left)
+    }
+
+    /// Its runs outside and inside of something.
+    fn sides(&self, inside: impl Fn(usize, usize) -> bool) -> [Vec<Run>; 2] {
         let mut sides = [Vec::new(), Vec::new()];
         for r in &self.runs {
             let mut start = r.start;
@@ -111,10 +132,7 @@ impl Component {
                 start = end;
             }
         }
-        if sides.iter().any(Vec::is_empty) {
-            return vec![self.clone()];
-        }
-        sides.iter().flat_map(|runs| self.pieces(runs)).collect()
+        sides
     }
 
     /// Connected pieces of some of its runs.

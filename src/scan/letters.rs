@@ -26,10 +26,10 @@ const ARABIC_HANGING: &str = "جحخچم";
 /// Letters that a pen draws in one piece.
 const ONE_PIECE: &str = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghklmnopqrstuvwxyz0123456789\
     ΑΒΓΔΕΗΙΚΛΜΝΟΠΡΤΥΦΧΨΩАБВГДЕЖЗИКЛМНОПРСТУФХЦЧШЭЮЯабвгдежзиклмнопрстуфхцчшэюяاحدرسصطعلمهوى";
-/// Letters with a dot above or dots.
-const DOT_ABOVE: &str = "ijتثخذزژشضظغفقن";
-/// Letters with a dot or dots below.
-const DOT_BELOW: &str = "بجچپي";
+/// Letters with a dot above, dots, or another small sign.
+const DOT_ABOVE: &str = "ijةتثخذزشضظغفقنٹٺٿڈڌڎڏڐڑڒڗژڙڜڞڟڠڤڦڧڨڬڭڴڱڵڷڻڽۆۇۈۉۋێ";
+/// Letters and signs with a dot below or dots.
+const DOT_BELOW: &str = "!?؟بجيیپچٻڀڃڄڇڍڊڔڕڝڢڣڥڮڳڸې";
 
 /// Letters that hang below the baseline.
 const TAILED: &str = "gjpqyрф";

@@ -1,6 +1,7 @@
 //! Equal cells in rows and columns.
 
-use super::{Layer, Reason, Slot, furniture, gap, position};
+use super::{Layer, Reason, Slot, furniture, gap, position, ruling};
+use crate::numeric::view::View;
 use crate::scan::clean::Page;
 use crate::scan::components::Component;
 use crate::scan::error::ScanError;
@@ -36,14 +37,15 @@ pub(super) struct Plan<'a> {
     columns: usize,
     source: &'a str,
     options: &'a Options,
+    upright: View,
 }
 
 impl<'a> Plan<'a> {
     pub(super) fn new(
         page: &'a Page,
         options: &'a Options,
-        rows: usize,
-        columns: usize,
+        (rows, columns): (usize, usize),
+        upright: View,
     ) -> Result<Self, ScanError> {
         let source = page.sheet.source.as_str();
         let gray = &page.sheet.gray;
@@ -54,6 +56,7 @@ impl<'a> Plan<'a> {
             columns,
             source,
             options,
+            upright,
         })
         .ok_or(ScanError::NoGrid { rows, columns })
     }
@@ -79,14 +82,19 @@ impl<'a> Plan<'a> {
     }
 }
 
-/// Shares the ink out to the cells of a grid.
+/// Shares the ink out to the cells of a grid. Pieces that touch printed lines are cut free and appended to `all`.
 pub(super) fn place(
-    all: &[Component],
+    all: &mut Vec<Component>,
     labels: &[Label],
     plan: &Plan<'_>,
 ) -> Result<Layer, ScanError> {
     plan.too_many(labels)?;
     let lines = lines(all, plan);
+    let freed = lines
+        .iter()
+        .flat_map(|&i| ruling::freed(&all[i], &plan.upright));
+    let freed: Vec<Component> = freed.collect();
+    all.extend(freed);
     let letters: Vec<usize> = (0..all.len()).filter(|i| !lines.contains(i)).collect();
     let mut rejected: Vec<(usize, Reason)> = lines.iter().map(|&i| (i, Reason::Line)).collect();
     let blank = || ScanError::Blank {
@@ -276,9 +284,9 @@ fn neighbours(cell: usize, columns: usize, rows: usize) -> impl Iterator<Item = 
     near(r, rows).flat_map(move |r| near(c, columns).map(move |c| r * columns + c))
 }
 
-/// The small parts of a cell that belong together with one of them, as two or three dots do: each nearer to another than
+/// The small parts that belong together with one of them, as two or three dots do: each nearer to another than
 /// it is large.
-fn group<'a>(
+pub(super) fn group<'a>(
     all: &[Component],
     part: usize,
     others: impl Iterator<Item = &'a usize>,

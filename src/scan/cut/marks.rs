@@ -5,6 +5,7 @@
 //! it has dots or an accent takes the largest such piece beside it, and those like it, unless it has larger ones already;
 //! and one that is drawn in one piece has none of them, whatever lies beside it.
 
+use super::grid::group;
 use super::{Layer, Reason, gap};
 use crate::scan::components::Component;
 use crate::scan::letters::{Pieces, Shape};
@@ -13,40 +14,77 @@ use kurbo::Rect;
 
 /// Area of a dot beside that of the largest of the letter's dots at least: two of three may touch.
 const ALIKE: f64 = 0.3;
+/// How many times as large as a piece the dots of its letter are that it is none of.
+const LARGER: f64 = 1.5;
 /// How far a dot stands off its letter, as a share of the height of the letter's body.
 const REACH: f64 = 0.75;
 
-/// Takes ink smaller than a dot out of the letters that have none; what a user gave to a letter stays.
+/// Takes ink smaller than a dot out of the letters that have none, and what lies where no dot does out of those that have;
+/// what a user gave to a letter stays.
 pub(super) fn dust(layer: &mut Layer, all: &[Component], claims: &[(usize, Vec<usize>)], dot: f64) {
     let names = GlyphData::default();
     for slot in &mut layer.slots {
-        let claimed = claims.iter().any(|c| c.0 == slot.index);
-        if claimed || Shape::of(&slot.label, &names).pieces != Pieces::One {
+        if claims.iter().any(|c| c.0 == slot.index) {
             continue;
         }
-        let body = slot.parts.iter().copied().max_by_key(|&i| all[i].area);
-        let large = |&i: &usize| Some(i) == body || all[i].area as f64 >= dot;
-        let (kept, small): (Vec<usize>, Vec<usize>) = slot.parts.iter().partition(|i| large(i));
+        let Some(body) = slot.parts.iter().copied().max_by_key(|&i| all[i].area) else {
+            continue;
+        };
+        let is_dust = |i: usize| match Shape::of(&slot.label, &names).pieces {
+            _ if i == body => false,
+            Pieces::One => (all[i].area as f64) < dot,
+            Pieces::DotAbove | Pieces::DotBelow => astray(&all[i], &slot.parts, all),
+            Pieces::Marked | Pieces::Unknown => false,
+        };
+        let (small, kept): (Vec<usize>, Vec<usize>) = slot.parts.iter().partition(|&&i| is_dust(i));
         slot.parts = kept;
         let small = small.into_iter().map(|i| (i, Reason::Dirt));
         layer.rejected.extend(small);
     }
 }
 
+/// Whether a piece is smaller than a dot of its letter, and lies neither over, under nor in what is larger.
+fn astray(c: &Component, parts: &[usize], all: &[Component]) -> bool {
+    let larger = parts.iter().map(|&i| &all[i]);
+    let larger = larger.filter(|o| o.area as f64 > LARGER * c.area as f64);
+    let larger: Vec<Rect> = larger.map(|o| o.upright).collect();
+    // a body and a dot at least
+    let Some(rest) = larger
+        .iter()
+        .copied()
+        .reduce(|a, b| a.union(b))
+        .filter(|_| larger.len() > 1)
+    else {
+        return false;
+    };
+    let (at, reach) = (c.upright.center().x, c.upright.width());
+    let beside = at < rest.x0 - reach || at > rest.x1 + reach;
+    let far = (c.upright.y0 - rest.y1).max(rest.y0 - c.upright.y1) > REACH * rest.height();
+    beside || far
+}
+
 /// Gives small pieces of ink, in no slot so far, to the letters that want them: they go to the end of `all`. Returns how many.
-pub(super) fn give(layer: &mut Layer, all: &mut Vec<Component>, small: Vec<Component>) -> usize {
+pub(super) fn give(layer: &mut Layer, all: &mut Vec<Component>, small: &[Component]) -> usize {
     let names = GlyphData::default();
     let bodies: Vec<Option<Rect>> = (layer.slots.iter())
         .map(|s| s.parts.iter().max_by_key(|&&i| all[i].area))
         .map(|body| body.map(|&i| all[i].upright))
         .collect();
     let mut wanted: Vec<Vec<Component>> = vec![Vec::new(); layer.slots.len()];
-    for c in small {
-        let near = (0..bodies.len()).filter_map(|s| Some((s, gap(bodies[s]?, c.upright))));
+    let mut left: Vec<usize> = (0..small.len()).collect();
+    while let Some(&first) = left.first() {
+        // the dots of a letter go to it together
+        let dots = group(small, first, left.iter());
+        left.retain(|i| !dots.contains(i));
+        let place = dots.iter().map(|&i| small[i].upright);
+        let Some(place) = place.reduce(|a, b| a.union(b)) else {
+            break;
+        };
+        let near = (0..bodies.len()).filter_map(|s| Some((s, gap(bodies[s]?, place))));
         let nearest = near.min_by(|a, b| a.1.total_cmp(&b.1));
         let close = |&(s, gap): &(usize, f64)| bodies[s].is_some_and(|b| gap < REACH * b.height());
         if let Some((s, _)) = nearest.filter(close) {
-            wanted[s].push(c);
+            wanted[s].extend(dots.iter().map(|&i| small[i].clone()));
         }
     }
     let before = all.len();

@@ -12,6 +12,7 @@ mod marks;
 mod odd;
 mod pins;
 mod rows;
+mod ruling;
 mod stance;
 mod window;
 
@@ -28,6 +29,8 @@ use kurbo::{Affine, Point, Rect};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::fmt;
+
+use stance::Stance;
 
 pub use odd::{SMALL, SMALL_LETTER, is_full};
 pub use pins::{Pin, Region};
@@ -47,6 +50,9 @@ const DUST: f64 = 0.85;
 /// Ink smaller than a square of this many stroke widths is no dot of any style: those of `DejaVu Sans Bold`, the smallest of
 /// a hundred fonts, have 0.52.
 const DOT: f64 = 0.4;
+/// A printed line or lattice: its length at least and its thickness at most, as shares of the longer side of all ink, and the
+/// share of its box that it covers at most.
+const LINE: (f64, f64, f64) = (0.5, 0.02, 0.12);
 /// Share of a piece of ink that lies on the page at least.
 const ON_PAPER: f64 = 0.8;
 /// Skews below this, degrees, are left alone: over a page they move a letter by a hair.
@@ -237,12 +243,13 @@ pub fn cut_with(
     marks::dust(&mut layer, &all, &claims, dot);
     let freed = whole..all.len();
     small.iter_mut().for_each(|c| c.stand(&upright));
-    let specks = specks - marks::give(&mut layer, &mut all, small);
+    let specks = specks - marks::give(&mut layer, &mut all, &small);
     let seen = |slot: &Slot| pins::stance(slot.index, pins, &upright).0;
     let guides = guides::measure(&layer, &all, page, options, seen)?;
-    let misfit = stance::misfit(&layer, &all, &guides.drop);
+    let stance = Stance::of(&layer, &all, &guides.drop);
     let mut warnings = guides.warnings;
     warnings.extend(colourless(page, options));
+    warnings.extend(stance.shifted(labels));
     let inked: Vec<&Slot> = layer.slots.iter().filter(|s| !s.parts.is_empty()).collect();
     let picture = Rect::new(0.0, 0.0, gray.width() as f64, gray.height() as f64);
     warnings.extend(odd::warnings(&inked, &all, picture, freed));
@@ -278,7 +285,7 @@ pub fn cut_with(
         upright: upright.affine().unwrap_or_else(|| upright.near(middle)),
         specks,
         colours: separation.map_or_else(Vec::new, |s| s.colours()),
-        misfit,
+        misfit: stance.misfit(),
     })
 }
 
@@ -293,7 +300,7 @@ fn placed(
     let source = page.sheet.source.as_str();
     match options.layout {
         Layout::Grid(rows, columns) => {
-            let plan = grid::Plan::new(page, options, rows, columns)?;
+            let plan = grid::Plan::new(page, options, (rows, columns), upright)?;
             grid::place(all, labels, &plan)
         }
         Layout::Free => free::place(all, labels, claims, options, source),
@@ -395,9 +402,20 @@ fn speck_limit(all: &[Component]) -> f64 {
     (SPECK * stroke_width(all)).powi(2).max(2.0)
 }
 
-/// The page's usual stroke width, px: the median over the ink, each piece by its area.
+/// The page's usual stroke width, px: the median over the ink, each piece by its area. Printed lines can have more ink than
+/// all letters, so what is long for the page and hollow or thin does not count.
 fn stroke_width(all: &[Component]) -> f64 {
-    let mut widths: Vec<(f64, usize)> = all.iter().map(|c| (c.stroke(), c.area)).collect();
+    let page = all.iter().map(|c| c.bounds).reduce(|a, b| a.union(b));
+    let side = page.map_or(0.0, |p| p.width().max(p.height()));
+    let is_line = |c: &Component| {
+        let (long, short) = (
+            c.bounds.width().max(c.bounds.height()),
+            c.bounds.width().min(c.bounds.height()),
+        );
+        long > LINE.0 * side && (short < LINE.1 * side || (c.area as f64) < LINE.2 * long * short)
+    };
+    let letters = all.iter().filter(|c| !is_line(c));
+    let mut widths: Vec<(f64, usize)> = letters.map(|c| (c.stroke(), c.area)).collect();
     widths.sort_by(|a, b| a.0.total_cmp(&b.0));
     let half = widths.iter().map(|w| w.1).sum::<usize>() / 2;
     let mut sum = 0;

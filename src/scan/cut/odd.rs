@@ -57,7 +57,7 @@ pub(super) fn warnings(
         if slot.parts.iter().any(|i| freed.contains(i)) {
             out.push(Warning::of(
                 slot,
-                "its ink touches the printed box: what lies along the line is left out",
+                "its ink touches a printed line: what lies along it is left out",
             ));
         }
         if size(slot) < SMALL * full && Shape::of(&slot.label, &names).full {

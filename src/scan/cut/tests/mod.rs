@@ -240,32 +240,27 @@ fn names_and_cells_must_agree() {
     assert_eq!(cut.warnings[0].index, Some(1));
 }
 
+/// The lines between and around the cells of [`grid_page`], 3 px thick.
+fn rule(paper: &mut Paper, shade: f32) {
+    for i in 0..=5 {
+        let at = 48.0 + 120.0 * f64::from(i);
+        paper
+            .bars
+            .push((Rect::new(at, 48.0, at + 3.0, 451.0), shade));
+    }
+    for i in 0..=4 {
+        let at = 48.0 + 100.0 * f64::from(i);
+        paper
+            .bars
+            .push((Rect::new(48.0, at, 651.0, at + 3.0), shade));
+    }
+}
+
 #[test]
 fn printed_lines_are_no_ink() {
     for shade in [0.25, 1.0] {
         let mut paper = grid_page(1.0);
-        for i in 0..=5 {
-            paper.bars.push((
-                Rect::new(
-                    48.0 + 120.0 * f64::from(i),
-                    50.0,
-                    51.0 + 120.0 * f64::from(i),
-                    450.0,
-                ),
-                shade,
-            ));
-        }
-        for i in 0..=4 {
-            paper.bars.push((
-                Rect::new(
-                    48.0,
-                    48.0 + 100.0 * f64::from(i),
-                    651.0,
-                    51.0 + 100.0 * f64::from(i),
-                ),
-                shade,
-            ));
-        }
+        rule(&mut paper, shade);
         let cut = cut_page(&paper, NAMES, &options(Layout::Grid(4, 5))).unwrap();
         assert_eq!(cut.cells.len(), 20);
         assert!(
@@ -280,6 +275,28 @@ fn printed_lines_are_no_ink() {
             .fold(0.0, f64::max);
         assert!(widest < 34.0, "letters only");
     }
+}
+
+#[test]
+fn letters_that_touch_printed_lines_are_cut_free() {
+    let mut paper = grid_page(1.0);
+    rule(&mut paper, 1.0);
+    // one hangs across the line below, one reaches up to the line above
+    paper.bar(330.0, 240.0, 6.0, 24.0);
+    paper.bar(90.0, 50.0, 6.0, 44.0);
+    let cut = cut_page(&paper, NAMES, &options(Layout::Grid(4, 5))).unwrap();
+    let touched = [(7, 190.0, 264.0), (0, 52.0, 120.0)];
+    for (i, top, bottom) in touched {
+        let height = cut.cells[i].in_sheet.height();
+        assert!((height - (bottom - top)).abs() < 3.0, "{i}: {height}");
+    }
+    let told = cut.warnings.iter().map(|w| w.index);
+    assert_eq!(told.collect::<Vec<_>>(), [Some(0), Some(7)]);
+    assert!(
+        cut.rejected.iter().all(|r| r.reason == Reason::Line),
+        "{:?}",
+        cut.rejected
+    );
 }
 
 #[test]
@@ -543,4 +560,22 @@ fn printed_boxes_hold_one_letter_each() {
             "{many}"
         );
     }
+}
+
+#[test]
+fn names_that_have_slipped_are_told() {
+    let names: Vec<&str> = NAMES.split(' ').collect();
+    let told = |names: String| {
+        let cut = cut_page(&grid_page(0.0), &names, &options(Layout::Grid(4, 5))).unwrap();
+        let messages = cut.warnings.into_iter().map(|w| w.message);
+        messages.collect::<Vec<_>>()
+    };
+    assert!(told(NAMES.to_owned()).is_empty());
+    let lacking = [&names[..2], &names[3..], &["_"]].concat();
+    let told_of = told(lacking.join(" "));
+    assert_eq!(told_of.len(), 1, "{told_of:?}");
+    assert!(
+        told_of[0].contains("had the name before its own: is a name missing"),
+        "{told_of:?}"
+    );
 }

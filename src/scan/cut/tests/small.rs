@@ -52,25 +52,21 @@ fn pinholes_are_filled() {
 
 #[test]
 fn three_dots_go_to_one_letter() {
-    let mut paper = grid_page(0.0);
-    // the tail above is a little nearer to the dots than the letter below is, and much nearer to the topmost one
-    paper.bar(216.0, 120.0, 6.0, 31.0);
-    for (x, y) in [(220.0, 160.0), (214.0, 172.0), (226.0, 172.0)] {
-        paper.bar(x, y, 8.0, 8.0);
+    let large = [(220.0, 160.0), (214.0, 172.0), (226.0, 172.0)];
+    let small = [(220.0, 168.0), (217.5, 173.0), (222.5, 173.0)];
+    for (side, dots) in [(8.0, large), (3.5, small)] {
+        let mut paper = grid_page(0.0);
+        // the tail above is nearer to the topmost dot than the letter below is, and hardly nearer to all of them
+        paper.bar(216.0, 120.0, 6.0, 31.0);
+        for (x, y) in dots {
+            paper.bar(x, y, side, side);
+        }
+        let names = "n p p n l n ث p i n i n l n n n p n i n";
+        let cut = cut_page(&paper, names, &options(Layout::Grid(4, 5))).unwrap();
+        let place = |i: usize| cut.cells[i].in_sheet;
+        assert!((place(6).y0 - dots[0].1).abs() < 1.1, "{:?}", place(6));
+        assert!(place(1).y1 < 155.0, "{:?}", place(1));
     }
-    let names = "n p p n l n ث p i n i n l n n n p n i n";
-    let cut = cut_page(&paper, names, &options(Layout::Grid(4, 5))).unwrap();
-    let dotted: Vec<f64> = cut.cells.iter().map(|c| c.in_sheet.y0).collect();
-    assert!(
-        (dotted[6] - 160.0).abs() < 1.0,
-        "{:?}",
-        cut.cells[6].in_sheet
-    );
-    assert!(
-        cut.cells[1].in_sheet.y1 < 155.0,
-        "{:?}",
-        cut.cells[1].in_sheet
-    );
 }
 
 #[test]
@@ -94,4 +90,41 @@ fn dots_smaller_than_dust_go_to_letters_that_have_dots() {
         );
         assert_eq!(cut.rejected[0].reason, Reason::Dirt);
     }
+}
+
+#[test]
+fn dust_beside_a_letter_with_dots_is_none_of_them() {
+    let mut paper = grid_page(1.0);
+    // as large as a dot may be, beside and far below letters that have dots of their own
+    paper.bar(240.0, 95.0, 5.0, 5.0);
+    paper.bar(98.0, 254.0, 5.0, 5.0);
+    paper.bar(88.0, 176.0, 8.0, 8.0);
+    paper.bar(206.0, 74.0, 8.0, 8.0);
+    let names = "n ن p n l ن n p i n i n l n n n p n i n";
+    let cut = cut_page(&paper, names, &options(Layout::Grid(4, 5))).unwrap();
+    let place = |i: usize| cut.cells[i].in_sheet;
+    assert!(
+        place(1).x1 < 242.0 && place(1).height() > 42.0,
+        "{:?}",
+        place(1)
+    );
+    assert!(
+        place(5).y1 < 230.0 && place(5).height() > 40.0,
+        "{:?}",
+        place(5)
+    );
+}
+
+#[test]
+fn printed_lines_do_not_say_how_thick_strokes_are() {
+    let mut paper = Paper::new(700, 500, 1.0);
+    rule(&mut paper, 1.0);
+    for (x, y) in [(90.0, 120.0), (210.0, 220.0)] {
+        paper.bar(x, y - 30.0, 10.0, 30.0);
+        paper.bar(x + 30.0, y - 30.0, 10.0, 30.0);
+        paper.bar(x, y - 30.0, 40.0, 10.0);
+    }
+    let page = clean(paper.scan()).unwrap();
+    let width = stroke_width(&components(&page.sheet.gray, LOW, SEED));
+    assert!((8.0..13.0).contains(&width), "{width}");
 }
