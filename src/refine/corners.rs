@@ -26,12 +26,12 @@ const LONG_PX: (f64, f64) = (1.0, 1.2);
 /// Which of the corners of sharpened contours are drawn as corners. `seen` says what the contour alone tells of
 /// each; where the picture tells nothing, that holds.
 #[must_use]
-pub fn confirmed(coverage: &Gray, sharp: &[Cornered], seen: &[Vec<bool>]) -> Vec<Vec<bool>> {
+pub fn confirmed(gray: &Gray, sharp: &[Cornered], seen: &[Vec<bool>]) -> Vec<Vec<bool>> {
     let Some((first, _)) = sharp.iter().find(|(_, at)| !at.is_empty()) else {
         return vec![Vec::new(); sharp.len()];
     };
     let blur = first.blur_px();
-    let residual = Residual::levelled(coverage, sharp.iter().map(|(c, _)| c.points()), blur);
+    let residual = Residual::new(gray, sharp.iter().map(|(c, _)| c.points()), blur);
     let limit = limit(&residual);
     let answer = |contour: &Contour, i: usize, seen: bool| {
         let p = contour.points();

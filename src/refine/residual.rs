@@ -85,36 +85,17 @@ impl Residual<'static> {
         rings: impl Iterator<Item = &'r [Point]>,
         blur_px: f64,
     ) -> Self {
-        let lens = lens(blur_px);
-        let (fill, off) = drawn(gray, rings, lens);
+        let pixel = Contour::PIXEL_BLUR_PX;
+        let lens = (blur_px * blur_px - pixel * pixel).max(0.0).sqrt();
+        let spread = blur_px.max(MIN_SPREAD_PX);
+        let mut fill = Coverage::new(gray.width(), gray.height());
+        let mut off = Vec::new();
+        draw(rings, (&mut fill, &mut off), lens);
         // with the edges known, pixels up to them say what ink and paper are
         let seen = normalised(gray.samples(), gray.width(), &off);
-        let seen = Cow::Owned(gray.with_samples(seen));
-        Self::compared(seen, (fill, off), (blur_px, lens))
-    }
-}
-
-impl<'g> Residual<'g> {
-    /// The same for a picture whose levels are known.
-    pub(super) fn levelled<'r>(
-        seen: &'g Gray,
-        rings: impl Iterator<Item = &'r [Point]>,
-        blur_px: f64,
-    ) -> Self {
-        let lens = lens(blur_px);
-        let drawn = drawn(seen, rings, lens);
-        Self::compared(Cow::Borrowed(seen), drawn, (blur_px, lens))
-    }
-
-    fn compared(
-        seen: Cow<'g, Gray>,
-        (fill, model): (Coverage, Vec<f32>),
-        (blur_px, lens): (f64, f64),
-    ) -> Self {
-        let spread = blur_px.max(MIN_SPREAD_PX);
         let mut residual = Self {
-            seen,
-            off: model,
+            seen: Cow::Owned(gray.with_samples(seen)),
+            off,
             fill,
             lens,
             spread,
@@ -125,7 +106,9 @@ impl<'g> Residual<'g> {
         residual.compare();
         residual
     }
+}
 
+impl Residual<'_> {
     /// The same picture and levels against other rings.
     pub(super) fn against<'r>(&self, rings: impl Iterator<Item = &'r [Point]>) -> Residual<'_> {
         let mut residual = Residual {
@@ -279,24 +262,6 @@ impl<'g> Residual<'g> {
         let next = move |(w, ratio): &(f64, f64)| Some((w * ratio, ratio * shrink));
         successors(Some((first, ratio)), next).map(|(w, _)| w)
     }
-}
-
-/// Deviation of the lens' blur alone, px, where it and the pixel's box make `blur_px`.
-fn lens(blur_px: f64) -> f64 {
-    let pixel = Contour::PIXEL_BLUR_PX;
-    (blur_px * blur_px - pixel * pixel).max(0.0).sqrt()
-}
-
-/// The fill of rings in a picture as large as that, and what the lens makes of it.
-fn drawn<'r>(
-    gray: &Gray,
-    rings: impl Iterator<Item = &'r [Point]>,
-    lens: f64,
-) -> (Coverage, Vec<f32>) {
-    let mut fill = Coverage::new(gray.width(), gray.height());
-    let mut model = Vec::new();
-    draw(rings, (&mut fill, &mut model), lens);
-    (fill, model)
 }
 
 /// The blurred fill of rings.
