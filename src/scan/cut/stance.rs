@@ -24,7 +24,7 @@ const BALANCED: f64 = 0.01;
 const CAPITAL: [Head; 2] = [Head::Cap, Head::CapBow];
 const SMALL: [Head; 2] = [Head::X, Head::XBow];
 /// Things that speak against a stretch's own names, and not against those beside them, from which on it is said: 2.0 on the
-/// worst of 40 pages whose names were right, 3 or more where a name lacks in the first three quarters of one.
+/// worst of 40 pages whose names were right but for a font of key caps, 3 or more where a name lacks in the first three quarters of one.
 const SHIFTED: f64 = 2.5;
 
 /// A letter's name and ink.

@@ -382,15 +382,24 @@ fn a_grid_seen_in_perspective_comes_out_straight() {
             all.iter().all(|a| (a / mean - 1.0).abs() < 0.05),
             "{tilt:?}: {all:?}"
         );
-        for (i, cell) in cut.cells.iter().enumerate() {
-            let (x, y) = (
-                90.0 + 120.0 * (i % 5) as f64,
-                120.0 + 100.0 * (i / 5) as f64,
-            );
-            let at = cell.to_sheet.inverse() * paper.view().at(Point::new(x + 3.0, y));
-            let off = (at.y - cell.guides.baseline_px).abs();
-            assert!(off < 1.5, "{tilt:?}, cell {i}: {off} px off the baseline");
-        }
+        assert_on_baselines(&cut, &paper);
+    }
+}
+
+/// That all cells of a page of [`grid_page`]'s letters have their baselines where these stand.
+fn assert_on_baselines(cut: &Cut, paper: &Paper) {
+    for (i, cell) in cut.cells.iter().enumerate() {
+        let (x, y) = (
+            90.0 + 120.0 * (i % 5) as f64,
+            120.0 + 100.0 * (i / 5) as f64,
+        );
+        let at = cell.to_sheet.inverse() * paper.view().at(Point::new(x + 3.0, y));
+        let off = (at.y - cell.guides.baseline_px).abs();
+        assert!(
+            off < 1.5,
+            "{:?}, cell {i}: {off} px off the baseline",
+            paper.tilt
+        );
     }
 }
 
@@ -431,15 +440,7 @@ fn rows_of_a_bare_page_in_perspective_come_out_level() {
     let mut paper = grid_page(1.0);
     paper.tilt = [0.08, 0.0];
     let cut = cut_page(&paper, NAMES, &options(Layout::Free)).unwrap();
-    for (i, cell) in cut.cells.iter().enumerate() {
-        let (x, y) = (
-            90.0 + 120.0 * (i % 5) as f64,
-            120.0 + 100.0 * (i / 5) as f64,
-        );
-        let at = cell.to_sheet.inverse() * paper.view().at(Point::new(x + 3.0, y));
-        let off = (at.y - cell.guides.baseline_px).abs();
-        assert!(off < 1.5, "cell {i}: {off} px off the baseline");
-    }
+    assert_on_baselines(&cut, &paper);
 }
 
 #[test]
