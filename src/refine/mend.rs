@@ -6,6 +6,7 @@
 use super::{
     comparison::polygon,
     residual::Residual,
+    tips::{is_needle, tip, trim},
     variants::variants,
     window::{Drawn, Window},
 };
@@ -13,8 +14,7 @@ use crate::numeric::{
     chain::{Chain, Join},
     joins::{DEPTH_PX, divide_at_extrema, is_soft, keep_levels, sharpen, soften},
 };
-use kurbo::{BezPath, ParamCurve, ParamCurveNearest, Point, Rect, Shape, Vec2};
-use std::f64::consts::PI;
+use kurbo::{BezPath, CubicBez, ParamCurve, ParamCurveNearest, Point, Rect, Shape, Vec2};
 
 /// Directions that differ by less are one, radians.
 const SMOOTH: f64 = 0.0175;
@@ -32,6 +32,9 @@ const WRONG_GRAIN: f64 = 90.0;
 const MOST: usize = 1000;
 /// Places nearer to one that was tried are that one, px.
 const SAME_PX: f64 = 5.0;
+/// A node that went further than this, px, is followed by a window of its own, so many of them at most.
+const MOVED_PX: f64 = 2.0;
+const LOOKS: usize = 4;
 /// How far the nodes around move, px, and what each px of the lens' deviation adds; and times this where that mends little.
 const REACH_PX: f64 = 6.0;
 const REACH_LENS: f64 = 2.0;
@@ -42,16 +45,15 @@ const NODE_GRAIN: f64 = 48.0;
 /// The part of what is wrong, beyond grain, that a change of structure must mend, and a place for its nodes to move at all.
 const WORTH: f64 = 0.4;
 const GAIN: f64 = 0.3;
+/// What a node must save beside a tip, of whose length few pixels tell, and those parts there.
+const TIP: (f64, f64) = (0.03, 0.2);
+const TIP_GAIN: f64 = 0.1;
 /// A structure that no outline may have gives way to one that leaves so many times as much.
 const ASTRAY: f64 = 1.1;
 /// Changes of structure in a place, one upon the other.
 const CHANGES: usize = 3;
-/// A handle's prior is as heavy as so many pixels' grain.
-const PRIOR_GRAIN: f64 = 4.0;
 /// A smooth node so near to an axis is an extremum, radians.
 const AXIS: f64 = 0.15;
-/// A corner does not come nearer than this to turning back, radians.
-const BACK: f64 = 0.1;
 /// A smooth node does not turn by more than this, radians, in such a part of both its curves.
 const HIDDEN: f64 = 1.2;
 const BESIDE: f64 = 0.3;
@@ -59,20 +61,29 @@ const BESIDE: f64 = 0.3;
 /// many of it.
 const HOOK: f64 = 1.75;
 const LONG: f64 = 2.0;
+/// No control point of a chain into which a part is put back moves further for it, px.
+const MOVES_PX: f64 = 0.4;
 /// No segment is shorter, px.
 const SHORT_PX: f64 = 0.25;
-/// A node is at home within so many reaches of its place, or so near to one that was there, px.
+/// A node is at home within so many reaches of its place, a tip within as many, or so near to a node that was there, px.
 const HOME: f64 = 1.5;
+const FAR: f64 = 3.0;
 const HOME_PX: f64 = 2.0;
 
 /// The paths, changed where a few nodes explain the picture better, and with nodes at all extrema in the end.
 pub(super) fn mended(residual: &Residual<'_>, paths: &[BezPath]) -> Vec<BezPath> {
     let read = |p: &BezPath| Chain::from_path(p, SMOOTH);
     let mut chains: Vec<Option<Chain>> = paths.iter().map(read).collect();
-    let mut rings: Vec<Ring> = paths.iter().map(Ring::new).collect();
+    let mut out = paths.to_vec();
+    for (chain, path) in chains.iter_mut().zip(&mut out) {
+        let Some(chain) = chain else { continue };
+        if trim(chain) {
+            *path = chain.to_path();
+        }
+    }
+    let mut rings: Vec<Ring> = out.iter().map(Ring::new).collect();
     let mut residual = residual.against(rings.iter().map(|r| r.chords.as_slice()));
     let wrong = Wrong::new(&residual);
-    let mut out = paths.to_vec();
     let mut tried: Vec<Point> = Vec::new();
     for (k, p) in wrong.places(&residual, &rings) {
         let left = residual.squares(p, NEAR_PX);
@@ -83,27 +94,34 @@ pub(super) fn mended(residual: &Residual<'_>, paths: &[BezPath]) -> Vec<BezPath>
             break;
         }
         tried.push(p);
-        let Some(chain) = &chains[k] else { continue };
-        let place = Place {
-            chain,
-            at: p,
-            others: (&rings, k),
-        };
         let reach = REACH_PX + REACH_LENS * residual.lens_px();
-        let mut reaches = [reach, WIDE * reach].into_iter();
-        let found = reaches.find_map(|reach| place.mended(&residual, &wrong, reach));
-        if let Some((chain, window, drawn)) = found {
-            window.write(&drawn, &mut residual);
-            out[k] = chain.to_path();
+        let mut next = Some(p);
+        for _ in 0..LOOKS {
+            let Some((at, chain)) = next.zip(chains[k].as_ref()) else {
+                break;
+            };
+            let others = (rings.as_slice(), k);
+            let place = Place { chain, at, others };
+            let mut reaches = [reach, WIDE * reach].into_iter();
+            let found = reaches.find_map(|reach| place.mended(&residual, &wrong, reach));
+            let Some(found) = found else { break };
+            found.window.write(&found.drawn, &mut residual);
+            out[k] = found.chain.to_path();
             rings[k] = Ring::new(&out[k]);
-            chains[k] = Some(chain);
+            chains[k] = Some(found.chain);
+            let left = |p: &Point| residual.squares(*p, NEAR_PX);
+            let worst = |p: &&Point| left(p) > wrong.least && p.distance(at) > MOVED_PX;
+            let moved = found.moved.iter().filter(worst);
+            next = moved.max_by(|a, b| left(a).total_cmp(&left(b))).copied();
+            tried.extend(next);
         }
     }
     for (chain, path) in chains.iter_mut().zip(&mut out) {
         let Some(chain) = chain else { continue };
+        let trimmed = trim(chain);
         let before = chain.kinds.len();
         divide_at_extrema(chain, 0.0);
-        if chain.kinds.len() > before {
+        if trimmed || chain.kinds.len() > before {
             *path = chain.to_path();
         }
     }
@@ -167,6 +185,16 @@ impl Wrong {
     }
 }
 
+/// A chain that explains more.
+struct Mended {
+    chain: Chain,
+    /// what the change can touch, and what is left there
+    window: Window,
+    drawn: Drawn,
+    /// nodes around the place
+    moved: Vec<Point>,
+}
+
 /// Where a path is wrong.
 struct Place<'a> {
     chain: &'a Chain,
@@ -177,12 +205,7 @@ struct Place<'a> {
 
 impl Place<'_> {
     /// The chain with the nodes within `reach` px of the place where the pixels have them, if that explains enough more.
-    fn mended(
-        &self,
-        residual: &Residual<'_>,
-        wrong: &Wrong,
-        reach: f64,
-    ) -> Option<(Chain, Window, Drawn)> {
+    fn mended(&self, residual: &Residual<'_>, wrong: &Wrong, reach: f64) -> Option<Mended> {
         let (start, count) = self.run(reach)?;
         let mut turned = self.chain.clone();
         turned.nodes.rotate_left(start);
@@ -199,20 +222,36 @@ impl Place<'_> {
         }
         let rest = polygon(&turned.part(count..n).to_path(), CHORD_PX);
         let (rings, own) = self.others;
-        let around = Window::bounds(residual, (self.at, reach));
-        let others = rings.iter().enumerate();
-        let others = others.filter(|(k, r)| *k != own && r.bounds.overlaps(around));
-        let lines = others.map(|(_, r)| r.chords.as_slice()).chain([&*rest]);
-        let prior = (PRIOR_GRAIN * wrong.grain).sqrt();
-        let window = Window::new(residual, (self.at, reach), lines, &part, prior);
+        let window = |reach: f64| {
+            let around = Window::bounds(residual, (self.at, reach));
+            let others = rings.iter().enumerate();
+            let others = others.filter(|(k, r)| *k != own && r.bounds.overlaps(around));
+            let lines = others.map(|(_, r)| r.chords.as_slice()).chain([&*rest]);
+            Window::new(residual, (self.at, reach), lines, &part, wrong.grain)
+        };
         let left = residual.squares(self.at, NEAR_PX) - NEAR * wrong.grain;
-        let before = window.drawn(&part).squares;
-        let (best, drawn) = self.best(&window, &part, wrong, reach)?;
-        if before - drawn.squares < GAIN * left {
+        let near = window(reach);
+        let before = near.drawn(&part).squares;
+        let (best, drawn) = self.best(&near, &part, wrong, reach)?;
+        let enough = if tipped(&best) { TIP_GAIN } else { GAIN } * left;
+        if before - drawn.squares < enough {
             return None;
         }
-        let whole = put_back(turned, best, count)?;
-        Some((whole, window, drawn))
+        // what went out of the window tells nothing in it
+        let window = window(FAR * reach);
+        let drawn = window.drawn(&best);
+        if window.drawn(&part).squares - drawn.squares < enough {
+            return None;
+        }
+        let inner = &best.nodes[1..best.kinds.len()];
+        let moved = inner.iter().map(|n| n.point).collect();
+        let chain = put_back(turned, best, count)?;
+        Some(Mended {
+            chain,
+            window,
+            drawn,
+            moved,
+        })
     }
 
     /// The first segment of those that end in a node within `reach` px, in a row with the nearest one, and how many they are.
@@ -244,9 +283,7 @@ impl Place<'_> {
         wrong: &Wrong,
         reach: f64,
     ) -> Option<(Chain, Drawn)> {
-        let price = NODE + NODE_GRAIN * wrong.grain;
         let noise = wrong.grain * window.pixels();
-        let cost = |c: &Chain, squares: f64| squares + price * c.nodes.len() as f64;
         let mut chain = part.clone();
         let mut drawn = fit(window, &mut chain, f64::INFINITY);
         let mut good = self.sound(&chain, part, reach);
@@ -256,13 +293,28 @@ impl Place<'_> {
             if good && explained(now) {
                 break;
             }
-            let (mut least, most) = if good {
-                (cost(&chain, now), now - WORTH * (now - noise).max(0.0))
-            } else {
-                (f64::INFINITY, ASTRAY * now)
+            let beside = tipped(&chain);
+            let asked = |c: &Chain| match (beside && tipped(c), alike(c, &chain)) {
+                (_, true) => (0.0, 0.0),
+                (true, _) => TIP,
+                _ => (NODE, WORTH),
+            };
+            let cost = |c: &Chain, squares: f64| {
+                let price = asked(c).0 + NODE_GRAIN * wrong.grain;
+                squares + price * (c.nodes.len() as f64 - chain.nodes.len() as f64)
+            };
+            let mut least = if good { now } else { f64::INFINITY };
+            let most = |c: &Chain| {
+                if good {
+                    now - asked(c).1 * (now - noise).max(0.0)
+                } else {
+                    ASTRAY * now.max(noise)
+                }
             };
             let mut found: Option<(Chain, Drawn)> = None;
-            for mut other in variants(&chain, self.at, reach) {
+            // a fit that ended in what no outline may have is no place to begin
+            let from = if good { &chain } else { part };
+            for mut other in variants(from, self.at, reach) {
                 let done = |(c, d): &(Chain, Drawn)| {
                     explained(d.squares) && c.nodes.len() < other.nodes.len()
                 };
@@ -270,9 +322,10 @@ impl Place<'_> {
                     // what more nodes could save is less than they must
                     break;
                 }
-                let drawn = fit(window, &mut other, most);
+                let enough = most(&other);
+                let drawn = fit(window, &mut other, enough);
                 let cost = cost(&other, drawn.squares);
-                if cost < least && drawn.squares < most && self.sound(&other, part, reach) {
+                if cost < least && drawn.squares < most(&other) && self.sound(&other, part, reach) {
                     least = cost;
                     found = Some((other, drawn));
                 }
@@ -289,17 +342,17 @@ impl Place<'_> {
         let home = |i: usize| {
             let p = chain.nodes[i].point;
             let mut old = was.nodes.iter().map(|n| n.point.distance(p));
-            p.distance(self.at) < HOME * reach || old.any(|off| off < HOME_PX)
+            let far = if tip(chain, i).is_some() { FAR } else { HOME };
+            p.distance(self.at) < far * reach || old.any(|off| off < HOME_PX)
         };
-        let most = |i: usize| {
+        let open = |i: usize| {
             if chain.nodes[i].join.is_smooth() {
-                HIDDEN
+                turn(chain, i) < HIDDEN
             } else {
-                PI - BACK
+                !is_needle(chain, i)
             }
         };
-        inner.all(|i| home(i) && turn(chain, i) < most(i))
-            && (0..chain.kinds.len()).all(|i| runs_on(chain, i))
+        inner.all(|i| home(i) && open(i)) && (0..chain.kinds.len()).all(|i| runs_on(chain, i))
     }
 }
 
@@ -340,6 +393,17 @@ fn fit(window: &Window, chain: &mut Chain, enough: f64) -> Drawn {
     }
 }
 
+/// Whether an inner node is a tip.
+fn tipped(chain: &Chain) -> bool {
+    (1..chain.kinds.len()).any(|i| tip(chain, i).is_some())
+}
+
+/// Whether two chains have the same structure.
+fn alike(a: &Chain, b: &Chain) -> bool {
+    let joins = |c: &Chain| c.nodes.iter().map(|n| n.join).collect::<Vec<_>>();
+    a.kinds == b.kinds && joins(a) == joins(b)
+}
+
 /// By how much a chain turns around a node, radians: handles may be too short to show.
 fn turn(chain: &Chain, i: usize) -> f64 {
     let Some((before, after)) = chain.before(i).zip(chain.after(i)) else {
@@ -364,9 +428,20 @@ fn runs_on(chain: &Chain, i: usize) -> bool {
         && start.hypot() + end.hypot() < LONG * chord.hypot()
 }
 
+/// How far the control points of two curves are apart at most, px.
+fn apart(a: &CubicBez, b: &CubicBez) -> f64 {
+    let pairs = [(a.p0, b.p0), (a.p1, b.p1), (a.p2, b.p2), (a.p3, b.p3)];
+    pairs
+        .iter()
+        .map(|(p, q)| p.distance(*q))
+        .fold(0.0, f64::max)
+}
+
 /// The chain with its first `count` segments as they are in `part`.
 fn put_back(mut chain: Chain, part: Chain, count: usize) -> Option<Chain> {
     let n = chain.kinds.len();
+    let inner = (0..part.kinds.len()).map(|i| part.cubic(i));
+    let wanted: Vec<CubicBez> = inner.chain((count..n).map(|i| chain.cubic(i))).collect();
     let (mut nodes, kinds) = (part.nodes, part.kinds);
     let last = nodes.pop()?;
     let own = chain.nodes[0];
@@ -385,5 +460,8 @@ fn put_back(mut chain: Chain, part: Chain, count: usize) -> Option<Chain> {
     chain.kinds.splice(0..count, kinds);
     chain.settle();
     let sound = [0, end].into_iter().all(|i| !is_soft(&chain, i));
-    (sound && chain.to_path().is_finite()).then_some(chain)
+    // a line takes what is beside it along
+    let as_wanted = |(i, c): (usize, &CubicBez)| apart(c, &chain.cubic(i)) < MOVES_PX;
+    let stays = wanted.iter().enumerate().all(as_wanted);
+    (sound && stays && chain.to_path().is_finite()).then_some(chain)
 }

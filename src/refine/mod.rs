@@ -19,6 +19,7 @@ mod nodes;
 mod residual;
 #[cfg(test)]
 mod tests;
+mod tips;
 mod variants;
 mod window;
 

@@ -1,6 +1,7 @@
 use super::*;
 use crate::numeric::{
     cast::index,
+    chain::Chain,
     coverage::{Coverage, blur},
     joins::inner_extrema,
 };
@@ -253,6 +254,63 @@ fn a_wrong_structure_gives_way_to_the_one_drawn() {
             let [got, drawn] = [&got, &drawn].map(|p| p.segments().count());
             assert!(got <= drawn + 1, "{name}, lens {lens}: {got} {drawn}");
         }
+    }
+}
+
+#[test]
+fn a_tip_that_was_cut_short_comes_out_again() {
+    let spike = |tip: &str| {
+        let text = format!("M6.2 4.3L42.1 4.3L42.1 20.6L27.1 20.6L{tip}L21.4 20.6L6.2 20.6Z");
+        BezPath::from_svg(&text).unwrap()
+    };
+    for lens in [0.0, 0.9] {
+        let drawn = spike("24.1 44.2");
+        let gray = photograph(&drawn, lens);
+        let blur = Contour::PIXEL_BLUR_PX.hypot(lens);
+        let got = mended(&gray, &spike("24.6 37.1"), blur);
+        let off = apart(&got, &drawn);
+        // of seven px; the squares of the last ones are too small to be looked at
+        assert!(off < 2.0, "lens {lens}: {off} {}", got.to_svg());
+    }
+}
+
+#[test]
+fn sides_that_cross_or_run_on_as_one_end_where_they_part() {
+    for (name, path, tip) in [
+        (
+            "crossed",
+            "M5 5L30 5L30 15L29 17C28.8 20 24 24.5 21 25L25.5 25.5C25 22 15 12 5 12Z",
+            None,
+        ),
+        (
+            "a needle",
+            "M5 5L30 5L30 15L20 15L20 25L20.02 15L5 15Z",
+            Some(Point::new(20.0, 15.0)),
+        ),
+        (
+            "a tip",
+            "M5 5L30 5L30 15L21 15L20 25L19 15L5 15Z",
+            Some(Point::new(20.0, 25.0)),
+        ),
+    ] {
+        let path = BezPath::from_svg(path).unwrap();
+        let mut ring = Chain::from_path(&path, 0.0175).unwrap();
+        let before = ring.clone();
+        let trimmed = tips::trim(&mut ring);
+        assert_eq!(
+            trimmed,
+            name != "a tip",
+            "{name}: {}",
+            ring.to_path().to_svg()
+        );
+        assert_eq!(trimmed, ring != before, "{name}");
+        if let Some(tip) = tip {
+            let off = ring.nodes.iter().map(|n| n.point.distance(tip));
+            let off = off.fold(f64::INFINITY, f64::min);
+            assert!(off < 0.5, "{name}: {off} {}", ring.to_path().to_svg());
+        }
+        let longest = ring.nodes.iter().map(|n| n.point.y).fold(0.0, f64::max);
+        assert!(name == "a tip" || longest < 25.4, "{name}: {longest}");
     }
 }
 

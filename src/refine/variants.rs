@@ -1,6 +1,6 @@
 //! Other structures of a few nodes: what a drawing may have where another was fit.
 
-use super::blunt::polygon_px;
+use super::{blunt::polygon_px, tips::tip};
 use crate::numeric::{
     chain::{Chain, Join, Kind, Node},
     joins::divide,
@@ -11,6 +11,12 @@ use kurbo::{CubicBez, ParamCurve, ParamCurveDeriv, ParamCurveNearest, Point, Vec
 const CUTS_PX: [f64; 2] = [0.8, 2.0];
 /// And as a part of the side at most.
 const CUT: f64 = 0.4;
+/// So far from a smooth node its sides tell how sharp a corner would be, px.
+const SHARP_PX: f64 = 4.0;
+/// How much further out a tip is tried, as parts of the reach.
+const PULLS: [f64; 2] = [0.4, 0.8];
+/// The largest part of a line that is bent.
+const BENT: f64 = 0.5;
 /// A round corner's handles, as parts of the way to its tip: those of a circle.
 const ROUND: f64 = 0.55;
 /// Segments at most in whose place a corner may be.
@@ -33,10 +39,18 @@ pub(super) fn variants(chain: &Chain, p: Point, reach: f64) -> Vec<Chain> {
                 out.push(cut(chain, i, px, Kind::Line));
                 out.push(cut(chain, i, px, Kind::Cubic));
             }
+            out.extend(
+                PULLS
+                    .iter()
+                    .filter_map(|part| pulled(chain, i, part * reach)),
+            );
         } else {
-            out.push(joined(chain, i, Join::Corner));
+            out.extend([joined(chain, i, Join::Corner), sharp(chain, i)]);
         }
         out.push(dropped(chain, i));
+        for side in [i - 1, i] {
+            out.extend(bent(chain, (side, i), reach));
+        }
         let runs = (i + 1..last).take(RUN).take_while(near);
         out.extend(runs.map(|j| met(chain, i, j)));
     }
@@ -64,6 +78,18 @@ fn joined(chain: &Chain, i: usize, join: Join) -> Chain {
     chain
 }
 
+/// With a corner at node `i` where the sides turn just before it.
+fn sharp(chain: &Chain, i: usize) -> Chain {
+    let mut out = joined(chain, i, Join::Corner);
+    let way = |c: CubicBez| c.eval(1.0 - behind(&c, SHARP_PX)) - c.p3;
+    let chord = |c: &CubicBez| c.p0.distance(c.p3) / 3.0;
+    let (before, after) = (chain.cubic(i - 1), chain.cubic(i));
+    let node = &mut out.nodes[i];
+    (node.arrive, node.leave) = (unit(-way(before)), unit(way(reversed(&after))));
+    (node.back, node.ahead) = (chord(&before), chord(&after));
+    out
+}
+
 /// With a curve in place of a line, or a line in place of a curve.
 fn other_kind(chain: &Chain, i: usize) -> Chain {
     let mut out = chain.clone();
@@ -80,13 +106,34 @@ fn other_kind(chain: &Chain, i: usize) -> Chain {
     out
 }
 
+/// With the end of a line at node `i` bent, from a new node `px` before it on: by a curve that leaves the line smoothly, or by
+/// another line.
+fn bent(chain: &Chain, (line, i): (usize, usize), px: f64) -> Vec<Chain> {
+    let c = chain.cubic(line);
+    let part = px / c.p0.distance(c.p3);
+    if chain.kinds[line] != Kind::Line || part > BENT {
+        return Vec::new();
+    }
+    let ends = |join: Join, by: Kind| {
+        let mut out = chain.clone();
+        let before = line < i;
+        divide(&mut out, line, if before { 1.0 - part } else { part }, join);
+        out.kinds[line] = if before { Kind::Line } else { by };
+        out.kinds[line + 1] = if before { by } else { Kind::Line };
+        out
+    };
+    vec![
+        ends(Join::Smooth, Kind::Cubic),
+        ends(Join::Corner, Kind::Line),
+    ]
+}
+
 /// With corner `i` cut off about `px` from its tip, by a line or by a curve that goes on smoothly.
 fn cut(chain: &Chain, i: usize, px: f64, by: Kind) -> Chain {
     let mut out = chain.clone();
-    let reversed = |c: CubicBez| CubicBez::new(c.p3, c.p2, c.p1, c.p0);
-    let sides = [chain.cubic(i - 1), reversed(chain.cubic(i))];
+    let sides = [chain.cubic(i - 1), reversed(&chain.cubic(i))];
     let [before, after] = sides.map(|c| c.subsegment(0.0..1.0 - behind(&c, px)));
-    let after = reversed(after);
+    let after = reversed(&after);
     let tip = chain.nodes[i].point;
     let join = match by {
         Kind::Line => Join::Corner,
@@ -120,7 +167,7 @@ fn cut(chain: &Chain, i: usize, px: f64, by: Kind) -> Chain {
 }
 
 /// How far before the end of a curve, in its parameter, it is about `px` from there.
-fn behind(c: &CubicBez, px: f64) -> f64 {
+pub(super) fn behind(c: &CubicBez, px: f64) -> f64 {
     let length = polygon_px(c);
     let px = px.min(CUT * length);
     let mut t = (px / length.max(1e-9)).min(CUT);
@@ -129,6 +176,21 @@ fn behind(c: &CubicBez, px: f64) -> f64 {
         t = (t * (px / gone.max(1e-9)).clamp(0.5, 2.0)).min(0.5);
     }
     t
+}
+
+/// With the tip at corner `i` `px` further out, its sides' handles where they were.
+fn pulled(chain: &Chain, i: usize, px: f64) -> Option<Chain> {
+    let (arrive, leave) = tip(chain, i)?;
+    let mut out = chain.clone();
+    let node = &mut out.nodes[i];
+    let (back, front) = (
+        node.point - node.back * arrive,
+        node.point + node.ahead * leave,
+    );
+    node.point += px * unit(arrive - leave);
+    (node.back, node.ahead) = (node.point.distance(back), node.point.distance(front));
+    (node.arrive, node.leave) = (unit(node.point - back), unit(front - node.point));
+    Some(out)
 }
 
 /// Without node `i`.
@@ -188,6 +250,10 @@ fn met(chain: &Chain, i: usize, j: usize) -> Chain {
     out
 }
 
-fn unit(v: Vec2) -> Vec2 {
+pub(super) fn reversed(c: &CubicBez) -> CubicBez {
+    CubicBez::new(c.p3, c.p2, c.p1, c.p0)
+}
+
+pub(super) fn unit(v: Vec2) -> Vec2 {
     v / v.hypot().max(1e-12)
 }

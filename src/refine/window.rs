@@ -28,8 +28,8 @@ const STEP_PX: f64 = 2.0;
 const MOST_ANCHORS: f64 = 32.0;
 /// Steps of the least squares.
 const STEPS: usize = 14;
-/// A step that lowers the squares by less than this part, or by less than this, is the last.
-const PROGRESS: f64 = 0.01;
+/// A step that lowers what is left beyond grain by less than this part, or the squares by less than this, is the last.
+const PROGRESS: f64 = 0.02;
 const LITTLE: f64 = 1e-3;
 /// Steps as good as the last that a fit is trusted to take still.
 const HOPE: f64 = 4.0;
@@ -43,6 +43,8 @@ const STRETCH: f64 = 0.5;
 const SHORTEST_PX: f64 = 0.02;
 /// Handles of drawn curves are about this part of the chord, and stray from it by so much.
 const HANDLE: (f64, f64) = (0.37, 0.4);
+/// Which is as heavy as so many pixels' grain.
+const PRIOR_GRAIN: f64 = 4.0;
 /// What a px of a handle past the level of an extremum weighs.
 const PAST: f64 = 2.0;
 
@@ -59,8 +61,8 @@ pub(super) struct Window {
     lens: f64,
     /// picture minus the blurred fill of all that does not move
     still: Vec<f32>,
-    /// weight of a handle's prior
-    prior: f64,
+    /// mean square of the differences that mean nothing
+    grain: f64,
     anchors: Vec<Anchor>,
 }
 
@@ -103,13 +105,13 @@ pub(super) struct Drawn {
 
 impl Window {
     /// The window that reaches `reach` px from `p` to each side. `moving` is an open part of a path, the `lines` of all else
-    /// need not close; `prior` weighs handles against pixels.
+    /// need not close; `grain` is the mean square of differences that mean nothing.
     pub(super) fn new<'r>(
         residual: &Residual<'_>,
         (p, reach): (Point, f64),
         lines: impl Iterator<Item = &'r [Point]>,
         moving: &Chain,
-        prior: f64,
+        grain: f64,
     ) -> Self {
         let seen = residual.seen();
         let lens = residual.lens_px();
@@ -128,7 +130,7 @@ impl Window {
             margin,
             lens,
             still: Vec::new(),
-            prior,
+            grain,
             anchors: Vec::new(),
         };
         let mut fill = Coverage::new(window.columns.len(), window.rows.len());
@@ -178,6 +180,7 @@ impl Window {
         let mut now = self.drawn(chain);
         let mut lambda = 1e-3;
         let mut columns: Vec<Vec<f32>> = Vec::new();
+        let noise = self.grain * self.pixels();
         for _ in 0..STEPS {
             if columns.is_empty() {
                 let column = |number: &(usize, Number)| self.derivative(chain, &now, *number);
@@ -199,7 +202,9 @@ impl Window {
                 (*chain, now) = (trial, new);
                 columns.clear();
                 lambda = (lambda * 0.2_f64).max(1e-6);
-                if gain < (PROGRESS * now.sum).max(LITTLE) || now.squares - HOPE * gain > enough {
+                if gain < (PROGRESS * (now.sum - noise)).max(LITTLE)
+                    || now.squares - HOPE * gain > enough
+                {
                     break;
                 }
             } else {
@@ -298,8 +303,9 @@ impl Window {
         let (a, b) = (&chain.nodes[a], &chain.nodes[b]);
         let chord = a.point.distance(b.point).max(0.1);
         let (usual, spread) = HANDLE;
+        let prior = (PRIOR_GRAIN * self.grain).sqrt();
         let [ahead, back] =
-            [a.ahead, b.back].map(|handle| self.prior * (handle / chord - usual) / spread);
+            [a.ahead, b.back].map(|handle| prior * (handle / chord - usual) / spread);
         let [first, last] = past_levels(chain, segment);
         [ahead, back, first * a.ahead * PAST, last * b.back * PAST]
     }

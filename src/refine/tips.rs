@@ -1,0 +1,155 @@
+//! Tips: acute corners, and what of them no picture can hold.
+//!
+//! Where two sides run on as one, or cross before they end in a corner, there is no ink (or no paper) between them: a needle
+//! or a loop that no pixel speaks against. Such an end is cut off where its sides part.
+
+use super::{
+    blunt::{arriving, leaving, polygon_px},
+    variants::{behind, reversed, unit},
+};
+use crate::numeric::{
+    cast::index,
+    chain::{Chain, Join, Node},
+};
+use kurbo::{CubicBez, Line, ParamCurve, ParamCurveNearest, Point, Vec2};
+
+/// A corner is a tip if it turns by more, as the distance of its sides' unit vectors: 106°.
+const ACUTE: f64 = 1.6;
+/// A tip whose sides differ by less, radians, is a needle, and where they are looked at, px.
+const NEEDLE: f64 = 0.04;
+const BEHIND_PX: f64 = 4.0;
+/// Sides no further apart than this are one, px.
+const ONE_PX: f64 = 0.05;
+/// Ends that are no longer stay, px.
+const SHORT_PX: f64 = 1.0;
+/// How far sides are followed, px, in which steps, and over how many segments.
+const FAR_PX: f64 = 30.0;
+const STEP_PX: f64 = 0.25;
+const SEGMENTS: usize = 3;
+
+/// Directions of the sides of a chain's node `i`, if it is an acute corner with both.
+pub(super) fn tip(chain: &Chain, i: usize) -> Option<(Vec2, Vec2)> {
+    let (before, after) = chain.before(i).zip(chain.after(i))?;
+    let (u, v) = (
+        unit(arriving(&chain.cubic(before))),
+        unit(leaving(&chain.cubic(after))),
+    );
+    let acute = chain.nodes[i].join == Join::Corner && (u - v).hypot() > ACUTE;
+    acute.then_some((u, v))
+}
+
+/// Whether the sides of corner `i` of an open chain run on as one.
+pub(super) fn is_needle(chain: &Chain, i: usize) -> bool {
+    let Some((before, after)) = chain.before(i).zip(chain.after(i)) else {
+        return false;
+    };
+    let at = chain.nodes[i].point;
+    let back = |c: CubicBez| unit(c.eval(1.0 - behind(&c, BEHIND_PX)) - at);
+    let u = back(chain.cubic(before));
+    let v = back(reversed(&chain.cubic(after)));
+    u.dot(v) > 0.0 && u.cross(v).abs() < NEEDLE
+}
+
+/// Cuts the ends off a ring's tips where their sides are one or have crossed. Whether there were any.
+pub(super) fn trim(ring: &mut Chain) -> bool {
+    let mut trimmed = false;
+    let mut i = 0;
+    while i < ring.nodes.len() {
+        match tip(ring, i).and_then(|_| parting(ring, i)) {
+            Some((before, after)) => {
+                *ring = cut(ring, i, (before, after));
+                trimmed = true;
+            }
+            None => i += 1,
+        }
+    }
+    trimmed
+}
+
+/// A place on a side: segments before it, counted from the tip, and the parameter in its own, away from the tip.
+#[derive(Debug, Clone, Copy)]
+struct Place {
+    segment: usize,
+    t: f64,
+    at: Point,
+}
+
+/// Where the sides of tip `i` part, if that is so far from it that the rest says nothing.
+fn parting(ring: &Chain, i: usize) -> Option<(Place, Place)> {
+    let n = ring.kinds.len();
+    let count = SEGMENTS.min(n.saturating_sub(2) / 2);
+    let before = side((0..count).map(|k| reversed(&ring.cubic((i + 2 * n - 1 - k) % n))));
+    let after = side((0..count).map(|k| ring.cubic((i + k) % n)));
+    let touches = |k: &usize| {
+        let (p, q) = (before[*k].at, before[*k + 1].at);
+        let mut pairs = after.iter().zip(after.iter().skip(1));
+        pairs.any(|(a, b)| {
+            Line::new(a.at, b.at).nearest(p, 0.0).distance_sq < ONE_PX * ONE_PX
+                || cross((p, q), (a.at, b.at))
+        })
+    };
+    let shortest = index((SHORT_PX / STEP_PX).ceil());
+    let last = (shortest..before.len().saturating_sub(1))
+        .rev()
+        .find(touches)?;
+    let parted = before[last + 1];
+    let off = |o: &&Place| o.at.distance(parted.at);
+    let near = after.iter().min_by(|a, b| off(a).total_cmp(&off(b)))?;
+    Some((parted, *near))
+}
+
+/// Whether two chords cross.
+fn cross((a, b): (Point, Point), (c, d): (Point, Point)) -> bool {
+    let side = |p: Point, q: Point, r: Point| (q - p).cross(r - p) > 0.0;
+    side(a, b, c) != side(a, b, d) && side(c, d, a) != side(c, d, b)
+}
+
+/// Places along curves that follow each other away from a tip.
+fn side(curves: impl Iterator<Item = CubicBez>) -> Vec<Place> {
+    let mut out = Vec::new();
+    let mut gone = 0.0;
+    for (segment, c) in curves.enumerate() {
+        let length = polygon_px(&c);
+        let count = index((length.min(FAR_PX) / STEP_PX).ceil()).max(1);
+        let last = length.min(FAR_PX) / length.max(1e-9);
+        for k in 0..count {
+            let t = last * k as f64 / count as f64;
+            out.push(Place {
+                segment,
+                t,
+                at: c.eval(t),
+            });
+        }
+        gone += length;
+        if gone > FAR_PX {
+            break;
+        }
+    }
+    out
+}
+
+/// The ring with a corner where the sides of tip `i` part.
+fn cut(ring: &Chain, i: usize, (before, after): (Place, Place)) -> Chain {
+    let n = ring.kinds.len();
+    let mut out = ring.clone();
+    let first = (i + n - 1 - before.segment) % n;
+    out.nodes.rotate_left(first);
+    out.kinds.rotate_left(first);
+    let last = before.segment + 1 + after.segment;
+    let a = out.cubic(0).subsegment(0.0..1.0 - before.t);
+    let b = out.cubic(last).subsegment(after.t..1.0);
+    let node = Node {
+        point: before.at.midpoint(after.at),
+        join: Join::Corner,
+        arrive: unit(arriving(&a)),
+        leave: unit(leaving(&b)),
+        back: a.p2.distance(a.p3),
+        ahead: b.p0.distance(b.p1),
+    };
+    out.nodes[0].ahead = a.p0.distance(a.p1);
+    let end = (last + 1) % n;
+    out.nodes[end].back = b.p2.distance(b.p3);
+    out.nodes.splice(1..=last, [node]);
+    out.kinds.drain(1..last);
+    out
+}
