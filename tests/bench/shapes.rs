@@ -11,7 +11,9 @@ use image::Luma;
 use imageproc::contours::find_contours;
 use khatt::code::{Bounds, Kind, Steps, Width, distortion, encode};
 use khatt::numeric::qbc::Pull;
-use kurbo::Point;
+use khatt::types::Contour;
+use khatt::{corner, fit};
+use kurbo::{Point, Shape as _};
 use std::fmt::Write;
 use std::path::Path;
 use std::{env, fs, time::Instant};
@@ -59,6 +61,10 @@ fn main() {
     );
     for (path, shape) in &shapes {
         descriptor(path, shape);
+    }
+    println!("\nThe same of cubics with control points fitted to the shape as Bézier's\n");
+    for (path, shape) in &shapes {
+        fitted(path, shape);
     }
     let widths = [("T", Width::Tolerance), ("W", Width::Bound)];
     for (code, steps) in CODES {
@@ -134,18 +140,52 @@ fn descriptor(path: &str, shape: &[Point]) {
             name.display(),
             shape.len()
         );
-        for (_, kind) in KINDS.into_iter().skip(1) {
-            let Kind::Spline(pull) = kind else { continue };
-            let at = |k: usize| shape[k * shape.len() / (3 * segments) % shape.len()];
-            let dots = (0..segments).flat_map(|s| {
-                let controls = [at(3 * s), at(3 * s + 1), at(3 * s + 2), at(3 * s + 3)];
-                (0..200).map(move |k| pull.eval(&controls, f64::from(k) / 200.0).0)
-            });
-            let (d_max, d_ms) = distortion(shape, &dots.collect::<Vec<_>>());
-            print!(" {d_max:.2}, {d_ms:.2} |");
-        }
-        println!();
+        let at = |k: usize| shape[k * shape.len() / (3 * segments) % shape.len()];
+        let pieces =
+            (0..segments).map(|s| [at(3 * s), at(3 * s + 1), at(3 * s + 2), at(3 * s + 3)]);
+        distances(shape, &pieces.collect::<Vec<_>>());
     }
+}
+
+/// The same with control points that make the Bézier curves fit, which need not lie on the shape [sohel table 3].
+fn fitted(path: &str, shape: &[Point]) {
+    let name = Path::new(path).file_stem().unwrap_or_default();
+    let contour = Contour::new(shape.to_vec()).expect("a ring");
+    let contour = if contour.area() < 0.0 {
+        let back = shape.iter().rev().copied().collect();
+        Contour::new(back).expect("a ring")
+    } else {
+        contour
+    };
+    let corners = corner::Method::default().detector().corners(&contour);
+    let (spans, method) = (contour.cut(&corners), fit::Method::default());
+    for tolerance in [1.0, 2.0, 4.0, 8.0] {
+        let curve = method.fitter().contour(&spans, tolerance).expect("fitted");
+        let pieces: Vec<[Point; 4]> = curve
+            .path_segments(0.1)
+            .map(|s| s.to_cubic())
+            .map(|c| [c.p0, c.p1, c.p2, c.p3])
+            .collect();
+        print!(
+            "| {}, {tolerance} px, {} pieces |",
+            name.display(),
+            pieces.len()
+        );
+        distances(shape, &pieces);
+    }
+}
+
+/// Largest and mean square distance of the boundary from the curves of each kind with these control points.
+fn distances(shape: &[Point], pieces: &[[Point; 4]]) {
+    for (_, kind) in KINDS {
+        let Kind::Spline(pull) = kind else { continue };
+        let dots = pieces.iter().flat_map(|controls| {
+            (0..=200).map(move |k| pull.eval(controls, f64::from(k) / 200.0).0)
+        });
+        let (d_max, d_ms) = distortion(shape, &dots.collect::<Vec<_>>());
+        print!(" {d_max:.2}, {d_ms:.2} |");
+    }
+    println!();
 }
 
 /// Bits against mean square distortion, a colour a kind.
