@@ -58,7 +58,8 @@ pub(super) fn trim(ring: &mut Chain) -> bool {
         match tip(ring, i).and_then(|_| parting(ring, i)) {
             Some((before, after)) => {
                 *ring = cut(ring, i, (before, after));
-                trimmed = true;
+                // the ring begins elsewhere now
+                (i, trimmed) = (0, true);
             }
             None => i += 1,
         }
