@@ -263,14 +263,14 @@ fn a_tip_that_was_cut_short_comes_out_again() {
         let text = format!("M6.2 4.3L42.1 4.3L42.1 20.6L27.1 20.6L{tip}L21.4 20.6L6.2 20.6Z");
         BezPath::from_svg(&text).unwrap()
     };
-    for lens in [0.0, 0.9] {
+    for (lens, limit) in [(0.0, 1.2), (0.9, 2.0)] {
         let drawn = spike("24.1 44.2");
         let gray = photograph(&drawn, lens);
         let blur = Contour::PIXEL_BLUR_PX.hypot(lens);
         let got = mended(&gray, &spike("24.6 37.1"), blur);
         let off = apart(&got, &drawn);
         // of seven px; the squares of the last ones are too small to be looked at
-        assert!(off < 2.0, "lens {lens}: {off} {}", got.to_svg());
+        assert!(off < limit, "lens {lens}: {off} {}", got.to_svg());
     }
 }
 
