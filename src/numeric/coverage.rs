@@ -128,6 +128,8 @@ impl Coverage {
     pub fn write(&self, out: &mut Vec<f32>) {
         /// Neighbours that are looked at together: most lie far from any edge.
         const TOGETHER: usize = 8;
+        /// What differs from a whole number by less is one.
+        const ROUNDING: f32 = 1e-6;
         out.resize(self.width * self.height, 0.0);
         let lines = self.differences.chunks_exact(self.width + 2);
         for (line, row) in lines.zip(out.chunks_exact_mut(self.width.max(1))) {
@@ -137,6 +139,11 @@ impl Coverage {
                 .zip(row.chunks_mut(TOGETHER))
             {
                 if line.iter().fold(0, |any, d| any | d.to_bits()) == 0 {
+                    // sums of parts are off by their rounding
+                    let whole = f32::round(sum);
+                    if (sum - whole).abs() < ROUNDING {
+                        sum = whole;
+                    }
                     row.fill(sum);
                     continue;
                 }
@@ -149,56 +156,112 @@ impl Coverage {
     }
 }
 
-/// A separable Gaussian over a row-major picture, in its place; beyond its edges lies nothing.
-/// `sigma_px` below a tenth of a pixel changes nothing.
-pub fn blur(samples: &mut [f32], width: usize, sigma_px: f64) {
-    if sigma_px < 0.1 || width == 0 {
-        return;
+/// Pixels of a row that are blurred together.
+const LANES: usize = 8;
+
+/// Weights of a Gaussian at whole pixels from its middle on, as far as they tell; those to both sides add up to 1.
+/// One weight for `sigma_px` below a tenth of a pixel.
+#[must_use]
+pub fn kernel(sigma_px: f64) -> Vec<f32> {
+    if sigma_px < 0.1 {
+        return vec![1.0];
     }
-    let radius = index((3.5 * sigma_px).ceil());
     let weight = |i: usize| (-0.5 * (i as f64 / sigma_px).powi(2)).exp();
+    let radius = index((3.5 * sigma_px).ceil());
     let norm = 1.0 / (2.0 * (1..=radius).map(weight).sum::<f64>() + 1.0);
-    let kernel: Vec<f32> = (0..=radius).map(|i| single(weight(i) * norm)).collect();
-    let mut line = vec![0.0; width];
-    for row in samples.chunks_exact_mut(width) {
-        line.iter_mut()
-            .zip(&*row)
-            .for_each(|(t, f)| *t = kernel[0] * f);
-        for (d, &k) in kernel.iter().enumerate().skip(1).take(width - 1) {
-            add(&mut line[d..], row, k);
-            add(&mut line, &row[d..], k);
-        }
-        row.copy_from_slice(&line);
-    }
-    // rows above are overwritten by the time they are asked for
-    let mut above = vec![0.0; radius * width];
-    let rows = samples.len() / width;
-    for y in 0..rows {
-        let at = y * width;
-        line.iter_mut()
-            .zip(&samples[at..])
-            .for_each(|(t, f)| *t = kernel[0] * f);
-        for (d, &k) in kernel.iter().enumerate().skip(1) {
-            let below = (y + d < rows).then(|| &samples[at + d * width..]);
-            let above = (d <= y).then(|| &above[(y - d) % radius * width..]);
-            if let (Some(above), Some(below)) = (above, below) {
-                let both = above.iter().zip(below);
-                line.iter_mut()
-                    .zip(both)
-                    .for_each(|(t, (a, b))| *t += k * (a + b));
-            } else if let Some(one) = above.or(below) {
-                add(&mut line, one, k);
-            }
-        }
-        let row = &mut samples[at..at + width];
-        above[y % radius * width..][..width].copy_from_slice(row);
-        row.copy_from_slice(&line);
-    }
+    (0..=radius).map(|i| single(weight(i) * norm)).collect()
 }
 
-/// Adds `k` times the values of one line to those of another, as far as both go.
-fn add(to: &mut [f32], from: &[f32], k: f32) {
-    to.iter_mut().zip(from).for_each(|(t, f)| *t += k * f);
+/// A separable Gaussian over a row-major picture of rows of `width`, in its place; beyond its edges lies nothing.
+/// `sigma_px` below a tenth of a pixel changes nothing. Of the result, `margin` px at each side are left out.
+pub fn blur(samples: &mut Vec<f32>, width: usize, sigma_px: f64, margin: usize) {
+    let kernel = kernel(sigma_px);
+    let radius = kernel.len() - 1;
+    let rows = samples.len().checked_div(width).unwrap_or(0);
+    let [wide, high] = [width, rows].map(|n| n.saturating_sub(2 * margin));
+    if radius + margin > 0 && wide * high > 0 {
+        let blocks = wide.div_ceil(LANES);
+        // as many rows, blurred along themselves, as one of the result needs
+        let ring = 2 * radius + 1;
+        let mut along = vec![[0.0; LANES]; ring * blocks];
+        // what the last rows of a block hold if they are even, and how many those are
+        let mut even = vec![(0.0, ring); blocks];
+        let mut line = vec![0.0; 2 * radius + width.max(margin + blocks * LANES)];
+        for y in 0..rows + radius {
+            let newest = y % ring;
+            match samples.get(y * width..(y + 1) * width) {
+                Some(row) => line[radius..radius + width].copy_from_slice(row),
+                None => line.fill(0.0),
+            }
+            for (block, even) in even.iter_mut().enumerate() {
+                let around = &line[margin + block * LANES..][..2 * radius + LANES];
+                let to = &mut along[newest * blocks + block];
+                if is_even(around) {
+                    let rows = if around[0] == even.0 { even.1 } else { 0 };
+                    *even = (around[0], rows + 1);
+                    *to = [around[0]; LANES];
+                } else {
+                    even.1 = 0;
+                    *to = across(around, &kernel);
+                }
+            }
+            let Some(to) = y.checked_sub(radius + margin).filter(|to| *to < high) else {
+                continue;
+            };
+            // never past what has been read
+            let out = samples[to * wide..(to + 1) * wide].chunks_mut(LANES);
+            for ((block, out), even) in out.enumerate().zip(&even) {
+                if even.1 >= ring {
+                    out.fill(even.0);
+                    continue;
+                }
+                let row = |back: usize| {
+                    let row = newest.checked_sub(back);
+                    &along[row.unwrap_or(newest + ring - back) * blocks + block]
+                };
+                let sum = down(row, &kernel);
+                match out.first_chunk_mut() {
+                    Some(out) => *out = sum,
+                    None => out.copy_from_slice(&sum[..out.len()]),
+                }
+            }
+        }
+    }
+    samples.truncate(wide * high);
+}
+
+/// Whether values are all the same.
+fn is_even(values: &[f32]) -> bool {
+    let first = values.first().map_or(0, |v| v.to_bits());
+    values.iter().fold(0, |any, v| any | v.to_bits() ^ first) == 0
+}
+
+/// A block of a row weighed with what lies left and right of it; `around` holds both.
+fn across(around: &[f32], kernel: &[f32]) -> [f32; LANES] {
+    let at = |i: usize| around[i..].first_chunk::<LANES>().unwrap_or(&[0.0; LANES]);
+    let radius = kernel.len() - 1;
+    let mut sum = at(radius).map(|v| kernel[0] * v);
+    for (d, &k) in kernel.iter().enumerate().skip(1) {
+        let (left, right) = (at(radius - d), at(radius + d));
+        for i in 0..LANES {
+            sum[i] += k * left[i];
+            sum[i] += k * right[i];
+        }
+    }
+    sum
+}
+
+/// A block weighed with those above and below it, of which `row` gives the one so many rows back.
+fn down<'a>(row: impl Fn(usize) -> &'a [f32; LANES], kernel: &[f32]) -> [f32; LANES] {
+    let radius = kernel.len() - 1;
+    let mut sum = row(radius).map(|v| kernel[0] * v);
+    for (d, &k) in kernel.iter().enumerate().skip(1) {
+        let (above, below) = (row(radius + d), row(radius - d));
+        for i in 0..LANES {
+            sum[i] += k * (above[i] + below[i]);
+        }
+    }
+    sum
 }
 
 #[cfg(test)]
@@ -259,7 +322,7 @@ mod tests {
     fn blur_keeps_the_sum() {
         let mut s = vec![0.0; 21 * 21];
         s[10 * 21 + 10] = 1.0;
-        blur(&mut s, 21, 1.5);
+        blur(&mut s, 21, 1.5, 0);
         assert!((s.iter().sum::<f32>() - 1.0).abs() < 1e-4);
         assert!((s[10 * 21 + 10] - 1.0 / (2.0 * std::f32::consts::PI * 2.25)).abs() < 1e-3);
     }

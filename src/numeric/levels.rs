@@ -57,7 +57,7 @@ pub fn normalised(values: &[f32], width: usize, model: &[f32]) -> Vec<f32> {
     let mut around = sums;
     around
         .iter_mut()
-        .for_each(|s| blur(s, columns, SPREAD_PX / BLOCK as f64));
+        .for_each(|s| blur(s, columns, SPREAD_PX / BLOCK as f64, 0));
     let [i, inks, p, papers] = &around;
     let mut levels = [(i, inks, ink), (p, papers, paper)].map(|(sums, counts, global)| {
         let local = |(sum, count): (&f32, &f32)| {

@@ -273,7 +273,7 @@ fn draw<'r>(
     fill.clear();
     rings.for_each(|r| fill.add(r));
     fill.write(model);
-    blur(model, fill.width(), lens);
+    blur(model, fill.width(), lens, 0);
 }
 
 fn perp(v: Vec2) -> Vec2 {

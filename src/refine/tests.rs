@@ -12,7 +12,7 @@ fn picture(ring: &[Point], size: usize, lens: f64) -> Gray {
     let mut c = Coverage::new(size, size);
     c.add(ring);
     let mut samples = c.samples();
-    blur(&mut samples, size, lens);
+    blur(&mut samples, size, lens, 0);
     Gray::new(size, size, samples).unwrap()
 }
 

@@ -1,23 +1,26 @@
 //! A few nodes against the pixels around them, by least squares of the pixels themselves.
 //!
 //! Solves   min Σ (seen − blurred fill)² over the window's pixels + Σ (way the curves went beyond it)², over the numbers of
-//! the nodes inside. Gauss–Newton with Levenberg's damping; derivatives by differences, of which each draws no more than
-//! the segments that a number moves.
+//! the nodes inside. Gauss–Newton with Levenberg's damping ([`normal`]).
 //!
 //! Where an outline turns within the lens' reach no point of its contour tells where it is by itself: the picture of the
 //! whole place does.
 
+mod normal;
+mod numbers;
+
 use super::{blunt::polygon_px, residual::Residual};
 use crate::numeric::{
     cast::{index, single},
-    chain::{Chain, Join, Kind},
+    chain::{Chain, Kind},
     coverage::{Coverage, blur},
     joins::past_levels,
-    skyline::Skyline,
 };
 use crate::types::Contour;
 use kurbo::{CubicBez, ParamCurve, ParamCurveDeriv, Point, Rect, Vec2};
-use std::{f64::consts::PI, ops::Range};
+use normal::{Normal, Shared};
+use numbers::{nudge, numbers, shorten};
+use std::{cell::OnceCell, f64::consts::PI, ops::Range};
 
 /// Chords leave a curve by no more than this, px.
 const CHORD_PX: f64 = 0.02;
@@ -33,14 +36,6 @@ const PROGRESS: f64 = 0.02;
 const LITTLE: f64 = 1e-3;
 /// Steps as good as the last that a fit is trusted to take still.
 const HOPE: f64 = 4.0;
-/// Differences that derivatives are taken by, px and radians.
-const DELTA: f64 = 0.01;
-/// No node moves further in a step, px, no direction turns more, radians, and no handle changes by a larger part.
-const STRIDE_PX: f64 = 1.0;
-const SWING: f64 = 0.4;
-const STRETCH: f64 = 0.5;
-/// The shortest handle, px.
-const SHORTEST_PX: f64 = 0.02;
 /// Handles of drawn curves are about this part of the chord, and stray from it by so much.
 const HANDLE: (f64, f64) = (0.37, 0.4);
 /// Which is as heavy as so many pixels' grain.
@@ -59,11 +54,12 @@ pub(super) struct Window {
     /// pixels at each side that only lend their light
     margin: usize,
     lens: f64,
-    /// picture minus the blurred fill of all that does not move
+    /// picture minus the blurred fill of all that does not move, in the pixels that count
     still: Vec<f32>,
     /// mean square of the differences that mean nothing
     grain: f64,
     anchors: Vec<Anchor>,
+    shared: OnceCell<Shared>,
 }
 
 /// Where a curve that moves ran beyond the window, and which way out of the ink.
@@ -74,28 +70,13 @@ struct Anchor {
     weight: f64,
 }
 
-/// A number of a node.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Number {
-    X,
-    Y,
-    /// direction of both sides
-    Turn,
-    Arrive,
-    Leave,
-    Back,
-    Ahead,
-}
-
 /// A chain in a window, and what is left of the picture.
 #[derive(Debug)]
 pub(super) struct Drawn {
     chords: Vec<Vec<Point>>,
     /// segment and parameter nearest to each anchor
     feet: Vec<(usize, f64)>,
-    /// differences left in all pixels, row by row from the top
-    off: Vec<f32>,
-    /// of the inner pixels, of the anchors, and of the handles, four a segment
+    /// differences left in the pixels that count, row by row from the top, of the anchors, and of the handles, four a segment
     left: Vec<f32>,
     /// squares of all these
     sum: f64,
@@ -132,6 +113,7 @@ impl Window {
             still: Vec::new(),
             grain,
             anchors: Vec::new(),
+            shared: OnceCell::new(),
         };
         let mut fill = Coverage::new(window.columns.len(), window.rows.len());
         for line in lines {
@@ -139,8 +121,8 @@ impl Window {
             fill.line(&line);
         }
         window.still = window.blurred(&fill);
-        let rows = window.rows.clone().map(|y| seen.row(y));
-        let pixels = rows.flat_map(|row| &row[window.columns.clone()]);
+        let (columns, rows) = window.inner();
+        let pixels = rows.flat_map(|y| &seen.row(y)[columns.clone()]);
         let pairs = window.still.iter_mut().zip(pixels);
         pairs.for_each(|(still, seen)| *still = seen - *still);
         window.drop_anchors(moving);
@@ -156,8 +138,8 @@ impl Window {
 
     /// Pixels that count.
     pub(super) fn pixels(&self) -> f64 {
-        let inner = |n: usize| n.saturating_sub(2 * self.margin) as f64;
-        inner(self.columns.len()) * inner(self.rows.len())
+        let (columns, rows) = self.inner();
+        (columns.len() * rows.len()) as f64
     }
 
     /// The chain as it is.
@@ -179,14 +161,11 @@ impl Window {
         let numbers = numbers(chain);
         let mut now = self.drawn(chain);
         let mut lambda = 1e-3;
-        let mut columns: Vec<Vec<f32>> = Vec::new();
+        let mut normal = None;
         let noise = self.grain * self.pixels();
         for _ in 0..STEPS {
-            if columns.is_empty() {
-                let column = |number: &(usize, Number)| self.derivative(chain, &now, *number);
-                columns = numbers.iter().map(column).collect();
-            }
-            let Some(mut step) = solved(&columns, &now.left, lambda) else {
+            let equations = normal.get_or_insert_with(|| Normal::new(self, chain, &numbers, &now));
+            let Some(mut step) = equations.step(lambda) else {
                 break;
             };
             shorten(chain, &numbers, &mut step);
@@ -199,8 +178,7 @@ impl Window {
             let new = self.with(&trial, chords.collect(), self.slid(&trial, &now.feet));
             let gain = now.sum - new.sum;
             if gain > 0.0 {
-                (*chain, now) = (trial, new);
-                columns.clear();
+                (*chain, now, normal) = (trial, new, None);
                 lambda = (lambda * 0.2_f64).max(1e-6);
                 if gain < (PROGRESS * (now.sum - noise)).max(LITTLE)
                     || now.squares - HOPE * gain > enough
@@ -219,23 +197,19 @@ impl Window {
 
     /// Puts what is left into the window's place of the picture.
     pub(super) fn write(&self, drawn: &Drawn, residual: &mut Residual<'_>) {
-        let m = self.margin;
-        let lines = drawn.off.chunks_exact(self.columns.len().max(1));
-        for (y, line) in self.rows.clone().zip(lines) {
-            if (self.rows.start + m..self.rows.end.saturating_sub(m)).contains(&y) {
-                let inner = line.get(m..line.len().saturating_sub(m));
-                residual.replace((self.columns.start + m, y), inner.unwrap_or_default());
-            }
+        let (columns, rows) = self.inner();
+        let lines = drawn.left.chunks_exact(columns.len().max(1));
+        for (y, line) in rows.zip(lines) {
+            residual.replace((columns.start, y), line);
         }
     }
 
     fn with(&self, chain: &Chain, chords: Vec<Vec<Point>>, feet: Vec<(usize, f64)>) -> Drawn {
         let mut fill = Coverage::new(self.columns.len(), self.rows.len());
         chords.iter().for_each(|c| fill.line(c));
-        let mut off = self.blurred(&fill);
-        let pairs = off.iter_mut().zip(&self.still);
-        pairs.for_each(|(off, still)| *off = still - *off);
-        let mut left = self.inner(&off);
+        let mut left = self.blurred(&fill);
+        let pairs = left.iter_mut().zip(&self.still);
+        pairs.for_each(|(left, still)| *left = still - *left);
         let past = self.anchors.iter().zip(&feet);
         left.extend(past.map(|(a, f)| single(a.passed(&chain.cubic(f.0), f.1))));
         let squares = dot(&left, &left);
@@ -246,52 +220,18 @@ impl Window {
         Drawn {
             chords,
             feet,
-            off,
             left,
             sum,
             squares,
         }
     }
 
-    /// By how much what is left of a chain grows with a number.
-    fn derivative(&self, chain: &Chain, now: &Drawn, number: (usize, Number)) -> Vec<f32> {
-        let mut moved = chain.clone();
-        nudge(&mut moved, number, DELTA);
-        moved.settle();
-        let differs = |i: &usize| moved.cubic(*i) != chain.cubic(*i);
-        let other: Vec<usize> = (0..chain.kinds.len()).filter(differs).collect();
-        let mut fill = Coverage::new(self.columns.len(), self.rows.len());
-        for &i in &other {
-            fill.line(&self.chords(&moved, i));
-            fill.line(&now.chords[i].iter().rev().copied().collect::<Vec<_>>());
-        }
-        let mut out = self.inner(&self.blurred(&fill));
-        out.iter_mut().for_each(|v| *v = -*v);
-        let past = self.anchors.iter().zip(&now.feet);
-        out.extend(past.map(|(a, &(i, t))| {
-            if other.contains(&i) {
-                single(a.passed(&moved.cubic(i), t) - a.passed(&chain.cubic(i), t))
-            } else {
-                0.0
-            }
-        }));
-        for i in 0..chain.kinds.len() {
-            let (a, b) = (self.handles(&moved, i), self.handles(chain, i));
-            out.extend(a.iter().zip(b).map(|(a, b)| single(a - b)));
-        }
-        out.iter_mut().for_each(|v| *v /= single(DELTA));
-        out
-    }
-
-    /// The values of the pixels that count.
-    fn inner(&self, all: &[f32]) -> Vec<f32> {
+    /// Columns and rows of the pixels that count.
+    fn inner(&self) -> (Range<usize>, Range<usize>) {
         let m = self.margin;
-        let lines = all.chunks_exact(self.columns.len().max(1));
-        let lines = lines.skip(m).take(self.rows.len().saturating_sub(2 * m));
-        let inner = lines.filter_map(|l| l.get(m..l.len().saturating_sub(m)));
-        let mut out = Vec::with_capacity(all.len());
-        inner.for_each(|l| out.extend_from_slice(l));
-        out
+        let inner =
+            |all: &Range<usize>| all.start + m..all.end.saturating_sub(m).max(all.start + m);
+        (inner(&self.columns), inner(&self.rows))
     }
 
     /// How unlike drawn ones the handles of a segment are.
@@ -337,9 +277,10 @@ impl Window {
         self.anchors.iter().zip(feet).map(slid).collect()
     }
 
+    /// Of the pixels that count.
     fn blurred(&self, fill: &Coverage) -> Vec<f32> {
         let mut model = fill.samples();
-        blur(&mut model, fill.width(), self.lens);
+        blur(&mut model, fill.width(), self.lens, self.margin);
         model
     }
 
@@ -404,21 +345,6 @@ fn foot(at: Point, chords: &[Vec<Point>]) -> (usize, f64) {
     nearest.1
 }
 
-/// The step of the least squares with Levenberg's damping.
-fn solved(columns: &[Vec<f32>], left: &[f32], lambda: f64) -> Option<Vec<f64>> {
-    let mut matrix = Skyline::default();
-    matrix.reset(&vec![0; columns.len()]);
-    let mut step: Vec<f64> = columns.iter().map(|c| -dot(c, left)).collect();
-    for (i, a) in columns.iter().enumerate() {
-        for (j, b) in columns.iter().enumerate().take(i + 1) {
-            matrix.add(i, j, dot(a, b));
-        }
-        // so that a number on which nothing depends stays where it is
-        matrix.add(i, i, 1e-9);
-    }
-    matrix.solve_damped(lambda, &mut step).then_some(step)
-}
-
 /// Sum of products, in lanes that add up side by side.
 fn dot(a: &[f32], b: &[f32]) -> f64 {
     const LANES: usize = 16;
@@ -435,63 +361,4 @@ fn dot(a: &[f32], b: &[f32]) -> f64 {
             .for_each(|(s, (x, y))| *s += x * y);
     }
     rest + sums.iter().map(|s| f64::from(*s)).sum::<f64>()
-}
-
-/// The free numbers of an open chain.
-fn numbers(chain: &Chain) -> Vec<(usize, Number)> {
-    let mut out = Vec::new();
-    for (i, node) in chain.nodes.iter().enumerate() {
-        let cubic = |s| chain.kind(s) == Some(Kind::Cubic);
-        let (before, after) = (cubic(chain.before(i)), cubic(chain.after(i)));
-        if !node.join.is_fixed() {
-            out.extend([(i, Number::X), (i, Number::Y)]);
-        }
-        match node.join {
-            Join::Smooth if chain.line_beside(i).is_none() => out.push((i, Number::Turn)),
-            Join::Corner | Join::End | Join::Loose => {
-                out.extend(before.then_some((i, Number::Arrive)));
-                out.extend(after.then_some((i, Number::Leave)));
-            }
-            _ => {}
-        }
-        out.extend(before.then_some((i, Number::Back)));
-        out.extend(after.then_some((i, Number::Ahead)));
-    }
-    out
-}
-
-fn nudge(chain: &mut Chain, (i, number): (usize, Number), by: f64) {
-    let node = &mut chain.nodes[i];
-    let turn = |v: &mut Vec2| {
-        let (sin, cos) = by.sin_cos();
-        *v = Vec2::new(cos * v.x - sin * v.y, sin * v.x + cos * v.y);
-    };
-    match number {
-        Number::X => node.point.x += by,
-        Number::Y => node.point.y += by,
-        Number::Turn => {
-            turn(&mut node.arrive);
-            turn(&mut node.leave);
-        }
-        Number::Arrive => turn(&mut node.arrive),
-        Number::Leave => turn(&mut node.leave),
-        Number::Back => node.back = (node.back + by).max(SHORTEST_PX),
-        Number::Ahead => node.ahead = (node.ahead + by).max(SHORTEST_PX),
-    }
-}
-
-/// Shortens a step that goes too far.
-fn shorten(chain: &Chain, numbers: &[(usize, Number)], step: &mut [f64]) {
-    let most = |&(i, number): &(usize, Number)| match number {
-        Number::X | Number::Y => STRIDE_PX,
-        Number::Turn | Number::Arrive | Number::Leave => SWING,
-        Number::Back => (STRETCH * chain.nodes[i].back).max(STRIDE_PX),
-        Number::Ahead => (STRETCH * chain.nodes[i].ahead).max(STRIDE_PX),
-    };
-    let part = numbers
-        .iter()
-        .zip(&*step)
-        .map(|(number, by)| most(number) / by.abs().max(1e-12))
-        .fold(1.0, f64::min);
-    step.iter_mut().for_each(|by| *by *= part);
 }

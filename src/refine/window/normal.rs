@@ -1,0 +1,349 @@
+//! Normal equations of a window: how the squares of what is left change with the numbers of a chain.
+//!
+//! A piece of an edge that moves outwards adds ink in the pixel that it runs through, as much as its length times its way,
+//! and a lens spreads that. So no picture is drawn for a number: with `d` the ink that each number adds to the pixels along
+//! the edges, `G` the lens, and `r` what is left,  Jᵀr = −dᵀ G r  and  JᵀJ = dᵀ (Gᵀ G) d, of which `Gᵀ G` is a product of
+//! a factor a column and a factor a row. Exact but for the bend of an edge within a pixel.
+
+use super::{
+    Drawn, Window,
+    numbers::{Number, nudge},
+};
+use crate::numeric::{
+    cast::index,
+    chain::Chain,
+    coverage::{blur, kernel},
+    skyline::Skyline,
+};
+use kurbo::{Point, Vec2};
+
+/// Differences that the ways of control points are taken by, px and radians.
+const DELTA: f64 = 0.01;
+/// Added to each diagonal place, so that a number on which nothing depends stays where it is.
+const STILL: f64 = 1e-9;
+
+/// The matrix, and minus half of the slope.
+#[derive(Debug)]
+pub(super) struct Normal {
+    matrix: Skyline,
+    slope: Vec<f64>,
+}
+
+impl Normal {
+    /// Those of a chain that leaves `now`.
+    pub(super) fn new(
+        window: &Window,
+        chain: &Chain,
+        numbers: &[(usize, Number)],
+        now: &Drawn,
+    ) -> Self {
+        let mut out = Self {
+            matrix: Skyline::default(),
+            slope: vec![0.0; numbers.len()],
+        };
+        out.matrix.reset(&vec![0; numbers.len()]);
+        (0..numbers.len()).for_each(|i| out.matrix.add(i, i, STILL));
+        let moved = |number: &(usize, Number)| {
+            let mut moved = chain.clone();
+            nudge(&mut moved, *number, DELTA);
+            moved.settle();
+            moved
+        };
+        let moved: Vec<Chain> = numbers.iter().map(moved).collect();
+        let ways: Vec<Vec<Way>> = (0..chain.kinds.len())
+            .map(|segment| ways(chain, &moved, segment))
+            .collect();
+        out.add_pixels(window, &ways, now);
+        out.add_anchors(window, &ways, now);
+        out.add_handles(window, chain, &moved, &ways, now);
+        out
+    }
+
+    /// The step of the least squares with Levenberg's damping.
+    pub(super) fn step(&mut self, lambda: f64) -> Option<Vec<f64>> {
+        let mut step = self.slope.clone();
+        let solved = self.matrix.solve_damped(lambda, &mut step);
+        solved.then_some(step)
+    }
+
+    fn add_pixels(&mut self, window: &Window, ways: &[Vec<Way>], now: &Drawn) {
+        let mut inked = Inked::new(window, self.slope.len());
+        for (ways, chords) in ways.iter().zip(&now.chords) {
+            if !ways.is_empty() {
+                inked.add(ways, chords);
+            }
+        }
+        let light = window.light(&now.left);
+        for (cell, row) in inked.rows() {
+            let light = f64::from(light[inked.at(cell)]);
+            let pairs = self.slope.iter_mut().zip(row);
+            pairs.for_each(|(slope, ink)| *slope += ink * light);
+        }
+        let spread = inked.spread(window.shared());
+        for ((_, ink), spread) in inked
+            .rows()
+            .zip(spread.chunks_exact(self.slope.len().max(1)))
+        {
+            for (i, a) in ink.iter().enumerate().filter(|(_, a)| **a != 0.0) {
+                for (j, b) in spread.iter().enumerate().take(i + 1) {
+                    self.matrix.add(i, j, a * b);
+                }
+            }
+        }
+    }
+
+    fn add_anchors(&mut self, window: &Window, ways: &[Vec<Way>], now: &Drawn) {
+        let left = &now.left[index(window.pixels())..];
+        for ((anchor, &(segment, t)), left) in window.anchors.iter().zip(&now.feet).zip(left) {
+            let weighed = anchor.weight * anchor.outward;
+            let grows = ways[segment]
+                .iter()
+                .map(|w| (w.number, weighed.dot(w.at(t))));
+            self.add_row(&grows.collect::<Vec<_>>(), f64::from(*left));
+        }
+    }
+
+    fn add_handles(
+        &mut self,
+        window: &Window,
+        chain: &Chain,
+        moved: &[Chain],
+        ways: &[Vec<Way>],
+        now: &Drawn,
+    ) {
+        let left = &now.left[index(window.pixels()) + window.anchors.len()..];
+        for ((segment, ways), left) in ways.iter().enumerate().zip(left.chunks_exact(4)) {
+            let before = window.handles(chain, segment);
+            let after = |w: &Way| (w.number, window.handles(&moved[w.number], segment));
+            let after: Vec<_> = ways.iter().map(after).collect();
+            for (k, left) in left.iter().enumerate() {
+                let grows = after.iter().map(|(i, a)| (*i, (a[k] - before[k]) / DELTA));
+                self.add_row(&grows.collect::<Vec<_>>(), f64::from(*left));
+            }
+        }
+    }
+
+    /// One difference that is `left`, and how much it grows with numbers in rising order.
+    fn add_row(&mut self, grows: &[(usize, f64)], left: f64) {
+        for (k, &(i, a)) in grows.iter().enumerate() {
+            self.slope[i] -= a * left;
+            for &(j, b) in &grows[..=k] {
+                self.matrix.add(i, j, a * b);
+            }
+        }
+    }
+}
+
+/// How the control points of a segment go with a number.
+struct Way {
+    number: usize,
+    points: [Vec2; 4],
+}
+
+impl Way {
+    /// How the curve goes at `t`.
+    fn at(&self, t: f64) -> Vec2 {
+        let s = 1.0 - t;
+        let [a, b, c, d] = self.points;
+        s * s * s * a + 3.0 * s * s * t * b + 3.0 * s * t * t * c + t * t * t * d
+    }
+}
+
+/// Ways of the numbers that move a segment.
+fn ways(chain: &Chain, moved: &[Chain], segment: usize) -> Vec<Way> {
+    let from = chain.cubic(segment);
+    let ways = moved.iter().enumerate().map(|(number, moved)| {
+        let to = moved.cubic(segment);
+        let points = [
+            to.p0 - from.p0,
+            to.p1 - from.p1,
+            to.p2 - from.p2,
+            to.p3 - from.p3,
+        ];
+        let points = points.map(|v| v / DELTA);
+        Way { number, points }
+    });
+    ways.filter(|w| w.points != [Vec2::ZERO; 4]).collect()
+}
+
+/// The ink that numbers add to pixels.
+struct Inked {
+    width: usize,
+    height: usize,
+    /// one more than the place of each pixel among the cells
+    places: Vec<u32>,
+    /// column, and row from the top
+    cells: Vec<(usize, usize)>,
+    numbers: usize,
+    values: Vec<f64>,
+}
+
+impl Inked {
+    fn new(window: &Window, numbers: usize) -> Self {
+        let (width, height) = (window.columns.len(), window.rows.len());
+        Self {
+            width,
+            height,
+            places: vec![0; width * height],
+            cells: Vec::new(),
+            numbers,
+            values: Vec::new(),
+        }
+    }
+
+    fn at(&self, (x, y): (usize, usize)) -> usize {
+        y * self.width + x
+    }
+
+    /// Pixels that an edge runs through, and what each number adds there.
+    fn rows(&self) -> impl Iterator<Item = ((usize, usize), &[f64])> {
+        let rows = self.values.chunks_exact(self.numbers.max(1));
+        self.cells.iter().copied().zip(rows)
+    }
+
+    /// The chords of a segment, evenly in its parameter.
+    fn add(&mut self, ways: &[Way], chords: &[Point]) {
+        let count = (chords.len() - 1) as f64;
+        for (k, (a, b)) in chords.iter().zip(chords.iter().skip(1)).enumerate() {
+            let outward = Vec2::new(b.y - a.y, a.x - b.x);
+            let mut from = 0.0;
+            for to in crossings(*a, *b, (self.width, self.height)) {
+                let (part, mid) = (to - from, (from + to) / 2.0);
+                from = to;
+                let p = a.lerp(*b, mid);
+                let Some(row) = self.row(p) else { continue };
+                let t = (k as f64 + mid) / count;
+                for w in ways {
+                    row[w.number] += part * outward.dot(w.at(t));
+                }
+            }
+        }
+    }
+
+    /// What numbers add to the pixel of a place.
+    fn row(&mut self, p: Point) -> Option<&mut [f64]> {
+        let inside =
+            (0.0..self.width as f64).contains(&p.x) && (0.0..self.height as f64).contains(&p.y);
+        if !inside {
+            return None;
+        }
+        let cell = (index(p.x), self.height - 1 - index(p.y));
+        let at = self.at(cell);
+        if self.places[at] == 0 {
+            self.cells.push(cell);
+            self.values.resize(self.cells.len() * self.numbers, 0.0);
+            self.places[at] = u32::try_from(self.cells.len()).unwrap_or(u32::MAX);
+        }
+        let start = (self.places[at] as usize - 1) * self.numbers;
+        self.values.get_mut(start..start + self.numbers)
+    }
+
+    /// What a lens there and back makes of the values, in the same pixels.
+    fn spread(&self, shared: &Shared) -> Vec<f64> {
+        let n = self.numbers;
+        let mut out = vec![0.0; self.values.len()];
+        for (i, a) in self.cells.iter().enumerate() {
+            for (j, b) in self.cells[..=i].iter().enumerate() {
+                let light = shared.of(*a, *b);
+                if light == 0.0 {
+                    continue;
+                }
+                for k in 0..n {
+                    out[i * n + k] += light * self.values[j * n + k];
+                }
+                if i != j {
+                    for k in 0..n {
+                        out[j * n + k] += light * self.values[i * n + k];
+                    }
+                }
+            }
+        }
+        out
+    }
+}
+
+/// Parts of the way from `a` to `b` at which it enters another pixel of a picture or the picture itself, in order, and
+/// in the end the whole.
+fn crossings(a: Point, b: Point, (width, height): (usize, usize)) -> Vec<f64> {
+    let mut out = Vec::new();
+    for (from, to, size) in [(a.x, b.x, width), (a.y, b.y, height)] {
+        let (low, high) = (from.min(to).max(0.0), from.max(to).min(size as f64));
+        if low <= high {
+            let lines =
+                (index(low.ceil())..=index(high)).map(|line| (line as f64 - from) / (to - from));
+            out.extend(lines.filter(|part| (0.0..1.0).contains(part)));
+        }
+    }
+    out.sort_by(f64::total_cmp);
+    out.push(1.0);
+    out
+}
+
+/// How much light two pixels share: what a lens makes of the one times what it makes of the other, over all pixels that
+/// count.
+#[derive(Debug)]
+pub(super) struct Shared {
+    reach: usize,
+    /// a factor for a column and one of those from it on
+    columns: Vec<f64>,
+    rows: Vec<f64>,
+}
+
+impl Shared {
+    /// In a picture of that size of which `margin` px at each side do not count.
+    pub(super) fn new((width, height): (usize, usize), margin: usize, lens: f64) -> Self {
+        let kernel = kernel(lens);
+        let reach = 2 * (kernel.len() - 1);
+        Self {
+            reach,
+            columns: shared(width, margin, &kernel),
+            rows: shared(height, margin, &kernel),
+        }
+    }
+
+    fn of(&self, a: (usize, usize), b: (usize, usize)) -> f64 {
+        let (dx, dy) = (a.0.abs_diff(b.0), a.1.abs_diff(b.1));
+        if dx > self.reach || dy > self.reach {
+            return 0.0;
+        }
+        let stride = self.reach + 1;
+        self.columns[a.0.min(b.0) * stride + dx] * self.rows[a.1.min(b.1) * stride + dy]
+    }
+}
+
+/// One axis: for each place, what it shares with itself and the next ones.
+fn shared(size: usize, margin: usize, kernel: &[f32]) -> Vec<f64> {
+    let radius = kernel.len() - 1;
+    let weight = |x: usize, a: usize| kernel.get(x.abs_diff(a)).map_or(0.0, |k| f64::from(*k));
+    let counted = margin..size.saturating_sub(margin);
+    let at = |a: usize, b: usize| {
+        let reached = counted.start.max(b.saturating_sub(radius))..counted.end.min(a + radius + 1);
+        reached.map(|x| weight(x, a) * weight(x, b)).sum()
+    };
+    (0..size)
+        .flat_map(|a| (0..=2 * radius).map(move |d| (a, a + d)))
+        .map(|(a, b)| at(a, b))
+        .collect()
+}
+
+impl Window {
+    /// What is left, as far as it counts, seen through the lens once more.
+    fn light(&self, left: &[f32]) -> Vec<f32> {
+        let (width, m) = (self.columns.len(), self.margin);
+        let mut out = vec![0.0; width * self.rows.len()];
+        let inner = width.saturating_sub(2 * m);
+        let lines = out.chunks_exact_mut(width.max(1)).skip(m);
+        let lines = lines.take(self.rows.len().saturating_sub(2 * m));
+        for (to, from) in lines.zip(left.chunks_exact(inner.max(1))) {
+            to[m..m + inner].copy_from_slice(from);
+        }
+        blur(&mut out, width, self.lens, 0);
+        out
+    }
+
+    fn shared(&self) -> &Shared {
+        let size = (self.columns.len(), self.rows.len());
+        self.shared
+            .get_or_init(|| Shared::new(size, self.margin, self.lens))
+    }
+}
