@@ -157,7 +157,7 @@ impl Coverage {
 }
 
 /// Pixels of a row that are blurred together.
-const LANES: usize = 8;
+const LANES: usize = 16;
 
 /// Weights of a Gaussian at whole pixels from its middle on, as far as they tell; those to both sides add up to 1.
 /// One weight for `sigma_px` below a tenth of a pixel.
