@@ -2,6 +2,7 @@
 
 use super::cast::{index, single};
 use kurbo::Point;
+use std::array;
 
 /// A picture in the making: the signed area that polygons cover in each pixel.
 ///
@@ -128,19 +129,23 @@ impl Coverage {
     pub fn write(&self, out: &mut Vec<f32>) {
         /// Neighbours that are looked at together: most lie far from any edge.
         const TOGETHER: usize = 8;
-        /// What differs from a whole number by less is one.
+        /// What differs by less from all or nothing is that.
         const ROUNDING: f32 = 1e-6;
         out.resize(self.width * self.height, 0.0);
         let lines = self.differences.chunks_exact(self.width + 2);
         for (line, row) in lines.zip(out.chunks_exact_mut(self.width.max(1))) {
-            let mut sum = 0.0;
+            let mut sum: f32 = 0.0;
             for (line, row) in line[..self.width]
                 .chunks(TOGETHER)
                 .zip(row.chunks_mut(TOGETHER))
             {
                 if line.iter().fold(0, |any, d| any | d.to_bits()) == 0 {
                     // sums of parts are off by their rounding
-                    let whole = f32::round(sum);
+                    let whole = if sum.abs() < 0.5 {
+                        0.0
+                    } else {
+                        f32::copysign(1.0, sum)
+                    };
                     if (sum - whole).abs() < ROUNDING {
                         sum = whole;
                     }
@@ -241,12 +246,9 @@ fn across(around: &[f32], kernel: &[f32]) -> [f32; LANES] {
     let at = |i: usize| around[i..].first_chunk::<LANES>().unwrap_or(&[0.0; LANES]);
     let radius = kernel.len() - 1;
     let mut sum = at(radius).map(|v| kernel[0] * v);
-    for (d, &k) in kernel.iter().enumerate().skip(1) {
+    for (d, k) in kernel.iter().enumerate().skip(1) {
         let (left, right) = (at(radius - d), at(radius + d));
-        for i in 0..LANES {
-            sum[i] += k * left[i];
-            sum[i] += k * right[i];
-        }
+        sum = array::from_fn(|i| sum[i] + k * left[i] + k * right[i]);
     }
     sum
 }
@@ -255,11 +257,9 @@ fn across(around: &[f32], kernel: &[f32]) -> [f32; LANES] {
 fn down<'a>(row: impl Fn(usize) -> &'a [f32; LANES], kernel: &[f32]) -> [f32; LANES] {
     let radius = kernel.len() - 1;
     let mut sum = row(radius).map(|v| kernel[0] * v);
-    for (d, &k) in kernel.iter().enumerate().skip(1) {
+    for (d, k) in kernel.iter().enumerate().skip(1) {
         let (above, below) = (row(radius + d), row(radius - d));
-        for i in 0..LANES {
-            sum[i] += k * (above[i] + below[i]);
-        }
+        sum = array::from_fn(|i| sum[i] + k * (above[i] + below[i]));
     }
     sum
 }
