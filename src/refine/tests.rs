@@ -249,7 +249,7 @@ fn a_wrong_structure_gives_way_to_the_one_drawn() {
             let got = mended(&gray, &fit, Contour::PIXEL_BLUR_PX.hypot(lens));
             let off = apart(&got, &drawn);
             // what squares too small to be looked at leave of a tip
-            assert!(off < 0.45, "{name}, lens {lens}: {off} {}", got.to_svg());
+            assert!(off < 0.5, "{name}, lens {lens}: {off} {}", got.to_svg());
             // a node more may be left where it does not show
             let [got, drawn] = [&got, &drawn].map(|p| p.segments().count());
             assert!(got <= drawn + 1, "{name}, lens {lens}: {got} {drawn}");
@@ -288,10 +288,16 @@ fn sides_that_cross_or_run_on_as_one_end_where_they_part() {
             Some(Point::new(20.0, 15.0)),
         ),
         (
+            "a loop",
+            "M5 5L30 5L30 27L32 27L32 25L5 25Z",
+            Some(Point::new(30.0, 25.0)),
+        ),
+        (
             "a tip",
             "M5 5L30 5L30 15L21 15L20 25L19 15L5 15Z",
             Some(Point::new(20.0, 25.0)),
         ),
+        ("drawn across", "M5 5L30 5L30 35L40 35L40 25L5 25Z", None),
     ] {
         let path = BezPath::from_svg(path).unwrap();
         let mut ring = Chain::from_path(&path, 0.0175).unwrap();
@@ -299,7 +305,7 @@ fn sides_that_cross_or_run_on_as_one_end_where_they_part() {
         let trimmed = tips::trim(&mut ring);
         assert_eq!(
             trimmed,
-            name != "a tip",
+            !["a tip", "drawn across"].contains(&name),
             "{name}: {}",
             ring.to_path().to_svg()
         );
@@ -310,7 +316,7 @@ fn sides_that_cross_or_run_on_as_one_end_where_they_part() {
             assert!(off < 0.5, "{name}: {off} {}", ring.to_path().to_svg());
         }
         let longest = ring.nodes.iter().map(|n| n.point.y).fold(0.0, f64::max);
-        assert!(name == "a tip" || longest < 25.4, "{name}: {longest}");
+        assert!(!trimmed || longest < 25.4, "{name}: {longest}");
     }
 }
 

@@ -1,7 +1,7 @@
 //! Tips: acute corners, and what of them no picture can hold.
 //!
 //! Where two sides run on as one, or cross before they end in a corner, there is no ink (or no paper) between them: a needle
-//! or a loop that no pixel speaks against. Such an end is cut off where its sides part.
+//! or a loop that no pixel speaks against. Such an end is cut off where its sides part. So are small loops at other corners.
 
 use super::{
     blunt::{arriving, leaving, polygon_px},
@@ -20,8 +20,10 @@ const NEEDLE: f64 = 0.04;
 const BEHIND_PX: f64 = 4.0;
 /// Sides no further apart than this are one, px.
 const ONE_PX: f64 = 0.05;
-/// Ends that are no longer stay, px.
+/// Ends that are no longer stay, unless their sides cross, px.
 const SHORT_PX: f64 = 1.0;
+/// Sides of corners that are no tips cross no further away, px: further away both are drawn.
+const LOOP_PX: f64 = 6.0;
 /// How far sides are followed, px, in which steps, and over how many segments.
 const FAR_PX: f64 = 30.0;
 const STEP_PX: f64 = 0.25;
@@ -55,7 +57,7 @@ pub(super) fn trim(ring: &mut Chain) -> bool {
     let mut trimmed = false;
     let mut i = 0;
     while i < ring.nodes.len() {
-        match tip(ring, i).and_then(|_| parting(ring, i)) {
+        match parting(ring, i) {
             Some((before, after)) => {
                 *ring = cut(ring, i, (before, after));
                 // the ring begins elsewhere now
@@ -75,24 +77,31 @@ struct Place {
     at: Point,
 }
 
-/// Where the sides of tip `i` part, if that is so far from it that the rest says nothing.
+/// Where the sides of corner `i` part, if they run on as one before or cross.
 fn parting(ring: &Chain, i: usize) -> Option<(Place, Place)> {
+    let acute = tip(ring, i).is_some();
+    if ring.nodes[i].join != Join::Corner {
+        return None;
+    }
     let n = ring.kinds.len();
     let count = SEGMENTS.min(n.saturating_sub(2) / 2);
     let before = side((0..count).map(|k| reversed(&ring.cubic((i + 2 * n - 1 - k) % n))));
     let after = side((0..count).map(|k| ring.cubic((i + k) % n)));
+    let steps = |px: f64| index((px / STEP_PX).ceil());
+    let (shortest, longest) = (steps(SHORT_PX), steps(if acute { FAR_PX } else { LOOP_PX }));
     let touches = |k: &usize| {
         let (p, q) = (before[*k].at, before[*k + 1].at);
-        let mut pairs = after.iter().zip(after.iter().skip(1));
+        // chords that begin in the corner itself meet there
+        let pairs = after.iter().zip(after.iter().skip(1)).take(longest);
+        let mut pairs = pairs.skip(usize::from(*k == 0));
+        let one = acute && *k >= shortest;
         pairs.any(|(a, b)| {
-            Line::new(a.at, b.at).nearest(p, 0.0).distance_sq < ONE_PX * ONE_PX
+            one && Line::new(a.at, b.at).nearest(p, 0.0).distance_sq < ONE_PX * ONE_PX
                 || cross((p, q), (a.at, b.at))
         })
     };
-    let shortest = index((SHORT_PX / STEP_PX).ceil());
-    let last = (shortest..before.len().saturating_sub(1))
-        .rev()
-        .find(touches)?;
+    let count = before.len().saturating_sub(1).min(longest);
+    let last = (0..count).rev().find(touches)?;
     let parted = before[last + 1];
     let off = |o: &&Place| o.at.distance(parted.at);
     let near = after.iter().min_by(|a, b| off(a).total_cmp(&off(b)))?;
