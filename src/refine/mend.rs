@@ -458,10 +458,14 @@ fn put_back(mut chain: Chain, part: Chain, count: usize) -> Option<Chain> {
     };
     chain.nodes.splice(0..count, nodes);
     chain.kinds.splice(0..count, kinds);
+    for i in [0, end] {
+        if is_soft(&chain, i) {
+            soften(&mut chain.nodes[i]);
+        }
+    }
     chain.settle();
-    let sound = [0, end].into_iter().all(|i| !is_soft(&chain, i));
     // a line takes what is beside it along
     let as_wanted = |(i, c): (usize, &CubicBez)| apart(c, &chain.cubic(i)) < MOVES_PX;
     let stays = wanted.iter().enumerate().all(as_wanted);
-    (sound && stays && chain.to_path().is_finite()).then_some(chain)
+    (stays && chain.to_path().is_finite()).then_some(chain)
 }
