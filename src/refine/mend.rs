@@ -6,7 +6,7 @@
 use super::{
     comparison::polygon,
     residual::Residual,
-    tips::{is_needle, tip, trim},
+    tips::{ONE_PX, is_needle, tip, trim},
     variants::variants,
     window::{Drawn, Window},
 };
@@ -77,7 +77,7 @@ pub(super) fn mended(residual: &Residual<'_>, paths: &[BezPath]) -> Vec<BezPath>
     let mut out = paths.to_vec();
     for (chain, path) in chains.iter_mut().zip(&mut out) {
         let Some(chain) = chain else { continue };
-        if trim(chain) {
+        if trim(chain, ONE_PX) {
             *path = chain.to_path();
         }
     }
@@ -118,7 +118,8 @@ pub(super) fn mended(residual: &Residual<'_>, paths: &[BezPath]) -> Vec<BezPath>
     }
     for (chain, path) in chains.iter_mut().zip(&mut out) {
         let Some(chain) = chain else { continue };
-        let trimmed = trim(chain);
+        // sides that run close together do so for the pixels' sake now
+        let trimmed = trim(chain, 0.0);
         let before = chain.kinds.len();
         divide_at_extrema(chain, 0.0);
         if trimmed || chain.kinds.len() > before {

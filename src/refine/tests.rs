@@ -302,7 +302,7 @@ fn sides_that_cross_or_run_on_as_one_end_where_they_part() {
         let path = BezPath::from_svg(path).unwrap();
         let mut ring = Chain::from_path(&path, 0.0175).unwrap();
         let before = ring.clone();
-        let trimmed = tips::trim(&mut ring);
+        let trimmed = tips::trim(&mut ring, tips::ONE_PX);
         assert_eq!(
             trimmed,
             !["a tip", "drawn across"].contains(&name),

@@ -18,8 +18,8 @@ const ACUTE: f64 = 1.6;
 /// A tip whose sides differ by less, radians, is a needle, and where they are looked at, px.
 const NEEDLE: f64 = 0.04;
 const BEHIND_PX: f64 = 4.0;
-/// Sides no further apart than this are one, px.
-const ONE_PX: f64 = 0.05;
+/// Sides no further apart than this are one, px, unless pixels tell.
+pub(super) const ONE_PX: f64 = 0.05;
 /// Ends that are no longer stay, unless their sides cross, px.
 const SHORT_PX: f64 = 1.0;
 /// Sides of corners that are no tips cross no further away, px: further away both are drawn.
@@ -52,12 +52,12 @@ pub(super) fn is_needle(chain: &Chain, i: usize) -> bool {
     u.dot(v) > 0.0 && u.cross(v).abs() < NEEDLE
 }
 
-/// Cuts the ends off a ring's tips where their sides are one or have crossed. Whether there were any.
-pub(super) fn trim(ring: &mut Chain) -> bool {
+/// Cuts the ends off a ring's tips where their sides are no more than `one_px` apart or have crossed. Whether there were any.
+pub(super) fn trim(ring: &mut Chain, one_px: f64) -> bool {
     let mut trimmed = false;
     let mut i = 0;
     while i < ring.nodes.len() {
-        match parting(ring, i) {
+        match parting(ring, i, one_px) {
             Some((before, after)) => {
                 *ring = cut(ring, i, (before, after));
                 // the ring begins elsewhere now
@@ -78,7 +78,7 @@ struct Place {
 }
 
 /// Where the sides of corner `i` part, if they run on as one before or cross.
-fn parting(ring: &Chain, i: usize) -> Option<(Place, Place)> {
+fn parting(ring: &Chain, i: usize, one_px: f64) -> Option<(Place, Place)> {
     let acute = tip(ring, i).is_some();
     if ring.nodes[i].join != Join::Corner {
         return None;
@@ -96,7 +96,7 @@ fn parting(ring: &Chain, i: usize) -> Option<(Place, Place)> {
         let mut pairs = pairs.skip(usize::from(*k == 0));
         let one = acute && *k >= shortest;
         pairs.any(|(a, b)| {
-            one && Line::new(a.at, b.at).nearest(p, 0.0).distance_sq < ONE_PX * ONE_PX
+            one && Line::new(a.at, b.at).nearest(p, 0.0).distance_sq < one_px * one_px
                 || cross((p, q), (a.at, b.at))
         })
     };
