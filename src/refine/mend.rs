@@ -48,6 +48,8 @@ const GAIN: f64 = 0.3;
 /// What a node must save beside a tip, of whose length few pixels tell, and those parts there.
 const TIP: (f64, f64) = (0.03, 0.2);
 const TIP_GAIN: f64 = 0.1;
+/// Which is never more than what so many pixels' grain would make of it.
+const TIP_GAIN_GRAIN: f64 = 6.0;
 /// A structure that no outline may have gives way to one that leaves so many times as much.
 const ASTRAY: f64 = 1.1;
 /// Changes of structure in a place, one upon the other.
@@ -234,7 +236,11 @@ impl Place<'_> {
         let near = window(reach);
         let before = near.drawn(&part).squares;
         let (best, drawn) = self.best(&near, &part, wrong, reach)?;
-        let enough = if tipped(&best) { TIP_GAIN } else { GAIN } * left;
+        let enough = if tipped(&best) {
+            (TIP_GAIN * left).min(TIP_GAIN_GRAIN * wrong.grain)
+        } else {
+            GAIN * left
+        };
         if before - drawn.squares < enough {
             return None;
         }
