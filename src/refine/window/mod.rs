@@ -30,10 +30,10 @@ const MOST_CHORDS: usize = 1000;
 const STEP_PX: f64 = 2.0;
 const MOST_ANCHORS: f64 = 32.0;
 /// Steps of the least squares.
-const STEPS: usize = 14;
+const STEPS: usize = 20;
 /// A step that lowers what is left beyond grain by less than this part, or the squares by less than this, is the last.
-const PROGRESS: f64 = 0.02;
-const LITTLE: f64 = 1e-3;
+const PROGRESS: f64 = 0.005;
+const LITTLE: f64 = 3e-4;
 /// Steps as good as the last that a fit is trusted to take still.
 const HOPE: f64 = 4.0;
 /// Handles of drawn curves are about this part of the chord, and stray from it by so much.
