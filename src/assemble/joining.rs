@@ -228,6 +228,36 @@ pub(super) fn set(drafts: &mut [Draft], em: f64, options: &Options) -> (Report, 
     (report, notes)
 }
 
+/// How far the middles of a draft's joining strokes lie above the contract's, left and right, font units; none where no stroke
+/// leaves it.
+pub(super) type Height = (Option<f64>, Option<f64>);
+
+/// The heights of every draft's joining strokes.
+pub(super) fn heights(drafts: &[Draft], em: f64, options: &Options) -> Vec<Height> {
+    let mut joints = joints(drafts, em, options.method);
+    let mut heights = vec![(None, None); drafts.len()];
+    let Some(contract) = contract(&mut joints, em, options) else {
+        return heights;
+    };
+    let middle = |(low, high): Edges| f64::midpoint(low, high);
+    for joint in &joints {
+        let drawn = drafts.get(joint.draft).zip(heights.get_mut(joint.draft));
+        let Some((draft, height)) = drawn else {
+            continue;
+        };
+        if met(draft, joint, contract.edges).is_none() {
+            let above = joint
+                .end()
+                .map(|end| middle(end.edges) - middle(contract.edges));
+            match joint.side {
+                Side::Left => height.0 = above,
+                Side::Right => height.1 = above,
+            }
+        }
+    }
+    heights
+}
+
 fn joints(drafts: &[Draft], em: f64, method: Method) -> Vec<Joint> {
     let mut out = Vec::new();
     for (draft, d) in drafts.iter().enumerate() {

@@ -10,6 +10,7 @@ mod features;
 pub mod joining;
 pub mod kerning;
 mod layers;
+pub mod level;
 mod marks;
 pub mod metrics;
 pub mod names;

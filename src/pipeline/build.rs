@@ -9,6 +9,7 @@ use super::doubt::Doubt;
 use super::labels;
 use super::letter::Letter;
 use super::letters;
+use super::level;
 use super::page::{Page, Source};
 use super::palette;
 use super::problem::Problem;
@@ -16,7 +17,7 @@ use super::project::{Content, Project};
 use super::repeats::{self, Settled};
 use super::watch::{Stage, Watch};
 use crate::assemble::words::Gap;
-use crate::assemble::{self, Note};
+use crate::assemble::{self, Drawn, Note};
 use crate::types::{Cell, Font, Label};
 use rayon::prelude::*;
 use std::path::Path;
@@ -112,15 +113,13 @@ pub fn build(project: &Project, world: World<'_>) -> Result<Built, Vec<Problem>>
         Letter::new(sheet, cell, options, world.watch)
     };
     let Settled {
-        letters,
+        mut letters,
         notes: repeats,
         features,
     } = repeats::settle(letters, project.repeated, draw).map_err(|p| vec![p])?;
     let _time = world.watch.enter(Stage::Assemble);
-    let drawn = letters.par_iter();
-    let drawn = all(drawn
-        .map(|letter| letter.place(project.font.units_per_em))
-        .collect())?;
+    let levelled = level::set(&mut letters, project, &corrections)?;
+    let drawn = place(&letters, project.font.units_per_em)?;
     let twins = alike::notes(&letters, &drawn, project.font.units_per_em);
     let words = words.par_iter();
     let words = all(words
@@ -140,10 +139,16 @@ pub fn build(project: &Project, world: World<'_>) -> Result<Built, Vec<Problem>>
         font: by_hand::set(assembled.font, project, world)?,
         letters,
         pages,
-        notes: [repeats, twins, assembled.notes].concat(),
+        notes: [repeats, levelled, twins, assembled.notes].concat(),
         doubts,
         gaps: assembled.gaps,
     })
+}
+
+/// The letters in font units.
+pub(super) fn place(letters: &[Letter], units_per_em: u16) -> Result<Vec<Drawn>, Vec<Problem>> {
+    let letters = letters.par_iter();
+    all(letters.map(|letter| letter.place(units_per_em)).collect())
 }
 
 /// The letters of a page, and the page without its cells.

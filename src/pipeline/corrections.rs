@@ -122,6 +122,12 @@ impl Corrections {
         })
     }
 
+    /// Whether a hand moved the letter's baseline.
+    pub(super) fn moves(&self, label: &Label) -> bool {
+        let shift = self.get(label).and_then(|c| c.0.baseline_shift);
+        shift.is_some_and(|up| up.abs() > 0.0)
+    }
+
     /// Moves baselines and sets contour levels.
     pub(super) fn apply(&self, cut: &mut Cut, units_per_em: u16) {
         for cell in &mut cut.cells {

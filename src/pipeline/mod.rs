@@ -13,6 +13,7 @@ mod doubt;
 mod labels;
 mod letter;
 mod letters;
+mod level;
 mod outputs;
 mod page;
 mod palette;

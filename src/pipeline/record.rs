@@ -42,6 +42,7 @@ struct LetterRecord {
     baseline_px: f64,
     px_per_em: f64,
     advance_px: Option<(f64, f64)>,
+    row: Option<usize>,
     /// Blur and points of each contour.
     edge: Vec<(f64, Vec<(f64, f64)>)>,
     paths: Vec<Vec<Step>>,
@@ -159,6 +160,7 @@ impl LetterRecord {
             baseline_px: letter.guides.baseline_px,
             px_per_em: letter.guides.px_per_em,
             advance_px: letter.guides.advance_px,
+            row: letter.guides.row,
             edge: letter.edge.iter().map(ring).collect(),
             paths: letter.paths.iter().map(steps).collect(),
             plates: letter.plates.iter().map(plate).collect(),
@@ -184,6 +186,7 @@ impl LetterRecord {
                 baseline_px: self.baseline_px,
                 px_per_em: self.px_per_em,
                 advance_px: self.advance_px,
+                row: self.row,
             },
             edge: self.edge.into_iter().map(ring).collect::<Option<_>>()?,
             paths: self.paths.iter().map(|p| path(p)).collect(),

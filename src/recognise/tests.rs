@@ -156,6 +156,7 @@ fn letters(shift: f64, r: f64) -> Vec<Sample> {
         baseline_px: 100.0 + shift / 2.0,
         px_per_em: 100.0,
         advance_px: None,
+        row: None,
     };
     drawn
         .into_iter()

@@ -74,6 +74,19 @@ pub enum ScanError {
         /// the first name without a cell
         extra: String,
     },
+    /// Nothing on the page is a printed box that holds letters.
+    #[error(
+        "{source_name} has no printed boxes for {names} names: {found} places look like boxes, and most of the ink lies outside \
+         them; write layout = \"free\" for a page without boxes, or layout = {{ grid = [rows, columns] }} where letters stand in columns"
+    )]
+    NoBoxes {
+        /// the file
+        source_name: String,
+        /// places that ink encloses
+        found: usize,
+        /// names given
+        names: usize,
+    },
     /// A cell with ink in it has no name.
     #[error(
         "{source_name} has ink in row {row}, column {column}, which has no name: only {names} names are given; \

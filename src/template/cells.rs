@@ -85,6 +85,7 @@ fn drawing(
             baseline_px: (place.baseline - field.y0) * px_per_mm - window.y0,
             px_per_em: layout.em() * px_per_mm,
             advance_px: None,
+            row: None,
         },
         gray: crop(&tile, window, level),
         plates: Vec::new(),

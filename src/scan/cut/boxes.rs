@@ -22,6 +22,8 @@ const PAPER: f64 = 0.55;
 const ALIKE: f64 = 0.25;
 /// Share of a box's side along its line in which ink that reaches the line is taken for line.
 const RIM: f64 = 0.07;
+/// Least ink that boxes hold, as a share of what lies outside them: more can be printed beside boxes than is written in them.
+const HELD: f64 = 0.25;
 /// Ink in a box without a name counts from this share of a usual box's ink.
 const COUNTS: f64 = 0.1;
 
@@ -46,14 +48,6 @@ pub(super) fn place(
     let mut order = rows(&frames);
     if plan.options.direction == Direction::Rtl {
         order.iter_mut().for_each(|r| r.reverse());
-    }
-    if let Some(extra) = labels.get(frames.len()) {
-        return Err(ScanError::TooManyNames {
-            source_name: plan.source.to_owned(),
-            cells: frames.len(),
-            names: labels.len(),
-            extra: extra.0.clone(),
-        });
     }
     let mut rejected = Vec::new();
     let mut inside: Vec<Vec<usize>> = vec![Vec::new(); frames.len()];
@@ -83,7 +77,36 @@ pub(super) fn place(
             all.push(piece);
         }
     }
+    if labels.len() > frames.len() {
+        let held = inside.iter().flatten().map(|&i| all[i].area).sum();
+        let outside = rejected.iter().filter(|r| r.1 == Reason::Outside);
+        let outside = outside.map(|r| all[r.0].area).sum();
+        return Err(too_many(plan, frames.len(), labels, (held, outside)));
+    }
     name(all, (&frames, &order, inside), labels, plan, rejected)
+}
+
+/// Why there are more names than boxes: too many names, or no boxes.
+fn too_many(
+    plan: &Plan<'_>,
+    found: usize,
+    labels: &[Label],
+    (held, outside): (usize, usize),
+) -> ScanError {
+    let (source_name, names) = (plan.source.to_owned(), labels.len());
+    match labels.get(found) {
+        Some(extra) if held as f64 > HELD * outside as f64 => ScanError::TooManyNames {
+            source_name,
+            cells: found,
+            names,
+            extra: extra.0.clone(),
+        },
+        _ => ScanError::NoBoxes {
+            source_name,
+            found,
+            names,
+        },
+    }
 }
 
 /// What a box holds besides its rim.

@@ -1,7 +1,8 @@
 //! Ink that touches the printed lines of a grid, cut free of them.
 //!
 //! Lines are straight: on the upright page the heights at which a lattice has ink for more than half of its width are its
-//! lines', and so for its columns. What lies there goes, unless it has ink on both sides of the line, which then crosses a letter.
+//! lines', and so for its columns. What lies there goes, unless it has ink on both sides of the line, straight across or aslant:
+//! there the line crosses a letter.
 
 use crate::numeric::view::View;
 use crate::scan::components::Component;
@@ -13,6 +14,9 @@ use std::ops::Range;
 const LONG: f64 = 0.5;
 /// How far a line's blurred and ragged edge reaches beyond where it covers so much, px.
 const EDGE: f64 = 1.5;
+
+/// Ways across a line: how far they lead along it, as a share of how far across. A letter's edge goes between two of them.
+const WAYS: [f64; 5] = [0.0, -0.5, 0.5, -1.0, 1.0];
 
 /// What is left of a lattice, or of a single line, without its lines: pieces that are wider than a line is thick.
 pub(super) fn freed(lattice: &Component, upright: &View) -> Vec<Component> {
@@ -43,8 +47,8 @@ pub(super) fn freed(lattice: &Component, upright: &View) -> Vec<Component> {
         let of = |stripes: &[Range<f64>], v: f64| stripes.iter().find(|s| s.contains(&v)).cloned();
         match (of(&columns, p.x), of(&rows, p.y)) {
             (None, None) => false,
-            (Some(c), None) => !(ink(c.start - 1.0, p.y) && ink(c.end + 1.0, p.y)),
-            (None, Some(r)) => !(ink(p.x, r.start - 1.0) && ink(p.x, r.end + 1.0)),
+            (Some(c), None) => !crosses(&c, p.x, |to, aside| ink(to, p.y + aside)),
+            (None, Some(r)) => !crosses(&r, p.y, |to, aside| ink(p.x + aside, to)),
             (Some(_), Some(_)) => true,
         }
     };
@@ -52,6 +56,14 @@ pub(super) fn freed(lattice: &Component, upright: &View) -> Vec<Component> {
     pieces.iter_mut().for_each(|c| c.stand(upright));
     pieces.retain(|c| c.upright.width().min(c.upright.height()) > thick);
     pieces
+}
+
+/// Whether a letter crosses a line where it is at `v` across: whether there is `ink` on both sides of it, on one of the ways
+/// through that place.
+fn crosses(line: &Range<f64>, v: f64, ink: impl Fn(f64, f64) -> bool) -> bool {
+    let (before, after) = (line.start - 1.0, line.end + 1.0);
+    let through = |way: &f64| ink(before, way * (before - v)) && ink(after, way * (after - v));
+    WAYS.iter().any(through)
 }
 
 /// Where a profile that begins at `start` is that of a line of this length.
@@ -66,4 +78,25 @@ fn stripes(profile: &[f64], start: f64, length: f64) -> Vec<Range<f64>> {
         at = end;
     }
     out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_stroke_aslant_crosses_a_line_and_what_ends_at_it_does_not() {
+        // strokes 3 px thick, a line 4 px thick, and a place in its middle
+        let (line, v) = (10.0..14.0, 12.0);
+        for slope in [0.0, -0.4, 0.8, -1.2] {
+            let stroke =
+                |from: f64, to: f64, along: f64| (along - slope * to).abs() < 1.5 && to > from;
+            let at = |from: f64, along: f64| {
+                crosses(&line, v, |to, aside| stroke(from, to, along + aside))
+            };
+            assert!(at(0.0, slope * v), "{slope}: within the stroke");
+            assert!(!at(0.0, slope * v + 4.0), "{slope}: beside it");
+            assert!(!at(11.0, slope * v), "{slope}: it begins in the line");
+        }
+    }
 }

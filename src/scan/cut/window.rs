@@ -80,6 +80,7 @@ impl Shutter<'_> {
                 baseline_px: baseline - window.y0,
                 px_per_em,
                 advance_px: None,
+                row: Some(slot.row),
             },
         }
     }

@@ -564,6 +564,22 @@ fn printed_boxes_hold_one_letter_each() {
 }
 
 #[test]
+fn a_page_without_boxes_is_told_from_one_with_too_many_names() {
+    let mut open = Paper::new(700, 500, 0.0);
+    for i in 0..5 {
+        open.letter('n', 90.0 + 120.0 * f64::from(i), 120.0);
+    }
+    // the counters of the other page's three p are paper that ink encloses
+    for (paper, places) in [(open, 0), (grid_page(0.0), 3)] {
+        let why = cut_page(&paper, NAMES, &options(Layout::Boxes)).unwrap_err();
+        assert!(
+            matches!(why, ScanError::NoBoxes { found, names: 20, .. } if found == places),
+            "{why}"
+        );
+    }
+}
+
+#[test]
 fn names_that_have_slipped_are_told() {
     let names: Vec<&str> = NAMES.split(' ').collect();
     let told = |names: String| {

@@ -1,0 +1,215 @@
+//! Letters of a joining script that were drawn too high or too low as a whole.
+//!
+//! All joining strokes end at one height. So what the ends of a whole row have in common is how far the row's baseline
+//! was missed: the side of nothing on which all of them lie, and the least of them. What is left of the two ends of a
+//! medial form has in common how far that letter strays, and differs by how far strokes stray by themselves. Let `a` and
+//! `b` be what is left of the heights of a form's ends above the usual one. With the letters' variance `v` and the
+//! strokes' own `w`, taken from all medial forms by the medians of `|a + b|` and `|a - b|`, the likeliest stray is
+//!
+//! ```text
+//! two ends   v / (v + w/2) · (a + b)/2         one end   v / (v + w) · a
+//! ```
+//!
+//! Where letters stand well and a hand's strokes vary, `v` is nothing, and so is every letter's stray.
+
+use super::joining::{self, Height, Method, Options};
+use super::{AssembleError, Drawn};
+use crate::numeric::median::median;
+use std::collections::BTreeMap;
+
+/// Letters with joining strokes from which a row's baseline is told.
+const ROW: usize = 3;
+
+/// Medial forms from which variances are taken.
+const FEWEST: usize = 8;
+
+/// What lies farther off than so many standard deviations was meant so, or is no stroke. Slips are not quite normal, and a
+/// median of two dozen forms can be half of what it should be: hence more than twice the usual three.
+const MOST: f64 = 8.0;
+
+/// Least deviation of strokes, em: they are not measured better than that.
+const MEASURED: f64 = 0.001;
+
+/// A standard deviation in medians of the distance, where it is a normal one.
+const NORMAL: f64 = 1.4826;
+
+/// How far each letter lies above where its joining strokes and those of its row say that it belongs, font units; 0 where
+/// they do not tell. Letters of the same number in `rows` were given one baseline.
+///
+/// # Errors
+/// A label names no glyph, or two shapes have one name.
+pub fn strays(
+    drawn: &[Drawn],
+    rows: &[usize],
+    em: f64,
+    options: &Options,
+) -> Result<Vec<f64>, AssembleError> {
+    let drafts = super::drafts(drawn.to_vec(), &[])?;
+    if options.method == Method::Cursive {
+        return Ok(vec![0.0; drafts.len()]);
+    }
+    let mut heights = joining::heights(&drafts, em, options);
+    let rows = shared(&heights, rows);
+    for (height, row) in heights.iter_mut().zip(&rows) {
+        *height = (height.0.map(|y| y - row), height.1.map(|y| y - row));
+    }
+    let hand = Hand::of(&heights, em);
+    let stray = |(height, row): (&Height, f64)| row + hand.map_or(0.0, |hand| hand.stray(*height));
+    Ok(heights.iter().zip(rows).map(stray).collect())
+}
+
+/// What the ends of each letter's row have in common.
+fn shared(heights: &[Height], rows: &[usize]) -> Vec<f64> {
+    let mut ends: BTreeMap<usize, Vec<f64>> = BTreeMap::new();
+    for (height, row) in heights.iter().zip(rows) {
+        // both ends of a letter are one witness
+        let end = height.0.into_iter().chain(height.1);
+        ends.entry(*row)
+            .or_default()
+            .extend(end.reduce(|a, b| if a.abs() < b.abs() { a } else { b }));
+    }
+    let common = |row: &usize| {
+        let ends = ends.get(row).filter(|ends| ends.len() >= ROW)?;
+        let least = ends
+            .iter()
+            .copied()
+            .min_by(|a, b| a.abs().total_cmp(&b.abs()))?;
+        ends.iter().all(|end| end * least > 0.0).then_some(least)
+    };
+    rows.iter().map(|row| common(row).unwrap_or(0.0)).collect()
+}
+
+/// How steadily letters were drawn, font units.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Hand {
+    /// Standard deviation of what both ends have in common: `v + w/2` is its square.
+    common: f64,
+    /// Standard deviation of half of what they differ by: `w/2` is its square.
+    own: f64,
+}
+
+impl Hand {
+    fn of(heights: &[Height], em: f64) -> Option<Self> {
+        let both: Vec<(f64, f64)> = heights.iter().filter_map(|h| h.0.zip(h.1)).collect();
+        if both.len() < FEWEST {
+            return None;
+        }
+        let deviation = |of: fn(&(f64, f64)) -> f64| Some(NORMAL * median(both.iter().map(of))?);
+        Some(Self {
+            common: deviation(|(a, b)| 0.5 * (a + b).abs())?,
+            own: deviation(|(a, b)| 0.5 * (a - b).abs())?.max(MEASURED * em),
+        })
+    }
+
+    /// How far a letter strays whose ends lie so far above the usual height.
+    fn stray(self, height: Height) -> f64 {
+        let (common, own) = (self.common.powi(2), self.own.powi(2));
+        let baseline = (common - own).max(0.0);
+        let (share, middle, apart) = match height {
+            (Some(a), Some(b)) => (baseline / common, 0.5 * (a + b), 0.5 * (a - b)),
+            (Some(a), None) | (None, Some(a)) => (baseline / (common + own), a, 0.0),
+            (None, None) => return 0.0,
+        };
+        let is_slip = middle.abs() < MOST * self.common && apart.abs() < MOST * self.own;
+        if is_slip { share * middle } else { 0.0 }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::types::{Label, Outline};
+    use kurbo::BezPath;
+
+    /// Letters that join on both sides.
+    const LETTERS: [&str; 10] = [
+        "0628", "062A", "062B", "0633", "0635", "0637", "0639", "0641", "0643", "0644",
+    ];
+
+    /// A stem whose strokes leave it so far above the baseline, to the left and to the right.
+    fn drawn(label: &str, left: f64, right: f64) -> Drawn {
+        let svg = format!(
+            "M0 {left}L200 {left}L200 -50L300 -50L300 {right}L500 {right}L500 {}L300 {}L300 500L200 500L200 {}L0 {}Z",
+            right + 60.0,
+            right + 60.0,
+            left + 60.0,
+            left + 60.0,
+        );
+        Drawn {
+            label: Label(label.to_owned()),
+            outline: Outline::new(vec![BezPath::from_svg(&svg).unwrap()]).unwrap(),
+            plates: Vec::new(),
+            advance: None,
+        }
+    }
+
+    fn medials(ends: impl Fn(f64) -> (f64, f64)) -> Vec<Drawn> {
+        let medial = |(i, letter): (u32, &&str)| {
+            let (left, right) = ends(f64::from(i) - 4.5);
+            drawn(&format!("uni{letter}.medi"), left, right)
+        };
+        (0..).zip(&LETTERS).map(medial).collect()
+    }
+
+    /// Every letter in a row of its own.
+    fn alone(drawn: &[Drawn]) -> Vec<f64> {
+        let rows: Vec<usize> = (0..drawn.len()).collect();
+        strays(drawn, &rows, 1000.0, &Options::default()).unwrap()
+    }
+
+    #[test]
+    fn what_both_ends_of_a_letter_have_in_common_is_its_stray() {
+        let mut page = medials(|i| (5.0 * i, 5.0 * i));
+        page.push(drawn("uni0628.fina", 200.0, 12.0));
+        page.push(drawn("uni0628", 200.0, 30.0));
+        let found = alone(&page);
+        let usual = 3.0; // the upper one of the two in the middle, rounded
+        for (i, stray) in (0..10).zip(&found) {
+            let wanted = 5.0 * (f64::from(i) - 4.5) - usual;
+            assert!((stray - wanted).abs() < 0.5, "{i}: {stray} {wanted}");
+        }
+        assert!((found[10] - (12.0 - usual)).abs() < 1.0, "{found:?}");
+        assert!(found[11].abs() < 1e-9, "nothing says where it belongs");
+    }
+
+    #[test]
+    fn strokes_that_vary_by_themselves_move_no_letter() {
+        let mut page = medials(|i| (5.0 * i, -5.0 * i));
+        page.push(drawn("uni0628.fina", 200.0, 12.0));
+        assert_eq!(alone(&page), vec![0.0; page.len()]);
+    }
+
+    #[test]
+    fn few_letters_tell_nothing() {
+        let page = &medials(|i| (5.0 * i, 5.0 * i))[..FEWEST - 1];
+        assert_eq!(alone(page), vec![0.0; page.len()]);
+    }
+
+    #[test]
+    fn a_row_is_moved_by_what_its_letters_share() {
+        let page: Vec<Drawn> = medials(|i| if i > 2.0 { (9.0, 10.0) } else { (0.0, 0.0) })
+            .into_iter()
+            .chain([drawn("uni0627", 200.0, 0.0), drawn("uni062F", 200.0, 0.0)])
+            .collect();
+        let rows = [0, 0, 0, 0, 0, 1, 1, 2, 2, 2, 2, 1];
+        let found = strays(&page, &rows, 1000.0, &Options::default()).unwrap();
+        let wanted = [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 9.0, 9.0, 9.0, 9.0, 0.0];
+        for (stray, wanted) in found.iter().zip(wanted) {
+            assert!((stray - wanted).abs() < 1.0, "{found:?}");
+        }
+    }
+
+    #[test]
+    fn cursive_letters_stay() {
+        let page = medials(|i| (5.0 * i, 5.0 * i));
+        let options = Options {
+            method: Method::Cursive,
+            ..Options::default()
+        };
+        let rows: Vec<usize> = (0..page.len()).collect();
+        assert_eq!(
+            strays(&page, &rows, 1000.0, &options).unwrap(),
+            vec![0.0; page.len()]
+        );
+    }
+}
