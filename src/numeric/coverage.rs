@@ -190,7 +190,7 @@ pub fn blur(samples: &mut Vec<f32>, width: usize, sigma_px: f64, margin: usize) 
         let ring = 2 * radius + 1;
         let mut along = vec![[0.0; LANES]; ring * blocks];
         // what the last rows of a block hold if they are even, and how many those are
-        let mut even = vec![(0.0, ring); blocks];
+        let mut even = vec![(0.0_f32, ring); blocks];
         let mut line = vec![0.0; 2 * radius + width.max(margin + blocks * LANES)];
         for y in 0..rows + radius {
             let newest = y % ring;
@@ -202,7 +202,8 @@ pub fn blur(samples: &mut Vec<f32>, width: usize, sigma_px: f64, margin: usize) 
                 let around = &line[margin + block * LANES..][..2 * radius + LANES];
                 let to = &mut along[newest * blocks + block];
                 if is_even(around) {
-                    let rows = if around[0] == even.0 { even.1 } else { 0 };
+                    let same = around[0].to_bits() == even.0.to_bits();
+                    let rows = if same { even.1 } else { 0 };
                     *even = (around[0], rows + 1);
                     *to = [around[0]; LANES];
                 } else {

@@ -2,7 +2,7 @@
 //!
 //! A piece of an edge that moves outwards adds ink in the pixel that it runs through, as much as its length times its way,
 //! and a lens spreads that. So no picture is drawn for a number: with `d` the ink that each number adds to the pixels along
-//! the edges, `G` the lens, and `r` what is left,  Jᵀr = −dᵀ G r  and  JᵀJ = dᵀ (Gᵀ G) d, of which `Gᵀ G` is a product of
+//! the edges, `G` the lens, and `r` what is left,  `Jᵀr = −dᵀ G r`  and  `JᵀJ = dᵀ (Gᵀ G) d`, of which `Gᵀ G` is a product of
 //! a factor a column and a factor a row. Exact but for the bend of an edge within a pixel.
 
 use super::{
@@ -55,7 +55,7 @@ impl Normal {
             .collect();
         out.add_pixels(window, &ways, now);
         out.add_anchors(window, &ways, now);
-        out.add_handles(window, chain, &moved, &ways, now);
+        out.add_handles(window, (chain, &moved), &ways, now);
         out
     }
 
@@ -106,8 +106,7 @@ impl Normal {
     fn add_handles(
         &mut self,
         window: &Window,
-        chain: &Chain,
-        moved: &[Chain],
+        (chain, moved): (&Chain, &[Chain]),
         ways: &[Vec<Way>],
         now: &Drawn,
     ) {
