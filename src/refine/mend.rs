@@ -35,6 +35,8 @@ const SAME_PX: f64 = 5.0;
 /// A node that went further than this, px, is followed by a window of its own, so many of them at most.
 const MOVED_PX: f64 = 2.0;
 const LOOKS: usize = 4;
+/// Places beside a change are looked at again, so often.
+const PASSES: usize = 2;
 /// How far the nodes around move, px, and what each px of the lens' deviation adds; and times this where that mends little.
 const REACH_PX: f64 = 6.0;
 const REACH_LENS: f64 = 2.0;
@@ -76,73 +78,124 @@ const HOME_PX: f64 = 2.0;
 pub(super) fn mended(residual: &Residual<'_>, paths: &[BezPath]) -> Vec<BezPath> {
     let read = |p: &BezPath| Chain::from_path(p, SMOOTH);
     let mut chains: Vec<Option<Chain>> = paths.iter().map(read).collect();
-    let mut out = paths.to_vec();
-    for (chain, path) in chains.iter_mut().zip(&mut out) {
-        let Some(chain) = chain else { continue };
-        if trim(chain, ONE_PX) {
-            *path = chain.to_path();
-        }
+    let ring = |(chain, path): (&mut Option<Chain>, &BezPath)| {
+        let trimmed = chain
+            .as_mut()
+            .and_then(|c| trim(c, ONE_PX).then(|| c.to_path()));
+        Ring::new(trimmed.unwrap_or_else(|| path.clone()))
+    };
+    let rings: Vec<Ring> = chains.iter_mut().zip(paths).map(ring).collect();
+    let residual = residual.against(rings.iter().map(|r| r.chords.as_slice()));
+    let mut work = Work {
+        wrong: Wrong::new(&residual),
+        reach: REACH_PX + REACH_LENS * residual.lens_px(),
+        residual,
+        chains,
+        rings,
+        changed: Vec::new(),
+    };
+    work.pass(None);
+    for _ in 1..PASSES {
+        let changed = std::mem::take(&mut work.changed);
+        work.pass(Some(&changed));
     }
-    let mut rings: Vec<Ring> = out.iter().map(Ring::new).collect();
-    let mut residual = residual.against(rings.iter().map(|r| r.chords.as_slice()));
-    let wrong = Wrong::new(&residual);
-    let mut tried: Vec<Point> = Vec::new();
-    for (k, p) in wrong.places(&residual, &rings) {
-        let left = residual.squares(p, NEAR_PX);
-        if left <= wrong.least || tried.iter().any(|q| q.distance(p) < SAME_PX) {
-            continue;
+    let finished = |(chain, ring): (Option<Chain>, Ring)| {
+        let Some(mut chain) = chain else {
+            return ring.path;
+        };
+        // sides that run close together do so for the pixels' sake now
+        let trimmed = trim(&mut chain, 0.0);
+        let before = chain.kinds.len();
+        divide_at_extrema(&mut chain, 0.0);
+        if trimmed || chain.kinds.len() > before {
+            chain.to_path()
+        } else {
+            ring.path
         }
-        if tried.len() == MOST {
-            break;
-        }
-        tried.push(p);
-        let reach = REACH_PX + REACH_LENS * residual.lens_px();
-        let mut next = Some(p);
-        for _ in 0..LOOKS {
-            let Some((at, chain)) = next.zip(chains[k].as_ref()) else {
+    };
+    work.chains
+        .into_iter()
+        .zip(work.rings)
+        .map(finished)
+        .collect()
+}
+
+/// Paths on their way.
+struct Work<'a> {
+    residual: Residual<'a>,
+    wrong: Wrong,
+    reach: f64,
+    /// those of which no chain could be read stay
+    chains: Vec<Option<Chain>>,
+    rings: Vec<Ring>,
+    /// where a chain was changed
+    changed: Vec<Point>,
+}
+
+impl Work<'_> {
+    /// Tries all places that are wrong, or of these those `beside` others.
+    fn pass(&mut self, beside: Option<&[Point]>) {
+        let mut tried: Vec<Point> = Vec::new();
+        for (k, p) in self.wrong.places(&self.residual, &self.rings) {
+            let near = |points: &[Point], px: f64| points.iter().any(|q| q.distance(p) < px);
+            let far = beside.is_some_and(|b| !near(b, WIDE * self.reach));
+            if far || self.left(p) <= self.wrong.least || near(&tried, SAME_PX) {
+                continue;
+            }
+            if tried.len() >= MOST {
                 break;
-            };
-            let others = (rings.as_slice(), k);
-            let place = Place { chain, at, others };
-            let mut reaches = [reach, WIDE * reach].into_iter();
-            let found = reaches.find_map(|reach| place.mended(&residual, &wrong, reach));
-            let Some(found) = found else { break };
-            found.window.write(&found.drawn, &mut residual);
-            out[k] = found.chain.to_path();
-            rings[k] = Ring::new(&out[k]);
-            chains[k] = Some(found.chain);
-            let left = |p: &Point| residual.squares(*p, NEAR_PX);
-            let worst = |p: &&Point| left(p) > wrong.least && p.distance(at) > MOVED_PX;
-            let moved = found.moved.iter().filter(worst);
-            next = moved.max_by(|a, b| left(a).total_cmp(&left(b))).copied();
+            }
+            let mut next = Some(p);
+            for _ in 0..LOOKS {
+                let Some(at) = next else { break };
+                tried.push(at);
+                next = self.change(k, at);
+            }
             tried.extend(next);
         }
     }
-    for (chain, path) in chains.iter_mut().zip(&mut out) {
-        let Some(chain) = chain else { continue };
-        // sides that run close together do so for the pixels' sake now
-        let trimmed = trim(chain, 0.0);
-        let before = chain.kinds.len();
-        divide_at_extrema(chain, 0.0);
-        if trimmed || chain.kinds.len() > before {
-            *path = chain.to_path();
-        }
+
+    /// Changes ring `k` around a place if that explains enough more; the worst of the nodes that went far for it.
+    fn change(&mut self, k: usize, at: Point) -> Option<Point> {
+        let others = (self.rings.as_slice(), k);
+        let chain = self.chains[k].as_ref()?;
+        let place = Place { chain, at, others };
+        let mut reaches = [self.reach, WIDE * self.reach].into_iter();
+        let found = reaches.find_map(|reach| place.mended(&self.residual, &self.wrong, reach))?;
+        found.window.write(&found.drawn, &mut self.residual);
+        self.rings[k] = Ring::new(found.chain.to_path());
+        self.chains[k] = Some(found.chain);
+        self.changed.push(at);
+        let worst = |p: &&Point| self.left(**p) > self.wrong.least && p.distance(at) > MOVED_PX;
+        let moved = found.moved.iter().filter(worst);
+        moved
+            .max_by(|a, b| self.left(**a).total_cmp(&self.left(**b)))
+            .copied()
     }
-    out
+
+    /// Squares around a place.
+    fn left(&self, p: Point) -> f64 {
+        self.residual.squares(p, NEAR_PX)
+    }
 }
 
 /// A closed path as chords that come back to its start.
 struct Ring {
+    path: BezPath,
     chords: Vec<Point>,
     bounds: Rect,
 }
 
 impl Ring {
-    fn new(path: &BezPath) -> Self {
-        let mut chords = polygon(path, CHORD_PX);
+    fn new(path: BezPath) -> Self {
+        let mut chords = polygon(&path, CHORD_PX);
         chords.extend(chords.first().copied());
         let bounds = path.bounding_box();
-        Self { chords, bounds }
+        Self {
+            path,
+            chords,
+            bounds,
+        }
     }
 }
 
