@@ -319,6 +319,36 @@ mod tests {
         );
     }
 
+    /// Each pixel from all of them.
+    fn slowly(s: &[f32], w: usize, sigma: f64) -> Vec<f32> {
+        let kernel = kernel(sigma);
+        let weight = |a: usize, b: usize| kernel.get(a.abs_diff(b)).copied().unwrap_or(0.0);
+        let at = |i: usize| {
+            let of = |(j, v): (usize, &f32)| v * weight(i % w, j % w) * weight(i / w, j / w);
+            s.iter().enumerate().map(of).sum()
+        };
+        (0..s.len()).map(at).collect()
+    }
+
+    #[test]
+    fn blur_is_a_sum_over_all_pixels() {
+        let (w, h) = (41, 23);
+        let (s, _) = area(w, h, &[(3.2, 2.1), (39.4, 5.0), (36.0, 20.7), (5.5, 21.6)]);
+        for (sigma, margin) in [(0.05, 2), (0.7, 0), (0.7, 3), (1.9, 0), (1.9, 7), (1.9, 12)] {
+            let whole = slowly(&s, w, sigma);
+            let wanted: Vec<f32> = (margin..h.saturating_sub(margin))
+                .flat_map(|y| &whole[y * w + margin..(y + 1) * w - margin])
+                .copied()
+                .collect();
+            let mut got = s.clone();
+            blur(&mut got, w, sigma, margin);
+            assert_eq!(got.len(), wanted.len(), "{sigma} {margin}");
+            let off = got.iter().zip(&wanted).map(|(a, b)| (a - b).abs());
+            let off = off.fold(0.0, f32::max);
+            assert!(off < 1e-5, "{sigma} {margin}: {off}");
+        }
+    }
+
     #[test]
     fn blur_keeps_the_sum() {
         let mut s = vec![0.0; 21 * 21];

@@ -346,3 +346,67 @@ impl Window {
             .get_or_init(|| Shared::new(size, self.margin, self.lens))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::numeric::{chain::Join, coverage::Coverage};
+    use crate::refine::{comparison::polygon, residual::Residual, window::numbers::numbers};
+    use crate::types::{Contour, Gray};
+    use kurbo::BezPath;
+
+    const SIZE: usize = 48;
+
+    fn drawn(ring: &[Point], lens: f64) -> Gray {
+        let mut fill = Coverage::new(SIZE, SIZE);
+        fill.add(ring);
+        let mut samples = fill.samples();
+        blur(&mut samples, SIZE, lens, 0);
+        Gray::new(SIZE, SIZE, samples).unwrap()
+    }
+
+    #[test]
+    fn slopes_are_those_of_the_squares() {
+        let read = |svg: &str| BezPath::from_svg(svg).unwrap();
+        let path =
+            read("M6.2 4.3L40.1 4.3C44.3 12.2 36.1 18.4 27.1 20.6L24.1 33.2L20.4 20.6L6.2 20.6Z");
+        let seen =
+            read("M6.2 4.3L40.3 4.3C43.9 12.6 36.9 18.6 27.4 20.1L24.5 34.1L20.2 20.9L6.2 20.6Z");
+        for lens in [0.0, 0.9] {
+            let gray = drawn(&polygon(&seen, 0.001), lens);
+            let ring = polygon(&path, 0.001);
+            let blur = Contour::PIXEL_BLUR_PX.hypot(lens);
+            let residual = Residual::new(&gray, std::iter::once(ring.as_slice()), blur);
+            let chain = Chain::from_path(&path, 0.0175).unwrap();
+            let (mut part, rest) = (chain.part(1..5), chain.part(5..chain.kinds.len()));
+            for i in [0, 4] {
+                part.nodes[i].join = Join::End;
+            }
+            part.settle();
+            let lines = [
+                polygon(&rest.to_path(), 0.001),
+                polygon(&chain.part(0..1).to_path(), 0.001),
+            ];
+            let place = (Point::new(24.0, 24.0), 24.0);
+            let lines = lines.iter().map(Vec::as_slice);
+            let window = Window::new(&residual, place, lines, &part, 1e-3);
+            let numbers = numbers(&part);
+            assert!(numbers.len() > 8, "{}", numbers.len());
+            let normal = Normal::new(&window, &part, &numbers, &window.drawn(&part));
+            for (number, slope) in numbers.iter().zip(&normal.slope) {
+                let sum = |by: f64| {
+                    let mut moved = part.clone();
+                    nudge(&mut moved, *number, by);
+                    moved.settle();
+                    window.drawn(&moved).sum
+                };
+                let wanted = (sum(-DELTA) - sum(DELTA)) / (4.0 * DELTA);
+                let off = (slope - wanted).abs();
+                assert!(
+                    off < 0.02 + 0.03 * wanted.abs(),
+                    "lens {lens}, {number:?}: {slope} {wanted}"
+                );
+            }
+        }
+    }
+}
