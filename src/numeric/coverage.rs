@@ -79,9 +79,27 @@ impl Coverage {
             if y1 <= y0 {
                 continue;
             }
-            let x = |y: f64| (a.0 + slope * (y - a.1)).clamp(0.0, right);
-            let (x0, x1) = (x(y0), x(y1));
-            self.run(row, (x0.min(x1), x0.max(x1)), sign * (y1 - y0));
+            let x = |y: f64| a.0 + slope * (y - a.1);
+            let (low, high) = (x(y0).min(x(y1)), x(y0).max(x(y1)));
+            let inside = (low.max(0.0), high.min(right));
+            if inside == (low, high) {
+                self.run(row, inside, sign * (y1 - y0));
+                continue;
+            }
+            // left of the picture an edge covers the whole row, right of it nothing
+            let wide = (high - low).max(f64::MIN_POSITIVE);
+            let height = |part: f64| sign * (y1 - y0) * (part / wide).clamp(0.0, 1.0);
+            if low < 0.0 {
+                let left = if high > 0.0 {
+                    height(-low)
+                } else {
+                    height(wide)
+                };
+                self.run(row, (0.0, 0.0), left);
+            }
+            if inside.0 < inside.1 {
+                self.run(row, inside, height(inside.1 - inside.0));
+            }
         }
     }
 
@@ -317,6 +335,46 @@ mod tests {
                 .0
                 .is_empty()
         );
+    }
+
+    #[test]
+    fn a_window_is_cut_out_of_the_whole() {
+        // edges that leave the window's sides within a row, in two rows, upright on a side and far beyond it
+        let ring = [
+            (3.2, 5.4),
+            (28.8, 6.1),
+            (30.0, 14.0),
+            (21.0, 14.5),
+            (22.6, 21.2),
+            (10.0, 25.9),
+            (10.0, 18.3),
+            (7.4, 19.9),
+            (1.7, 18.8),
+        ];
+        let (w, h) = (32, 30);
+        for ring in [ring.to_vec(), ring.into_iter().rev().collect()] {
+            let (whole, _) = area(w, h, &ring);
+            for (left, top, right, bottom) in [
+                (10, 4, 22, 27),
+                (4, 0, 29, 30),
+                (14, 9, 15, 26),
+                (31, 0, 32, 30),
+            ] {
+                let moved = |&(x, y): &(f64, f64)| (x - left as f64, y - (h - bottom) as f64);
+                let (cut, _) = area(
+                    right - left,
+                    bottom - top,
+                    &ring.iter().map(moved).collect::<Vec<_>>(),
+                );
+                let wanted = (top..bottom).flat_map(|y| &whole[y * w + left..y * w + right]);
+                let off = cut
+                    .iter()
+                    .zip(wanted)
+                    .map(|(a, b)| (a - b).abs())
+                    .fold(0.0, f32::max);
+                assert!(off < 1e-5, "{left} {top}: {off}");
+            }
+        }
     }
 
     /// Each pixel from all of them.
