@@ -11,7 +11,7 @@ use super::{
     window::{Drawn, Window},
 };
 use crate::numeric::{
-    chain::{Chain, Join},
+    chain::{Chain, Join, Kind},
     joins::{DEPTH_PX, divide_at_extrema, is_soft, keep_levels, sharpen, soften},
 };
 use kurbo::{BezPath, CubicBez, ParamCurve, ParamCurveNearest, Point, Rect, Shape, Vec2};
@@ -37,6 +37,8 @@ const MOVED_PX: f64 = 2.0;
 const LOOKS: usize = 4;
 /// Places beside a change are looked at again, so often.
 const PASSES: usize = 2;
+/// How precisely the nearest place on a curve is found, px.
+const NEAREST_PX: f64 = 1e-3;
 /// How far the nodes around move, px, and what each px of the lens' deviation adds; and times this where that mends little.
 const REACH_PX: f64 = 6.0;
 const REACH_LENS: f64 = 2.0;
@@ -61,15 +63,19 @@ const AXIS: f64 = 0.15;
 /// A smooth node does not turn by more than this, radians, in such a part of both its curves.
 const HIDDEN: f64 = 1.2;
 const BESIDE: f64 = 0.3;
-/// A curve leaves its chord by no more than this, radians; its handles do not pass the chord, and add up to no more than so
-/// many of it.
+/// A curve leaves its chord by no more than this, radians; each of its handles reaches no further along it than so many of
+/// the chord, and both together are no longer than so many.
 const HOOK: f64 = 1.75;
+const PAST: f64 = 1.1;
 const LONG: f64 = 2.0;
-/// No control point of a chain into which a part is put back moves further for it, px.
-const MOVES_PX: f64 = 0.4;
+/// A chain into which a part is put back stays if no control point moves further for it, px; with so many segments more at
+/// each side fit again, none moves further than this.
+const STAYS_PX: f64 = 0.02;
+const ALONG: usize = 2;
+const MOVES_PX: f64 = 0.1;
 /// No segment is shorter, px.
 const SHORT_PX: f64 = 0.25;
-/// A node is at home within so many reaches of its place, a tip within as many, or so near to a node that was there, px.
+/// A node is at home within so many reaches of its place, a tip within as many, or so near to the path that was there, px.
 const HOME: f64 = 1.5;
 const FAR: f64 = 3.0;
 const HOME_PX: f64 = 2.0;
@@ -162,10 +168,14 @@ impl Work<'_> {
         let place = Place { chain, at, others };
         let mut reaches = [self.reach, WIDE * self.reach].into_iter();
         let found = reaches.find_map(|reach| place.mended(&self.residual, &self.wrong, reach))?;
-        found.window.write(&found.drawn, &mut self.residual);
+        let bounds = changed(chain, &found.chain);
         self.rings[k] = Ring::new(found.chain.to_path());
         self.chains[k] = Some(found.chain);
         self.changed.push(at);
+        if let Some(bounds) = bounds {
+            let rings = self.rings.iter().map(|r| (r.bounds, r.chords.as_slice()));
+            self.residual.redraw(bounds, rings);
+        }
         let worst = |p: &&Point| self.left(**p) > self.wrong.least && p.distance(at) > MOVED_PX;
         let moved = found.moved.iter().filter(worst);
         moved
@@ -244,9 +254,6 @@ impl Wrong {
 /// A chain that explains more.
 struct Mended {
     chain: Chain,
-    /// what the change can touch, and what is left there
-    window: Window,
-    drawn: Drawn,
     /// nodes around the place
     moved: Vec<Point>,
 }
@@ -263,30 +270,13 @@ impl Place<'_> {
     /// The chain with the nodes within `reach` px of the place where the pixels have them, if that explains enough more.
     fn mended(&self, residual: &Residual<'_>, wrong: &Wrong, reach: f64) -> Option<Mended> {
         let (start, count) = self.run(reach)?;
-        let mut turned = self.chain.clone();
-        turned.nodes.rotate_left(start);
-        turned.kinds.rotate_left(start);
-        let n = turned.kinds.len();
-        let mut part = turned.part(0..count);
-        for i in [0, count] {
-            let join = &mut part.nodes[i].join;
-            *join = if *join == Join::Corner {
-                Join::End
-            } else {
-                Join::Clamped
-            };
-        }
-        let rest = polygon(&turned.part(count..n).to_path(), CHORD_PX);
-        let (rings, own) = self.others;
-        let window = |reach: f64| {
-            let around = Window::bounds(residual, (self.at, reach));
-            let others = rings.iter().enumerate();
-            let others = others.filter(|(k, r)| *k != own && r.bounds.overlaps(around));
-            let lines = others.map(|(_, r)| r.chords.as_slice()).chain([&*rest]);
-            Window::new(residual, (self.at, reach), lines, &part, wrong.grain)
+        let turned = turned(self.chain, start);
+        let part = open_part(&turned, count);
+        let around = |reach: f64, chain: &Chain, part: &Chain| {
+            self.window(residual, (chain, part), wrong, reach)
         };
         let left = residual.squares(self.at, NEAR_PX) - NEAR * wrong.grain;
-        let near = window(reach);
+        let near = around(reach, &turned, &part);
         let before = near.drawn(&part).squares;
         let (best, drawn) = self.best(&near, &part, wrong, reach)?;
         let enough = if tipped(&best) {
@@ -298,30 +288,77 @@ impl Place<'_> {
             return None;
         }
         // what went out of the window tells nothing in it
-        let window = window(FAR * reach);
+        let window = around(FAR * reach, &turned, &part);
         let drawn = window.drawn(&best);
-        if window.drawn(&part).squares - drawn.squares < enough {
+        let most = window.drawn(&part).squares - enough;
+        if drawn.squares > most {
             return None;
         }
         let inner = &best.nodes[1..best.kinds.len()];
         let moved = inner.iter().map(|n| n.point).collect();
-        let chain = put_back(turned, best, count)?;
-        Some(Mended {
-            chain,
-            window,
-            drawn,
-            moved,
-        })
+        let now = best.kinds.len();
+        let (chain, strayed) = put_back(turned.clone(), best, count)?;
+        if strayed < STAYS_PX {
+            return Some(Mended { chain, moved });
+        }
+        // a line took what is beside it along, which is fit with it
+        let beside = ALONG.min((turned.kinds.len() - count) / 2);
+        let back = |chain: &Chain| self::turned(chain, chain.kinds.len() - beside);
+        let (was, chain) = (back(&turned), back(&chain));
+        let part = open_part(&was, count + 2 * beside);
+        let mut best = open_part(&chain, now + 2 * beside);
+        let window = around(FAR * reach, &was, &part);
+        let most = window.drawn(&part).squares - enough;
+        let drawn = window.fit(&mut best, most);
+        if drawn.squares > most || !fair(&best) {
+            return None;
+        }
+        let (chain, strayed) = put_back(chain, best, now + 2 * beside)?;
+        (strayed < MOVES_PX).then_some(Mended { chain, moved })
+    }
+
+    /// The window in which a `part` moves, the first segments of a chain that is turned to begin with it.
+    fn window(
+        &self,
+        residual: &Residual<'_>,
+        (chain, part): (&Chain, &Chain),
+        wrong: &Wrong,
+        reach: f64,
+    ) -> Window {
+        let rest = chain.part(part.kinds.len()..chain.kinds.len());
+        let rest = polygon(&rest.to_path(), CHORD_PX);
+        let (rings, own) = self.others;
+        let around = Window::bounds(residual, (self.at, reach));
+        let others = rings.iter().enumerate();
+        let others = others.filter(|(k, r)| *k != own && r.bounds.overlaps(around));
+        let lines = others.map(|(_, r)| r.chords.as_slice()).chain([&*rest]);
+        Window::new(residual, (self.at, reach), lines, part, wrong.grain)
+    }
+
+    /// The first segment of those that may move, and how many they are: those that end in a node within `reach` px, and
+    /// what a line of them takes along.
+    fn run(&self, reach: f64) -> Option<(usize, usize)> {
+        let (first, count) = self.near(reach)?;
+        let chain = self.chain;
+        let n = chain.kinds.len();
+        let taken = |line: usize, end: usize| {
+            let along =
+                chain.kinds[line % n] == Kind::Line && chain.nodes[end % n].join.is_smooth();
+            usize::from(along && count + 2 <= n)
+        };
+        let before = taken(first, first);
+        let after = taken(first + count - 1, first + count);
+        Some(((first + n - before) % n, before + count + after))
     }
 
     /// The first segment of those that end in a node within `reach` px, in a row with the nearest one, and how many they are.
-    fn run(&self, reach: f64) -> Option<(usize, usize)> {
+    fn near(&self, reach: f64) -> Option<(usize, usize)> {
         let chain = self.chain;
         let n = chain.kinds.len();
         let off = |i: usize| chain.nodes[i % n].point.distance(self.at);
         let nearest = (0..n).min_by(|a, b| off(*a).total_cmp(&off(*b)))?;
         if off(nearest) >= reach {
-            let off = |i: &usize| chain.cubic(*i).nearest(self.at, 1e-3).distance_sq;
+            let off = |i: &usize| chain.cubic(*i).nearest(self.at, NEAREST_PX).distance_sq;
             let segment = (0..n).min_by(|a, b| off(a).total_cmp(&off(b)))?;
             return Some((segment, 1));
         }
@@ -396,24 +433,30 @@ impl Place<'_> {
         good.then_some((chain, drawn))
     }
 
-    /// Whether an outline may look like that: no curve hooks back, no corner turns back, no node lies astray.
+    /// Whether an outline may look like that, and no node lies astray.
     fn sound(&self, chain: &Chain, was: &Chain, reach: f64) -> bool {
-        let mut inner = 1..chain.kinds.len();
         let home = |i: usize| {
             let p = chain.nodes[i].point;
-            let mut old = was.nodes.iter().map(|n| n.point.distance(p));
             let far = if tip(chain, i).is_some() { FAR } else { HOME };
-            p.distance(self.at) < far * reach || old.any(|off| off < HOME_PX)
-        };
-        let open = |i: usize| {
-            if chain.nodes[i].join.is_smooth() {
-                turn(chain, i) < HIDDEN
-            } else {
-                !is_needle(chain, i)
+            p.distance(self.at) < far * reach || {
+                let off = |s: usize| was.cubic(s).nearest(p, NEAREST_PX).distance_sq;
+                (0..was.kinds.len()).any(|s| off(s) < HOME_PX * HOME_PX)
             }
         };
-        inner.all(|i| home(i) && open(i)) && (0..chain.kinds.len()).all(|i| runs_on(chain, i))
+        (1..chain.kinds.len()).all(home) && fair(chain)
     }
+}
+
+/// Whether an outline may look like that: no curve hooks back, no corner turns back.
+fn fair(chain: &Chain) -> bool {
+    let open = |i: usize| {
+        if chain.nodes[i].join.is_smooth() {
+            turn(chain, i) < HIDDEN
+        } else {
+            !is_needle(chain, i)
+        }
+    };
+    (1..chain.kinds.len()).all(open) && (0..chain.kinds.len()).all(|i| runs_on(chain, i))
 }
 
 /// Fits a chain, its extrema upright and level, and its soft corners smooth.
@@ -481,11 +524,23 @@ fn runs_on(chain: &Chain, i: usize) -> bool {
     let chord = c.p3 - c.p0;
     let off = |v: Vec2| v.cross(chord).atan2(v.dot(chord)).abs();
     let (start, end) = (c.p1 - c.p0, c.p3 - c.p2);
-    let within = |v: Vec2| off(v) < HOOK && v.dot(chord) <= chord.hypot2();
+    let within = |v: Vec2| off(v) < HOOK && v.dot(chord) <= PAST * chord.hypot2();
     chord.hypot() >= SHORT_PX
         && within(start)
         && within(end)
         && start.hypot() + end.hypot() < LONG * chord.hypot()
+}
+
+/// What the curves of a ring that another lacks take up, before and after, px.
+fn changed(before: &Chain, after: &Chain) -> Option<Rect> {
+    let curves = |c: &Chain| (0..c.kinds.len()).map(|i| c.cubic(i)).collect::<Vec<_>>();
+    let (before, after) = (curves(before), curves(after));
+    let lacking = |a: &[CubicBez], b: &[CubicBez]| {
+        let other = a.iter().filter(|c| !b.contains(c));
+        other.map(CubicBez::bounding_box).reduce(|a, b| a.union(b))
+    };
+    let both = [lacking(&before, &after), lacking(&after, &before)];
+    both.into_iter().flatten().reduce(|a, b| a.union(b))
 }
 
 /// How far the control points of two curves are apart at most, px.
@@ -497,8 +552,30 @@ fn apart(a: &CubicBez, b: &CubicBez) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// The chain with its first `count` segments as they are in `part`.
-fn put_back(mut chain: Chain, part: Chain, count: usize) -> Option<Chain> {
+/// A ring that begins with segment `start`.
+fn turned(chain: &Chain, start: usize) -> Chain {
+    let mut turned = chain.clone();
+    turned.nodes.rotate_left(start);
+    turned.kinds.rotate_left(start);
+    turned
+}
+
+/// The first segments of a ring as an open chain whose ends stay.
+fn open_part(chain: &Chain, count: usize) -> Chain {
+    let mut part = chain.part(0..count);
+    for i in [0, count] {
+        let join = &mut part.nodes[i].join;
+        *join = if *join == Join::Corner {
+            Join::End
+        } else {
+            Join::Clamped
+        };
+    }
+    part
+}
+
+/// The ring with its first `count` segments as they are in `part`, and by how much its control points stray from that, px.
+fn put_back(mut chain: Chain, part: Chain, count: usize) -> Option<(Chain, f64)> {
     let n = chain.kinds.len();
     let inner = (0..part.kinds.len()).map(|i| part.cubic(i));
     let wanted: Vec<CubicBez> = inner.chain((count..n).map(|i| chain.cubic(i))).collect();
@@ -525,7 +602,7 @@ fn put_back(mut chain: Chain, part: Chain, count: usize) -> Option<Chain> {
     }
     chain.settle();
     // a line takes what is beside it along
-    let as_wanted = |(i, c): (usize, &CubicBez)| apart(c, &chain.cubic(i)) < MOVES_PX;
-    let stays = wanted.iter().enumerate().all(as_wanted);
-    (stays && chain.to_path().is_finite()).then_some(chain)
+    let strayed = |(i, c): (usize, &CubicBez)| apart(c, &chain.cubic(i));
+    let strayed = wanted.iter().enumerate().map(strayed).fold(0.0, f64::max);
+    (chain.to_path().is_finite()).then_some((chain, strayed))
 }

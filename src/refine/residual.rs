@@ -3,14 +3,14 @@
 use crate::{
     numeric::{
         cast::index,
-        coverage::{Coverage, blur},
+        coverage::{Coverage, blur, kernel},
         levels::normalised,
         median::median,
     },
     types::{Contour, Gray},
 };
-use kurbo::{Point, Vec2};
-use std::{borrow::Cow, f64::consts::TAU, iter::successors};
+use kurbo::{Point, Rect, Vec2};
+use std::{borrow::Cow, f64::consts::TAU, iter::successors, ops::Range};
 
 /// The neighbourhood that moves an edge is at least this wide, px: narrower, it would hang on the one
 /// pixel that happens to be next.
@@ -148,11 +148,51 @@ impl Residual<'_> {
         &self.seen
     }
 
-    /// Puts other differences into the pixels from column `x` of row `y` (from the top) on.
-    pub(super) fn replace(&mut self, (x, y): (usize, usize), off: &[f32]) {
-        let at = y * self.seen.width() + x;
-        if let Some(to) = self.off.get_mut(at..at + off.len()) {
-            to.copy_from_slice(off);
+    /// The same against rings that have changed within `changed`, px, y up; each with its bounds and as a line that comes back
+    /// to its start.
+    pub(super) fn redraw<'r>(
+        &mut self,
+        changed: Rect,
+        rings: impl Iterator<Item = (Rect, &'r [Point])>,
+    ) {
+        let (w, h) = (self.seen.width(), self.seen.height());
+        let margin = kernel(self.lens).len();
+        let span = |from: f64, to: f64, n: usize| {
+            let from = index(from.max(0.0)).saturating_sub(2 * margin);
+            from..(index(to.max(0.0)) + 1 + 2 * margin).min(n)
+        };
+        let columns = span(changed.x0, changed.x1, w);
+        let rows = span(h as f64 - changed.y1, h as f64 - changed.y0, h);
+        let origin = Vec2::new(columns.start as f64, (h - rows.end) as f64);
+        if columns.is_empty() || rows.is_empty() {
+            return;
+        }
+        let mut fill = Coverage::new(columns.len(), rows.len());
+        let (width, height) = (columns.len() as f64, rows.len() as f64);
+        let around = Rect::from_origin_size(origin.to_point(), (width, height));
+        for (_, ring) in rings.filter(|(bounds, _)| bounds.overlaps(around)) {
+            fill.line(&ring.iter().map(|p| *p - origin).collect::<Vec<_>>());
+        }
+        let mut model = fill.samples();
+        blur(&mut model, columns.len(), self.lens, 0);
+        // what is missing beyond the picture's own sides is paper
+        let inner = |all: &Range<usize>, n: usize| {
+            let from = if all.start == 0 {
+                0
+            } else {
+                all.start + margin
+            };
+            from..if all.end == n { n } else { all.end - margin }
+        };
+        let (to_columns, to_rows) = (inner(&columns, w), inner(&rows, h));
+        for y in to_rows {
+            let from = (y - rows.start) * columns.len() + to_columns.start - columns.start;
+            let at = y * w + to_columns.start;
+            let model = &model[from..][..to_columns.len()];
+            let pairs = self.off[at..].iter_mut().zip(&self.seen.samples()[at..]);
+            pairs
+                .zip(model)
+                .for_each(|((off, seen), model)| *off = seen - model);
         }
     }
 
@@ -223,6 +263,20 @@ impl Residual<'_> {
     /// Radius of the neighbourhood that moves an edge, px.
     pub(super) fn reach_px(&self) -> f64 {
         2.5 * self.spread
+    }
+
+    /// Whether no other edge shares the neighbourhood of one through `p`; `outward` is its unit normal.
+    pub(super) fn is_alone(&self, p: Point, outward: Vec2) -> bool {
+        /// What is ink, and what is paper.
+        const PLAIN: (f32, f32) = (0.9, 0.1);
+        let (w, h) = (self.seen.width(), self.seen.height());
+        let model = |q: Point| {
+            let inside = (0.0..w as f64).contains(&q.x) && (0.0..h as f64).contains(&q.y);
+            let at = inside.then(|| (h - 1 - index(q.y)) * w + index(q.x));
+            at.map_or(0.0, |i| self.seen.samples()[i] - self.off[i])
+        };
+        let way = self.reach_px() * outward;
+        model(p - way) > PLAIN.0 && model(p + way) < PLAIN.1
     }
 
     /// How far outwards an edge through `p` must move, px; linear, good for fractions of a pixel.

@@ -5,7 +5,7 @@ use crate::numeric::{
     coverage::{Coverage, blur},
     joins::inner_extrema,
 };
-use kurbo::{BezPath, ParamCurve, ParamCurveNearest, PathSeg};
+use kurbo::{BezPath, ParamCurve, ParamCurveNearest, PathSeg, Shape};
 
 /// The picture of a polygon through a lens.
 fn picture(ring: &[Point], size: usize, lens: f64) -> Gray {
@@ -271,6 +271,67 @@ fn a_tip_that_was_cut_short_comes_out_again() {
         let off = apart(&got, &drawn);
         // of seven px; the squares of the last ones are too small to be looked at
         assert!(off < limit, "lens {lens}: {off} {}", got.to_svg());
+    }
+}
+
+#[test]
+fn a_long_line_gives_way_to_what_no_window_holds() {
+    // the edge leaves the line by a third of a pixel, over twice the width of the widest window
+    let slab = |top: &str| {
+        let text = format!(
+            "M6.2 4.3L113.1 4.3L113.1 30.2C113.1 35.9 109 40.2 103.3 40.2{top}C11.1 40.6 6.2 36.4 6.2 30.8Z"
+        );
+        BezPath::from_svg(&text).unwrap()
+    };
+    let drawn = slab("C73.2 40.2 46.4 40.6 16.5 40.6");
+    let line = slab("L16.5 40.2");
+    for lens in [0.0, 0.9] {
+        let gray = picture(&comparison::polygon(&drawn, 0.001), 120, lens);
+        let got = mended(&gray, &line, Contour::PIXEL_BLUR_PX.hypot(lens));
+        let off = apart(&got, &drawn);
+        assert!(off < 0.1, "lens {lens}: {off} {}", got.to_svg());
+    }
+}
+
+#[test]
+fn a_tip_whose_side_hooks_comes_out_again() {
+    let wedge = |side: &str| {
+        let text = format!("M6.2 4.3L42.1 4.3L42.1 12.6L31.1 12.6{side}L16.4 12.6L6.2 12.6Z");
+        BezPath::from_svg(&text).unwrap()
+    };
+    let drawn = wedge("C29.1 23 26 34 24.1 42.2");
+    let hooked = wedge("C29.4 22 28.4 38.1 23.1 37.6");
+    for lens in [0.0, 0.9] {
+        let gray = photograph(&drawn, lens);
+        let got = mended(&gray, &hooked, Contour::PIXEL_BLUR_PX.hypot(lens));
+        let off = apart(&got, &drawn);
+        assert!(off < 1.0, "lens {lens}: {off} {}", got.to_svg());
+    }
+}
+
+#[test]
+fn a_part_that_is_drawn_again_is_that_of_the_whole() {
+    let before = [square(), rounded(9.0)];
+    let after = [notched(15.0), rounded(9.0)];
+    let ring = |p: &BezPath| {
+        let mut ring = comparison::polygon(p, 0.01);
+        ring.extend(ring.first().copied());
+        (p.bounding_box(), ring)
+    };
+    let rings = |paths: &[BezPath]| paths.iter().map(ring).collect::<Vec<_>>();
+    let [old, new] = [rings(&before), rings(&after)];
+    for lens in [0.0, 0.9] {
+        let gray = photograph(&before[0], lens);
+        let blur = Contour::PIXEL_BLUR_PX.hypot(lens);
+        let first = Residual::new(&gray, old.iter().map(|r| r.1.as_slice()), blur);
+        let mut redrawn = first.against(old.iter().map(|r| r.1.as_slice()));
+        let whole = first.against(new.iter().map(|r| r.1.as_slice()));
+        let changed = old[0].0.union(new[0].0);
+        redrawn.redraw(changed, new.iter().map(|r| (r.0, r.1.as_slice())));
+        for at in circle(Point::new(24.0, 24.0), 20.0, 60) {
+            let [a, b] = [&redrawn, &whole].map(|r| r.squares(at, 4.0));
+            assert!((a - b).abs() < 1e-4, "lens {lens}, {at}: {a} {b}");
+        }
     }
 }
 

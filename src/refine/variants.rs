@@ -13,6 +13,8 @@ const CUTS_PX: [f64; 2] = [0.8, 2.0];
 const CUT: f64 = 0.4;
 /// So far from a smooth node its sides tell how sharp a corner would be, px.
 const SHARP_PX: f64 = 4.0;
+/// A corner whose sides turn by more than this on their last px is tried with sides that do not, radians.
+const HOOKED: f64 = 0.3;
 /// How much further out a tip is tried, as parts of the reach.
 const PULLS: [f64; 2] = [0.4, 0.8];
 /// The largest part of a line that is bent.
@@ -39,11 +41,17 @@ pub(super) fn variants(chain: &Chain, p: Point, reach: f64) -> Vec<Chain> {
                 out.push(cut(chain, i, px, Kind::Line));
                 out.push(cut(chain, i, px, Kind::Cubic));
             }
-            out.extend(
-                PULLS
-                    .iter()
-                    .filter_map(|part| pulled(chain, i, part * reach)),
-            );
+            let pulled = |c: &Chain, parts: &[f64]| {
+                let parts = parts.iter();
+                let out = parts.filter_map(|part| pulled(c, i, part * reach));
+                out.collect::<Vec<_>>()
+            };
+            out.extend(pulled(chain, &PULLS));
+            let sharp = sharp(chain, i);
+            if turned(&sharp.nodes[i], &chain.nodes[i]) > HOOKED {
+                out.extend(pulled(&sharp, &PULLS));
+                out.push(sharp);
+            }
         } else {
             out.extend([joined(chain, i, Join::Corner), sharp(chain, i)]);
         }
@@ -88,6 +96,12 @@ fn sharp(chain: &Chain, i: usize) -> Chain {
     (node.arrive, node.leave) = (unit(-way(before)), unit(way(reversed(&after))));
     (node.back, node.ahead) = (chord(&before), chord(&after));
     out
+}
+
+/// By how much the directions of a node differ from another's, radians.
+fn turned(a: &Node, b: &Node) -> f64 {
+    let turn = |u: Vec2, v: Vec2| u.cross(v).atan2(u.dot(v)).abs();
+    turn(a.arrive, b.arrive).max(turn(a.leave, b.leave))
 }
 
 /// With a curve in place of a line, or a line in place of a curve.

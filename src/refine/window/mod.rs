@@ -1,7 +1,7 @@
 //! A few nodes against the pixels around them, by least squares of the pixels themselves.
 //!
-//! Solves   min Σ (seen − blurred fill)² over the window's pixels + Σ (way the curves went beyond it)², over the numbers of
-//! the nodes inside. Gauss–Newton with Levenberg's damping ([`normal`]).
+//! Solves   min Σ (seen − blurred fill)² over the window's pixels + Σ (way of the curves from their edges beyond it)²,  over the
+//! numbers of the nodes inside. Gauss–Newton with Levenberg's damping ([`normal`]).
 //!
 //! Where an outline turns within the lens' reach no point of its contour tells where it is by itself: the picture of the
 //! whole place does.
@@ -29,6 +29,8 @@ const MOST_CHORDS: usize = 1000;
 /// Way along a curve beyond the window for one anchor, px, and how many there are on a curve at most.
 const STEP_PX: f64 = 2.0;
 const MOST_ANCHORS: f64 = 32.0;
+/// A place of the picture tells of an edge no further away, px.
+const SHIFT_PX: f64 = 1.0;
 /// Steps of the least squares.
 const STEPS: usize = 20;
 /// A step that lowers what is left beyond grain by less than this part, or the squares by less than this, is the last.
@@ -62,7 +64,7 @@ pub(super) struct Window {
     shared: OnceCell<Shared>,
 }
 
-/// Where a curve that moves ran beyond the window, and which way out of the ink.
+/// Where the edge of a curve that moves is beyond the window, and which way out of the ink.
 #[derive(Debug)]
 struct Anchor {
     at: Point,
@@ -125,7 +127,7 @@ impl Window {
         let pixels = rows.flat_map(|y| &seen.row(y)[columns.clone()]);
         let pairs = window.still.iter_mut().zip(pixels);
         pairs.for_each(|(still, seen)| *still = seen - *still);
-        window.drop_anchors(moving);
+        window.drop_anchors(residual, moving);
         window
     }
 
@@ -193,15 +195,6 @@ impl Window {
             }
         }
         now
-    }
-
-    /// Puts what is left into the window's place of the picture.
-    pub(super) fn write(&self, drawn: &Drawn, residual: &mut Residual<'_>) {
-        let (columns, rows) = self.inner();
-        let lines = drawn.left.chunks_exact(columns.len().max(1));
-        for (y, line) in rows.zip(lines) {
-            residual.replace((columns.start, y), line);
-        }
     }
 
     fn with(&self, chain: &Chain, chords: Vec<Vec<Point>>, feet: Vec<(usize, f64)>) -> Drawn {
@@ -292,7 +285,9 @@ impl Window {
             && (m..=self.rows.len() as f64 - m).contains(&q.y)
     }
 
-    fn drop_anchors(&mut self, chain: &Chain) {
+    /// Holds a chain beyond the window where the picture has the edge; near an end or another edge, where the picture tells of
+    /// more than that, where it runs.
+    fn drop_anchors(&mut self, residual: &Residual<'_>, chain: &Chain) {
         let blur = self.lens.hypot(Contour::PIXEL_BLUR_PX);
         for i in 0..chain.kinds.len() {
             let c = chain.cubic(i);
@@ -303,13 +298,22 @@ impl Window {
             for k in 0..count {
                 let t = (k as f64 + 0.5) / count as f64;
                 let (at, along) = (c.eval(t), c.deriv().eval(t).to_vec2());
-                if !self.holds(at) && along.hypot() > 1e-9 {
-                    self.anchors.push(Anchor {
-                        at,
-                        outward: Vec2::new(along.y, -along.x) / along.hypot(),
-                        weight,
-                    });
+                if self.holds(at) || along.hypot() <= 1e-9 {
+                    continue;
                 }
+                let outward = Vec2::new(along.y, -along.x) / along.hypot();
+                let room = at.distance(c.p0).min(at.distance(c.p3));
+                let alone = room > residual.reach_px() && residual.is_alone(at, outward);
+                let shift = if alone {
+                    residual.shift(at).clamp(-SHIFT_PX, SHIFT_PX)
+                } else {
+                    0.0
+                };
+                self.anchors.push(Anchor {
+                    at: at + shift * outward,
+                    outward,
+                    weight,
+                });
             }
         }
     }
