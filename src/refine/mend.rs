@@ -15,6 +15,7 @@ use crate::numeric::{
     joins::{DEPTH_PX, divide_at_extrema, is_soft, keep_levels, sharpen, soften},
 };
 use kurbo::{BezPath, CubicBez, ParamCurve, ParamCurveNearest, Point, Rect, Shape, Vec2};
+use std::mem;
 
 /// Directions that differ by less are one, radians.
 const SMOOTH: f64 = 0.0175;
@@ -102,7 +103,7 @@ pub(super) fn mended(residual: &Residual<'_>, paths: &[BezPath]) -> Vec<BezPath>
     };
     work.pass(None);
     for _ in 1..PASSES {
-        let changed = std::mem::take(&mut work.changed);
+        let changed = mem::take(&mut work.changed);
         work.pass(Some(&changed));
     }
     let finished = |(chain, ring): (Option<Chain>, Ring)| {
@@ -168,19 +169,27 @@ impl Work<'_> {
         let place = Place { chain, at, others };
         let mut reaches = [self.reach, WIDE * self.reach].into_iter();
         let found = reaches.find_map(|reach| place.mended(&self.residual, &self.wrong, reach))?;
-        let bounds = changed(chain, &found.chain);
-        self.rings[k] = Ring::new(found.chain.to_path());
+        let bounds = changed(chain, &found.chain)?;
+        let old = mem::replace(&mut self.rings[k], Ring::new(found.chain.to_path()));
+        if self.redraw(bounds) >= 0.0 {
+            // what held it beyond its window was wrong
+            self.rings[k] = old;
+            self.redraw(bounds);
+            return None;
+        }
         self.chains[k] = Some(found.chain);
         self.changed.push(at);
-        if let Some(bounds) = bounds {
-            let rings = self.rings.iter().map(|r| (r.bounds, r.chords.as_slice()));
-            self.residual.redraw(bounds, rings);
-        }
         let worst = |p: &&Point| self.left(**p) > self.wrong.least && p.distance(at) > MOVED_PX;
         let moved = found.moved.iter().filter(worst);
         moved
             .max_by(|a, b| self.left(**a).total_cmp(&self.left(**b)))
             .copied()
+    }
+
+    /// By how much the squares grow now that a ring has changed there.
+    fn redraw(&mut self, bounds: Rect) -> f64 {
+        let rings = self.rings.iter().map(|r| (r.bounds, r.chords.as_slice()));
+        self.residual.redraw(bounds, rings)
     }
 
     /// Squares around a place.

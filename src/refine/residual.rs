@@ -149,12 +149,12 @@ impl Residual<'_> {
     }
 
     /// The same against rings that have changed within `changed`, px, y up; each with its bounds and as a line that comes back
-    /// to its start.
+    /// to its start. By how much the sum of squared differences grows.
     pub(super) fn redraw<'r>(
         &mut self,
         changed: Rect,
         rings: impl Iterator<Item = (Rect, &'r [Point])>,
-    ) {
+    ) -> f64 {
         let (w, h) = (self.seen.width(), self.seen.height());
         let margin = kernel(self.lens).len();
         let span = |from: f64, to: f64, n: usize| {
@@ -165,7 +165,7 @@ impl Residual<'_> {
         let rows = span(h as f64 - changed.y1, h as f64 - changed.y0, h);
         let origin = Vec2::new(columns.start as f64, (h - rows.end) as f64);
         if columns.is_empty() || rows.is_empty() {
-            return;
+            return 0.0;
         }
         let mut fill = Coverage::new(columns.len(), rows.len());
         let (width, height) = (columns.len() as f64, rows.len() as f64);
@@ -185,15 +185,19 @@ impl Residual<'_> {
             from..if all.end == n { n } else { all.end - margin }
         };
         let (to_columns, to_rows) = (inner(&columns, w), inner(&rows, h));
+        let mut grown = 0.0;
         for y in to_rows {
             let from = (y - rows.start) * columns.len() + to_columns.start - columns.start;
             let at = y * w + to_columns.start;
             let model = &model[from..][..to_columns.len()];
             let pairs = self.off[at..].iter_mut().zip(&self.seen.samples()[at..]);
-            pairs
-                .zip(model)
-                .for_each(|((off, seen), model)| *off = seen - model);
+            for ((off, seen), model) in pairs.zip(model) {
+                let now = seen - model;
+                grown += f64::from(now * now - *off * *off);
+                *off = now;
+            }
         }
+        grown
     }
 
     /// Deviation of the lens' blur alone, px.
