@@ -159,7 +159,7 @@ impl Residual<'_> {
         let margin = kernel(self.lens).len();
         let span = |from: f64, to: f64, n: usize| {
             let from = index(from.max(0.0)).saturating_sub(2 * margin);
-            from..(index(to.max(0.0)) + 1 + 2 * margin).min(n)
+            from..index(to.max(0.0)).saturating_add(1 + 2 * margin).min(n)
         };
         let columns = span(changed.x0, changed.x1, w);
         let rows = span(h as f64 - changed.y1, h as f64 - changed.y0, h);
@@ -177,12 +177,9 @@ impl Residual<'_> {
         blur(&mut model, columns.len(), self.lens, 0);
         // what is missing beyond the picture's own sides is paper
         let inner = |all: &Range<usize>, n: usize| {
-            let from = if all.start == 0 {
-                0
-            } else {
-                all.start + margin
-            };
-            from..if all.end == n { n } else { all.end - margin }
+            let to = if all.end == n { n } else { all.end - margin };
+            let from = all.start + if all.start == 0 { 0 } else { margin };
+            from.min(to)..to
         };
         let (to_columns, to_rows) = (inner(&columns, w), inner(&rows, h));
         let mut grown = 0.0;

@@ -332,6 +332,12 @@ fn a_part_that_is_drawn_again_is_that_of_the_whole() {
             let [a, b] = [&redrawn, &whole].map(|r| r.squares(at, 4.0));
             assert!((a - b).abs() < 1e-4, "lens {lens}, {at}: {a} {b}");
         }
+        // nothing changes where nothing is, on the picture's side or far from it
+        for corner in [(-90.0, -90.0), (46.0, 46.0), (56.0, 56.0), (1e30, 1e30)] {
+            let side = kurbo::Rect::from_origin_size(corner, (3.0, 3.0));
+            let grown = redrawn.redraw(side, new.iter().map(|r| (r.0, r.1.as_slice())));
+            assert!(grown.abs() < 1e-6, "lens {lens}, {corner:?}: {grown}");
+        }
     }
 }
 
