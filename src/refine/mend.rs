@@ -5,6 +5,7 @@
 
 use super::{
     comparison::polygon,
+    part::{begun_at, changed, open_part, put_back},
     residual::Residual,
     tips::{ONE_PX, is_needle, tip, trim},
     variants::variants,
@@ -14,7 +15,7 @@ use crate::numeric::{
     chain::{Chain, Join, Kind},
     joins::{DEPTH_PX, divide_at_extrema, is_soft, keep_levels, sharpen, soften},
 };
-use kurbo::{BezPath, CubicBez, ParamCurve, ParamCurveNearest, Point, Rect, Shape, Vec2};
+use kurbo::{BezPath, ParamCurve, ParamCurveNearest, Point, Rect, Shape, Vec2};
 use std::mem;
 
 /// Directions that differ by less are one, radians.
@@ -279,13 +280,13 @@ impl Place<'_> {
     /// The chain with the nodes within `reach` px of the place where the pixels have them, if that explains enough more.
     fn mended(&self, residual: &Residual<'_>, wrong: &Wrong, reach: f64) -> Option<Mended> {
         let (start, count) = self.run(reach)?;
-        let turned = turned(self.chain, start);
-        let part = open_part(&turned, count);
+        let ring = begun_at(self.chain, start);
+        let part = open_part(&ring, count);
         let around = |reach: f64, chain: &Chain, part: &Chain| {
             self.window(residual, (chain, part), wrong, reach)
         };
         let left = residual.squares(self.at, NEAR_PX) - NEAR * wrong.grain;
-        let near = around(reach, &turned, &part);
+        let near = around(reach, &ring, &part);
         let before = near.drawn(&part).squares;
         let (best, drawn) = self.best(&near, &part, wrong, reach)?;
         let enough = if tipped(&best) {
@@ -297,7 +298,7 @@ impl Place<'_> {
             return None;
         }
         // what went out of the window tells nothing in it
-        let window = around(FAR * reach, &turned, &part);
+        let window = around(FAR * reach, &ring, &part);
         let drawn = window.drawn(&best);
         let most = window.drawn(&part).squares - enough;
         if drawn.squares > most {
@@ -306,14 +307,14 @@ impl Place<'_> {
         let inner = &best.nodes[1..best.kinds.len()];
         let moved = inner.iter().map(|n| n.point).collect();
         let now = best.kinds.len();
-        let (chain, strayed) = put_back(turned.clone(), best, count)?;
+        let (chain, strayed) = put_back(ring.clone(), best, count)?;
         if strayed < STAYS_PX {
             return Some(Mended { chain, moved });
         }
         // a line took what is beside it along, which is fit with it
-        let beside = ALONG.min((turned.kinds.len() - count) / 2);
-        let back = |chain: &Chain| self::turned(chain, chain.kinds.len() - beside);
-        let (was, chain) = (back(&turned), back(&chain));
+        let beside = ALONG.min((ring.kinds.len() - count) / 2);
+        let back = |chain: &Chain| begun_at(chain, chain.kinds.len() - beside);
+        let (was, chain) = (back(&ring), back(&chain));
         let part = open_part(&was, count + 2 * beside);
         let mut best = open_part(&chain, now + 2 * beside);
         let window = around(FAR * reach, &was, &part);
@@ -538,80 +539,4 @@ fn runs_on(chain: &Chain, i: usize) -> bool {
         && within(start)
         && within(end)
         && start.hypot() + end.hypot() < LONG * chord.hypot()
-}
-
-/// What the curves of a ring that another lacks take up, before and after, px.
-fn changed(before: &Chain, after: &Chain) -> Option<Rect> {
-    let curves = |c: &Chain| (0..c.kinds.len()).map(|i| c.cubic(i)).collect::<Vec<_>>();
-    let (before, after) = (curves(before), curves(after));
-    let lacking = |a: &[CubicBez], b: &[CubicBez]| {
-        let other = a.iter().filter(|c| !b.contains(c));
-        other.map(CubicBez::bounding_box).reduce(|a, b| a.union(b))
-    };
-    let both = [lacking(&before, &after), lacking(&after, &before)];
-    both.into_iter().flatten().reduce(|a, b| a.union(b))
-}
-
-/// How far the control points of two curves are apart at most, px.
-fn apart(a: &CubicBez, b: &CubicBez) -> f64 {
-    let pairs = [(a.p0, b.p0), (a.p1, b.p1), (a.p2, b.p2), (a.p3, b.p3)];
-    pairs
-        .iter()
-        .map(|(p, q)| p.distance(*q))
-        .fold(0.0, f64::max)
-}
-
-/// A ring that begins with segment `start`.
-fn turned(chain: &Chain, start: usize) -> Chain {
-    let mut turned = chain.clone();
-    turned.nodes.rotate_left(start);
-    turned.kinds.rotate_left(start);
-    turned
-}
-
-/// The first segments of a ring as an open chain whose ends stay.
-fn open_part(chain: &Chain, count: usize) -> Chain {
-    let mut part = chain.part(0..count);
-    for i in [0, count] {
-        let join = &mut part.nodes[i].join;
-        *join = if *join == Join::Corner {
-            Join::End
-        } else {
-            Join::Clamped
-        };
-    }
-    part
-}
-
-/// The ring with its first `count` segments as they are in `part`, and by how much its control points stray from that, px.
-fn put_back(mut chain: Chain, part: Chain, count: usize) -> Option<(Chain, f64)> {
-    let n = chain.kinds.len();
-    let inner = (0..part.kinds.len()).map(|i| part.cubic(i));
-    let wanted: Vec<CubicBez> = inner.chain((count..n).map(|i| chain.cubic(i))).collect();
-    let (mut nodes, kinds) = (part.nodes, part.kinds);
-    let last = nodes.pop()?;
-    let own = chain.nodes[0];
-    let first = nodes.first_mut()?;
-    first.join = own.join;
-    let end = if count < n {
-        (first.arrive, first.back) = (own.arrive, own.back);
-        let node = &mut chain.nodes[count];
-        (node.arrive, node.back) = (last.arrive, last.back);
-        kinds.len()
-    } else {
-        (first.arrive, first.back) = (last.arrive, last.back);
-        0
-    };
-    chain.nodes.splice(0..count, nodes);
-    chain.kinds.splice(0..count, kinds);
-    for i in [0, end] {
-        if is_soft(&chain, i) {
-            soften(&mut chain.nodes[i]);
-        }
-    }
-    chain.settle();
-    // a line takes what is beside it along
-    let strayed = |(i, c): (usize, &CubicBez)| apart(c, &chain.cubic(i));
-    let strayed = wanted.iter().enumerate().map(strayed).fold(0.0, f64::max);
-    (chain.to_path().is_finite()).then_some((chain, strayed))
 }

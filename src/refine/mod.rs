@@ -16,6 +16,7 @@ mod comparison;
 mod corners;
 mod mend;
 mod nodes;
+mod part;
 mod residual;
 #[cfg(test)]
 mod tests;

@@ -48,7 +48,7 @@ pub(super) fn variants(chain: &Chain, p: Point, reach: f64) -> Vec<Chain> {
             };
             out.extend(pulled(chain, &PULLS));
             let sharp = sharp(chain, i);
-            if turned(&sharp.nodes[i], &chain.nodes[i]) > HOOKED {
+            if turning(&sharp.nodes[i], &chain.nodes[i]) > HOOKED {
                 out.extend(pulled(&sharp, &PULLS));
                 out.push(sharp);
             }
@@ -99,7 +99,7 @@ fn sharp(chain: &Chain, i: usize) -> Chain {
 }
 
 /// By how much the directions of a node differ from another's, radians.
-fn turned(a: &Node, b: &Node) -> f64 {
+fn turning(a: &Node, b: &Node) -> f64 {
     let turn = |u: Vec2, v: Vec2| u.cross(v).atan2(u.dot(v)).abs();
     turn(a.arrive, b.arrive).max(turn(a.leave, b.leave))
 }
