@@ -24,14 +24,14 @@ pub struct Doubts {
 
 /// The grey picture beside fitted paths.
 #[derive(Debug)]
-pub struct Comparison {
-    residual: Residual<'static>,
+pub struct Comparison<'g> {
+    residual: Residual<'g>,
 }
 
-impl Comparison {
+impl<'g> Comparison<'g> {
     /// The picture against the fill of `paths`, both blurred by `blur_px`.
     #[must_use]
-    pub fn new(gray: &Gray, paths: &[BezPath], blur_px: f64) -> Self {
+    pub fn new(gray: &'g Gray, paths: &[BezPath], blur_px: f64) -> Self {
         let rings = polygons(paths);
         Self {
             residual: Residual::new(gray, rings.iter().map(Vec::as_slice), blur_px),

@@ -37,8 +37,10 @@ const SAME_PX: f64 = 5.0;
 /// A node that went further than this, px, is followed by a window of its own, so many of them at most.
 const MOVED_PX: f64 = 2.0;
 const LOOKS: usize = 4;
-/// Places beside a change are looked at again, so often.
-const PASSES: usize = 2;
+/// Places are looked at so often, each time with the levels of ink and paper that the paths leave then.
+const PASSES: usize = 4;
+/// One that was tried in vain is looked at again beside a change, or where the squares have changed by such a part.
+const NEW: f64 = 0.01;
 /// How precisely the nearest place on a curve is found, px.
 const NEAREST_PX: f64 = 1e-3;
 /// How far the nodes around move, px, and what each px of the lens' deviation adds; and times this where that mends little.
@@ -100,12 +102,15 @@ pub(super) fn mended(residual: &Residual<'_>, paths: &[BezPath]) -> Vec<BezPath>
         residual,
         chains,
         rings,
-        changed: Vec::new(),
+        vain: Vec::new(),
     };
-    work.pass(None);
+    work.pass();
     for _ in 1..PASSES {
-        let changed = mem::take(&mut work.changed);
-        work.pass(Some(&changed));
+        // what a path does not follow yet passes for a level
+        work.residual.level();
+        if !work.pass() {
+            break;
+        }
     }
     let finished = |(chain, ring): (Option<Chain>, Ring)| {
         let Some(mut chain) = chain else {
@@ -136,18 +141,17 @@ struct Work<'a> {
     /// those of which no chain could be read stay
     chains: Vec<Option<Chain>>,
     rings: Vec<Ring>,
-    /// where a chain was changed
-    changed: Vec<Point>,
+    /// places that were tried in vain, and the squares around them then
+    vain: Vec<(Point, f64)>,
 }
 
 impl Work<'_> {
-    /// Tries all places that are wrong, or of these those `beside` others.
-    fn pass(&mut self, beside: Option<&[Point]>) {
-        let mut tried: Vec<Point> = Vec::new();
+    /// Tries the places that are wrong, but not again where nothing is new; whether any was changed.
+    fn pass(&mut self) -> bool {
+        let near = |points: &[Point], p: Point, px: f64| points.iter().any(|q| q.distance(p) < px);
+        let (mut tried, mut changed) = (Vec::new(), Vec::new());
         for (k, p) in self.wrong.places(&self.residual, &self.rings) {
-            let near = |points: &[Point], px: f64| points.iter().any(|q| q.distance(p) < px);
-            let far = beside.is_some_and(|b| !near(b, WIDE * self.reach));
-            if far || self.left(p) <= self.wrong.least || near(&tried, SAME_PX) {
+            if self.left(p) <= self.wrong.least || near(&tried, p, SAME_PX) || self.is_known(p) {
                 continue;
             }
             if tried.len() >= MOST {
@@ -157,14 +161,33 @@ impl Work<'_> {
             for _ in 0..LOOKS {
                 let Some(at) = next else { break };
                 tried.push(at);
-                next = self.change(k, at);
+                self.vain.retain(|(q, _)| q.distance(at) >= SAME_PX);
+                let left = self.left(at);
+                next = None;
+                if let Some(moved) = self.change(k, at) {
+                    changed.push(at);
+                    next = moved;
+                } else {
+                    self.vain.push((at, left));
+                }
             }
             tried.extend(next);
         }
+        let beside = WIDE * self.reach;
+        self.vain.retain(|(p, _)| !near(&changed, *p, beside));
+        !changed.is_empty()
     }
 
-    /// Changes ring `k` around a place if that explains enough more; the worst of the nodes that went far for it.
-    fn change(&mut self, k: usize, at: Point) -> Option<Point> {
+    /// Whether a place was tried in vain as it is.
+    fn is_known(&self, p: Point) -> bool {
+        let same = |(q, left): &(Point, f64)| {
+            q.distance(p) < SAME_PX && (self.left(*q) - left).abs() < NEW * left
+        };
+        self.vain.iter().any(same)
+    }
+
+    /// Changes ring `k` around a place if that explains enough more; then the worst of the nodes that went far for it.
+    fn change(&mut self, k: usize, at: Point) -> Option<Option<Point>> {
         let others = (self.rings.as_slice(), k);
         let chain = self.chains[k].as_ref()?;
         let place = Place { chain, at, others };
@@ -179,12 +202,10 @@ impl Work<'_> {
             return None;
         }
         self.chains[k] = Some(found.chain);
-        self.changed.push(at);
         let worst = |p: &&Point| self.left(**p) > self.wrong.least && p.distance(at) > MOVED_PX;
         let moved = found.moved.iter().filter(worst);
-        moved
-            .max_by(|a, b| self.left(**a).total_cmp(&self.left(**b)))
-            .copied()
+        let worst = moved.max_by(|a, b| self.left(**a).total_cmp(&self.left(**b)));
+        Some(worst.copied())
     }
 
     /// By how much the squares grow now that a ring has changed there.

@@ -64,7 +64,8 @@ impl Blot {
 /// Picture minus model.
 #[derive(Debug)]
 pub(super) struct Residual<'g> {
-    /// the picture's coverage
+    gray: &'g Gray,
+    /// its coverage, ink and paper levelled
     seen: Cow<'g, Gray>,
     /// picture minus model, row by row from the top
     off: Vec<f32>,
@@ -78,10 +79,10 @@ pub(super) struct Residual<'g> {
     gain: f64,
 }
 
-impl Residual<'static> {
+impl<'g> Residual<'g> {
     /// The picture against the fill of `rings`, both blurred by `blur_px` with the pixel's own box.
     pub(super) fn new<'r>(
-        gray: &Gray,
+        gray: &'g Gray,
         rings: impl Iterator<Item = &'r [Point]>,
         blur_px: f64,
     ) -> Self {
@@ -94,6 +95,7 @@ impl Residual<'static> {
         // with the edges known, pixels up to them say what ink and paper are
         let seen = normalised(gray.samples(), gray.width(), &off);
         let mut residual = Self {
+            gray,
             seen: Cow::Owned(gray.with_samples(seen)),
             off,
             fill,
@@ -119,6 +121,16 @@ impl Residual<'_> {
         };
         residual.update(rings);
         residual
+    }
+
+    /// The levels of ink and paper once more, from the pixels that the rings as they are now leave to one of them.
+    pub(super) fn level(&mut self) {
+        let pairs = self.off.iter().zip(self.seen.samples());
+        let model: Vec<f32> = pairs.map(|(off, seen)| seen - off).collect();
+        let seen = normalised(self.gray.samples(), self.gray.width(), &model);
+        self.seen = Cow::Owned(self.gray.with_samples(seen));
+        self.off = model;
+        self.compare();
     }
 
     /// The same picture against other rings that hardly differ: levels of ink and paper stay.
