@@ -7,7 +7,7 @@ use super::{
     comparison::polygon,
     part::{begun_at, changed, open_part, put_back},
     residual::Residual,
-    tips::{ONE_PX, is_needle, tip, trim},
+    tips::{ONE_PX, beyond, is_needle, tip, trim},
     variants::variants,
     window::{Drawn, Window},
 };
@@ -106,8 +106,9 @@ pub(super) fn mended(residual: &Residual<'_>, paths: &[BezPath]) -> Vec<BezPath>
     };
     work.pass();
     for _ in 1..PASSES {
-        // what a path does not follow yet passes for a level
-        work.residual.level();
+        // what a path does not follow yet has passed for a level
+        let chains = work.chains.iter().flatten();
+        work.residual.level(chains.flat_map(beyond));
         if !work.pass() {
             break;
         }

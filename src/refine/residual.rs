@@ -9,7 +9,7 @@ use crate::{
     },
     types::{Contour, Gray},
 };
-use kurbo::{Point, Rect, Vec2};
+use kurbo::{Line, ParamCurveNearest, Point, Rect, Vec2};
 use std::{borrow::Cow, f64::consts::TAU, iter::successors, ops::Range};
 
 /// The neighbourhood that moves an edge is at least this wide, px: narrower, it would hang on the one
@@ -123,13 +123,29 @@ impl Residual<'_> {
         residual
     }
 
-    /// The levels of ink and paper once more, from the pixels that the rings as they are now leave to one of them.
-    pub(super) fn level(&mut self) {
+    /// The levels of ink and paper once more, from the pixels that the rings as they are now leave to one of them. Pixels
+    /// along the lines `open` tell nothing.
+    pub(super) fn level(&mut self, open: impl Iterator<Item = Line>) {
+        /// Half the width of those lines, px.
+        const OPEN_PX: f64 = 2.0;
+        let (w, h) = (self.seen.width(), self.seen.height());
         let pairs = self.off.iter().zip(self.seen.samples());
-        let model: Vec<f32> = pairs.map(|(off, seen)| seen - off).collect();
-        let seen = normalised(self.gray.samples(), self.gray.width(), &model);
+        self.off = pairs.map(|(off, seen)| seen - off).collect();
+        let mut told = self.off.clone();
+        for line in open {
+            let around = Rect::from_points(line.p0, line.p1).inflate(OPEN_PX, OPEN_PX);
+            let span = |from: f64, to: f64, n: usize| index(from)..index(to + 1.0).min(n);
+            for y in span(h as f64 - around.y1, h as f64 - around.y0, h) {
+                for x in span(around.x0, around.x1, w) {
+                    let p = Point::new(x as f64 + 0.5, (h - y) as f64 - 0.5);
+                    if line.nearest(p, 0.0).distance_sq < OPEN_PX * OPEN_PX {
+                        told[y * w + x] = 0.5;
+                    }
+                }
+            }
+        }
+        let seen = normalised(self.gray.samples(), w, &told);
         self.seen = Cow::Owned(self.gray.with_samples(seen));
-        self.off = model;
         self.compare();
     }
 

@@ -1,11 +1,11 @@
-use super::*;
+use super::{part::open_part, *};
 use crate::numeric::{
     cast::index,
-    chain::Chain,
+    chain::{Chain, Node},
     coverage::{Coverage, blur},
     joins::inner_extrema,
 };
-use kurbo::{BezPath, ParamCurve, ParamCurveNearest, PathSeg, Shape};
+use kurbo::{BezPath, Line, ParamCurve, ParamCurveNearest, PathSeg, Shape};
 use std::iter::once;
 
 /// The picture of a polygon through a lens.
@@ -313,6 +313,31 @@ fn a_tip_whose_side_hooks_comes_out_again() {
 }
 
 #[test]
+fn a_hooked_tip_is_tried_with_sides_that_do_not_turn() {
+    let hooked =
+        BezPath::from_svg("M42.1 12.6L31.1 12.6C29.4 22 28.4 38.1 23.1 37.6L16.4 12.6L6.2 12.6Z");
+    let chain = Chain::from_path(&hooked.unwrap(), 0.0175).unwrap();
+    let part = open_part(&chain, 4);
+    let tip = Point::new(23.1, 37.6);
+    let i = part.nodes.iter().position(|n| n.point == tip).unwrap();
+    let side = (tip - Point::new(26.6, 33.2)).normalize();
+    let leads = |c: &Chain| {
+        let node = c.nodes.iter().min_by(|a, b| {
+            let off = |n: &&Node| n.point.distance(tip);
+            off(a).total_cmp(&off(b))
+        });
+        node.unwrap().arrive.dot(side)
+    };
+    assert!(part.nodes[i].arrive.dot(side) < 0.8);
+    let tried = variants::variants(&part, tip, 8.0);
+    assert!(
+        tried
+            .iter()
+            .any(|c| c.kinds == part.kinds && leads(c) > 0.95)
+    );
+}
+
+#[test]
 fn levels_are_those_that_the_rings_leave() {
     // a slit that the first model did not know passes for paler ink
     let slit = |tip: f64| {
@@ -327,11 +352,17 @@ fn levels_are_those_that_the_rings_leave() {
     let first = Residual::new(&gray, once(short.as_slice()), blur);
     let mut now = first.against(once(drawn.as_slice()));
     let before = left(&now);
-    now.level();
+    now.level(std::iter::empty());
     let after = left(&now);
     let known = left(&Residual::new(&gray, once(drawn.as_slice()), blur));
     assert!(after < 0.05 * before, "{before} {after}");
     assert!((after - known).abs() < 1e-6, "{after} {known}");
+    // nor does it where that model says that it may go on
+    let mut doubted = first.against(once(short.as_slice()));
+    let before = left(&doubted);
+    doubted.level(once(Line::new((24.6, 40.0), (24.6, 10.0))));
+    let after = left(&doubted);
+    assert!(after > 1.3 * before, "{before} {after}");
 }
 
 #[test]

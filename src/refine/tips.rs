@@ -15,6 +15,8 @@ use kurbo::{CubicBez, Line, ParamCurve, ParamCurveNearest, Point, Vec2};
 
 /// A corner is a tip if it turns by more, as the distance of its sides' unit vectors: 106°.
 const ACUTE: f64 = 1.6;
+/// And so far it may go on where it was cut short, px.
+const ONWARD_PX: f64 = 10.0;
 /// A tip whose sides differ by less, radians, is a needle, and where they are looked at, px.
 const NEEDLE: f64 = 0.04;
 const BEHIND_PX: f64 = 4.0;
@@ -38,6 +40,15 @@ pub(super) fn tip(chain: &Chain, i: usize) -> Option<(Vec2, Vec2)> {
     );
     let acute = chain.nodes[i].join == Join::Corner && (u - v).hypot() > ACUTE;
     acute.then_some((u, v))
+}
+
+/// Where the tips of a chain may go on.
+pub(super) fn beyond(chain: &Chain) -> impl Iterator<Item = Line> {
+    (0..chain.nodes.len()).filter_map(|i| {
+        let (arrive, leave) = tip(chain, i)?;
+        let at = chain.nodes[i].point;
+        Some(Line::new(at, at + ONWARD_PX * unit(arrive - leave)))
+    })
 }
 
 /// Whether the sides of corner `i` of an open chain run on as one.

@@ -366,3 +366,41 @@ fn dot(a: &[f32], b: &[f32]) -> f64 {
     }
     rest + sums.iter().map(|s| f64::from(*s)).sum::<f64>()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::refine::{comparison::polygon, part::open_part};
+    use kurbo::BezPath;
+    use std::iter::once;
+
+    #[test]
+    fn what_lies_beyond_a_window_is_held_where_the_picture_has_it() {
+        // a long edge that swells by a third of a pixel, of which the window shows the middle
+        let slab = |y: f64| {
+            let text =
+                format!("M110 40.2C93 40.2 77 {y} 60 {y}C43 {y} 27 40.2 10 40.2L10 10.2L110 10.2Z");
+            BezPath::from_svg(&text).unwrap()
+        };
+        let (drawn, path) = (slab(40.2), slab(40.5));
+        let at = Point::new(60.0, 40.2);
+        for lens in [0.0, 0.9] {
+            let mut fill = Coverage::new(120, 50);
+            fill.add(&polygon(&drawn, 0.001));
+            let mut samples = fill.samples();
+            blur(&mut samples, 120, lens, 0);
+            let gray = crate::types::Gray::new(120, 50, samples).unwrap();
+            let ring = polygon(&path, 0.001);
+            let blur = Contour::PIXEL_BLUR_PX.hypot(lens);
+            let residual = Residual::new(&gray, once(ring.as_slice()), blur);
+            let chain = Chain::from_path(&path, 0.0175).unwrap();
+            let mut part = open_part(&chain, 2);
+            let rest = polygon(&chain.part(2..chain.kinds.len()).to_path(), 0.001);
+            let window = Window::new(&residual, (at, 8.0), once(rest.as_slice()), &part, 1e-4);
+            window.fit(&mut part, f64::INFINITY);
+            let bulge = polygon(&part.to_path(), 0.001);
+            let bulge = bulge.iter().map(|p| (p.y - 40.2).abs()).fold(0.0, f64::max);
+            assert!(bulge < 0.05, "lens {lens}: {bulge}");
+        }
+    }
+}
