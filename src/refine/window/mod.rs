@@ -371,6 +371,7 @@ fn dot(a: &[f32], b: &[f32]) -> f64 {
 mod tests {
     use super::*;
     use crate::refine::{comparison::polygon, part::open_part};
+    use crate::types::Gray;
     use kurbo::BezPath;
     use std::iter::once;
 
@@ -389,7 +390,7 @@ mod tests {
             fill.add(&polygon(&drawn, 0.001));
             let mut samples = fill.samples();
             blur(&mut samples, 120, lens, 0);
-            let gray = crate::types::Gray::new(120, 50, samples).unwrap();
+            let gray = Gray::new(120, 50, samples).unwrap();
             let ring = polygon(&path, 0.001);
             let blur = Contour::PIXEL_BLUR_PX.hypot(lens);
             let residual = Residual::new(&gray, once(ring.as_slice()), blur);
