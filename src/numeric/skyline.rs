@@ -47,6 +47,17 @@ impl Skyline {
         }
     }
 
+    /// Adds `by` times `values`, those of the columns from the first on, to row `i` up to its diagonal. What lies outside the
+    /// envelope is passed over.
+    pub fn add_row(&mut self, i: usize, values: &[f64], by: f64) {
+        if i < self.len() {
+            let (start, first) = (self.start[i], self.first[i]);
+            let row = &mut self.values[start..=start + i - first];
+            let pairs = row.iter_mut().zip(values.iter().skip(first));
+            pairs.for_each(|(to, v)| *to += by * v);
+        }
+    }
+
     fn row<'a>(&self, of: &'a [f64], i: usize) -> &'a [f64] {
         &of[self.start[i]..=self.start[i] + i - self.first[i]]
     }
@@ -141,6 +152,20 @@ mod tests {
         }
         assert_eq!(a.len(), 9);
         assert!(!a.is_empty());
+    }
+
+    #[test]
+    fn a_row_is_its_values_one_by_one() {
+        let first = [0, 0, 1, 1];
+        let values = [1.0, -2.0, 3.0, 5.0];
+        let (mut rows, mut each) = (Skyline::default(), Skyline::default());
+        rows.reset(&first);
+        each.reset(&first);
+        for i in 0..5 {
+            rows.add_row(i, &values, 0.5);
+            (0..=i.min(3)).for_each(|j| each.add(i, j, 0.5 * values[j]));
+        }
+        assert_eq!(rows.values, each.values);
     }
 
     #[test]

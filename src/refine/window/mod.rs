@@ -149,11 +149,14 @@ impl Window {
         let chords: Vec<Vec<Point>> = (0..chain.kinds.len())
             .map(|i| self.chords(chain, i))
             .collect();
-        let feet = self
-            .anchors
-            .iter()
-            .map(|a| foot(a.at - self.origin, &chords))
-            .collect();
+        let around = |chords: &Vec<Point>| {
+            let first = Rect::from_points(chords[0], chords[0]);
+            chords.iter().fold(first, |r, p| r.union_pt(*p))
+        };
+        let bounds: Vec<Rect> = chords.iter().map(around).collect();
+        let feet = self.anchors.iter();
+        let feet = feet.map(|a| foot(a.at - self.origin, &chords, &bounds));
+        let feet = feet.collect();
         self.with(chain, chords, feet)
     }
 
@@ -332,10 +335,17 @@ impl Anchor {
     }
 }
 
-/// Segment and parameter of the place on chords that is nearest to a point.
-fn foot(at: Point, chords: &[Vec<Point>]) -> (usize, f64) {
+/// Segment and parameter of the place on chords that is nearest to a point; each segment's chords lie within their bounds.
+fn foot(at: Point, chords: &[Vec<Point>], bounds: &[Rect]) -> (usize, f64) {
     let mut nearest = (f64::INFINITY, (0, 0.0));
-    for (i, chords) in chords.iter().enumerate() {
+    for (i, (chords, around)) in chords.iter().zip(bounds).enumerate() {
+        let inside = Point::new(
+            at.x.max(around.x0).min(around.x1),
+            at.y.max(around.y0).min(around.y1),
+        );
+        if inside.distance_squared(at) > nearest.0 {
+            continue;
+        }
         let count = (chords.len() - 1) as f64;
         for (k, (a, b)) in chords.iter().zip(chords.iter().skip(1)).enumerate() {
             let (d, to) = (*b - *a, at - *a);

@@ -85,9 +85,7 @@ impl Normal {
             .zip(spread.chunks_exact(self.slope.len().max(1)))
         {
             for (i, a) in ink.iter().enumerate().filter(|(_, a)| **a != 0.0) {
-                for (j, b) in spread.iter().enumerate().take(i + 1) {
-                    self.matrix.add(i, j, a * b);
-                }
+                self.matrix.add_row(i, spread, *a);
             }
         }
     }
@@ -241,19 +239,28 @@ impl Inked {
     fn spread(&self, shared: &Shared) -> Vec<f64> {
         let n = self.numbers;
         let mut out = vec![0.0; self.values.len()];
+        // an edge is moved by the few numbers of its own nodes
+        let moving = |(_, row): (_, &[f64])| {
+            let first = row.iter().position(|v| *v != 0.0).unwrap_or(n);
+            let last = row.iter().rposition(|v| *v != 0.0).unwrap_or(n);
+            (first, (last + 1).min(n))
+        };
+        let moving: Vec<(usize, usize)> = self.rows().map(moving).collect();
+        let mut add = |to: usize, from: usize, light: f64| {
+            let (first, last) = moving[from];
+            let values = &self.values[from * n + first..from * n + last];
+            let to = out[to * n + first..].iter_mut().zip(values);
+            to.for_each(|(to, v)| *to += light * v);
+        };
         for (i, a) in self.cells.iter().enumerate() {
             for (j, b) in self.cells[..=i].iter().enumerate() {
                 let light = shared.of(*a, *b);
                 if light == 0.0 {
                     continue;
                 }
-                for k in 0..n {
-                    out[i * n + k] += light * self.values[j * n + k];
-                }
+                add(i, j, light);
                 if i != j {
-                    for k in 0..n {
-                        out[j * n + k] += light * self.values[i * n + k];
-                    }
+                    add(j, i, light);
                 }
             }
         }
