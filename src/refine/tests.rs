@@ -406,6 +406,11 @@ fn sides_that_cross_or_run_on_as_one_end_where_they_part() {
             None,
         ),
         (
+            "crossed within a step",
+            "M5 5L30 5L30 15L21 15C22 18.3 19.99 21.67 20 25C20.01 21.67 18 18.3 19 15L5 15Z",
+            Some(Point::new(20.0, 25.0)),
+        ),
+        (
             "a needle",
             "M5 5L30 5L30 15L20 15L20 25L20.02 15L5 15Z",
             Some(Point::new(20.0, 15.0)),

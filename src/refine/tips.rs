@@ -112,11 +112,21 @@ fn parting(ring: &Chain, i: usize, one_px: f64) -> Option<(Place, Place)> {
         })
     };
     let count = before.len().saturating_sub(1).min(longest);
-    let last = (0..count).rev().find(touches)?;
+    let first = || (acute && turns(ring, i, (&before, &after))).then_some(0);
+    let last = (0..count).rev().find(touches).or_else(first)?;
     let parted = before[last + 1];
     let off = |o: &&Place| o.at.distance(parted.at);
     let near = after.iter().min_by(|a, b| off(a).total_cmp(&off(b)))?;
     Some((parted, *near))
+}
+
+/// Whether the sides of corner `i` have changed places after their first step.
+fn turns(ring: &Chain, i: usize, (before, after): (&[Place], &[Place])) -> bool {
+    let Some(((u, v), (a, b))) = tip(ring, i).zip(before.get(1).zip(after.get(1))) else {
+        return false;
+    };
+    let at = ring.nodes[i].point;
+    (-u).cross(v) * (a.at - at).cross(b.at - at) < 0.0
 }
 
 /// Whether two chords cross.
