@@ -160,16 +160,16 @@ impl Work<'_> {
             }
             let mut next = Some(p);
             for _ in 0..LOOKS {
-                let Some(at) = next else { break };
+                let Some(at) = next.take() else { break };
                 tried.push(at);
                 self.vain.retain(|(q, _)| q.distance(at) >= SAME_PX);
                 let left = self.left(at);
-                next = None;
-                if let Some(moved) = self.change(k, at) {
-                    changed.push(at);
-                    next = moved;
-                } else {
-                    self.vain.push((at, left));
+                match self.change(k, at) {
+                    Some(moved) => {
+                        changed.push(at);
+                        next = self.astray(&moved, at);
+                    }
+                    None => self.vain.push((at, left)),
                 }
             }
             tried.extend(next);
@@ -187,8 +187,8 @@ impl Work<'_> {
         self.vain.iter().any(same)
     }
 
-    /// Changes ring `k` around a place if that explains enough more; then the worst of the nodes that went far for it.
-    fn change(&mut self, k: usize, at: Point) -> Option<Option<Point>> {
+    /// Changes ring `k` around a place if that explains enough more; then the nodes around it.
+    fn change(&mut self, k: usize, at: Point) -> Option<Vec<Point>> {
         let others = (self.rings.as_slice(), k);
         let chain = self.chains[k].as_ref()?;
         let place = Place { chain, at, others };
@@ -203,10 +203,15 @@ impl Work<'_> {
             return None;
         }
         self.chains[k] = Some(found.chain);
-        let worst = |p: &&Point| self.left(**p) > self.wrong.least && p.distance(at) > MOVED_PX;
-        let moved = found.moved.iter().filter(worst);
-        let worst = moved.max_by(|a, b| self.left(**a).total_cmp(&self.left(**b)));
-        Some(worst.copied())
+        Some(found.moved)
+    }
+
+    /// The worst of the nodes that went far from a place and left something wrong.
+    fn astray(&self, moved: &[Point], at: Point) -> Option<Point> {
+        let wrong = |p: &&Point| self.left(**p) > self.wrong.least && p.distance(at) > MOVED_PX;
+        let wrong = moved.iter().filter(wrong);
+        let worst = wrong.max_by(|a, b| self.left(**a).total_cmp(&self.left(**b)));
+        worst.copied()
     }
 
     /// By how much the squares grow now that a ring has changed there.
