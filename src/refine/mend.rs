@@ -104,14 +104,15 @@ pub(super) fn mended(residual: &Residual<'_>, paths: &[BezPath]) -> Vec<BezPath>
         rings,
         vain: Vec::new(),
     };
-    work.pass();
+    let mut more = work.pass() || !work.vain.is_empty();
     for _ in 1..PASSES {
+        if !more {
+            break;
+        }
         // what a path does not follow yet has passed for a level
         let chains = work.chains.iter().flatten();
         work.residual.level(chains.flat_map(beyond));
-        if !work.pass() {
-            break;
-        }
+        more = work.pass();
     }
     let finished = |(chain, ring): (Option<Chain>, Ring)| {
         let Some(mut chain) = chain else {
