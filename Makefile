@@ -6,7 +6,7 @@ all: font
 
 font: ## the demo fonts, into build/
 	cargo build --release --locked --quiet
-	for p in glyphs/*.toml; do target/release/khatt build "$$p" || exit 1; done
+	for p in glyphs/*.toml; do cargo run --release --locked --quiet -- build "$$p" || exit 1; done
 
 test: ## every test
 	cargo test --locked --quiet
