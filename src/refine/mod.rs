@@ -16,13 +16,9 @@ mod comparison;
 mod corners;
 mod mend;
 mod nodes;
-mod part;
 mod residual;
 #[cfg(test)]
 mod tests;
-mod tips;
-mod variants;
-mod window;
 
 pub use blunt::Overlooked;
 pub use comparison::{Comparison, Doubts};

@@ -9,14 +9,16 @@
 mod normal;
 mod numbers;
 
-use super::{blunt::polygon_px, residual::Residual};
-use crate::numeric::{
-    cast::{index, single},
-    chain::{Chain, Kind},
-    coverage::{Coverage, blur},
-    joins::past_levels,
+use crate::{
+    numeric::{
+        cast::{index, single},
+        chain::{Chain, Kind},
+        coverage::{Coverage, blur},
+        joins::past_levels,
+    },
+    refine::{blunt::polygon_px, residual::Residual},
+    types::Contour,
 };
-use crate::types::Contour;
 use kurbo::{CubicBez, ParamCurve, ParamCurveDeriv, Point, Rect, Vec2};
 use normal::{Normal, Shared};
 use numbers::{nudge, numbers, shorten};
@@ -380,8 +382,10 @@ fn dot(a: &[f32], b: &[f32]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::refine::{comparison::polygon, part::open_part};
-    use crate::types::Gray;
+    use crate::{
+        refine::{comparison::polygon, mend::part::open_part},
+        types::Gray,
+    };
     use kurbo::BezPath;
     use std::iter::once;
 

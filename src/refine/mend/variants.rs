@@ -1,9 +1,12 @@
 //! Other structures of a few nodes: what a drawing may have where another was fit.
 
-use super::{blunt::polygon_px, tips::tip};
-use crate::numeric::{
-    chain::{Chain, Join, Kind, Node},
-    joins::divide,
+use super::tips::tip;
+use crate::{
+    numeric::{
+        chain::{Chain, Join, Kind, Node},
+        joins::divide,
+    },
+    refine::blunt::polygon_px,
 };
 use kurbo::{CubicBez, ParamCurve, ParamCurveDeriv, ParamCurveNearest, Point, Vec2};
 

@@ -3,13 +3,13 @@
 //! Where two sides run on as one, or cross before they end in a corner, there is no ink (or no paper) between them: a needle
 //! or a loop that no pixel speaks against. Such an end is cut off where its sides part. So are small loops at other corners.
 
-use super::{
-    blunt::{arriving, leaving, polygon_px},
-    variants::{behind, reversed, unit},
-};
-use crate::numeric::{
-    cast::index,
-    chain::{Chain, Join, Node},
+use super::variants::{behind, reversed, unit};
+use crate::{
+    numeric::{
+        cast::index,
+        chain::{Chain, Join, Node},
+    },
+    refine::blunt::{arriving, leaving, polygon_px},
 };
 use kurbo::{CubicBez, Line, ParamCurve, ParamCurveNearest, Point, Vec2};
 
@@ -40,6 +40,11 @@ pub(super) fn tip(chain: &Chain, i: usize) -> Option<(Vec2, Vec2)> {
     );
     let acute = chain.nodes[i].join == Join::Corner && (u - v).hypot() > ACUTE;
     acute.then_some((u, v))
+}
+
+/// Whether an inner node is a tip.
+pub(super) fn has_tip(chain: &Chain) -> bool {
+    (1..chain.kinds.len()).any(|i| tip(chain, i).is_some())
 }
 
 /// Where the tips of a chain may go on.

@@ -1,0 +1,264 @@
+//! Places that settled paths leave unexplained: their nodes against the pixels, other structures tried.
+//!
+//! | | takes | gives |
+//! |---|---|---|
+//! | here | paths and the picture | places that are wrong, the worst first; levels read again between looks |
+//! | [`place`] | a place | the part of its path whose nodes are near, put back where that explains enough more |
+//! | [`structure`] | an open part | the [`variants`] of its nodes and corners that leave least |
+//! | [`window`] | a structure | its nodes by least squares of the pixels around |
+//!
+//! What is left of the picture around an edge tells where a fit is wrong, and by how much. There the few nodes near by are
+//! fit to the pixels themselves, as they stand and with a node or corner more or less; what leaves least for its nodes is kept.
+//! Between such looks the levels of ink and paper are read again: what a path did not follow had passed for a part of them.
+
+mod fair;
+mod part;
+mod place;
+mod structure;
+#[cfg(test)]
+mod tests;
+mod tips;
+mod variants;
+mod window;
+
+use super::{comparison::polygon, residual::Residual};
+use crate::numeric::{chain::Chain, joins::divide_at_extrema};
+use kurbo::{BezPath, Point, Rect, Shape};
+use part::changed;
+use place::{CHORD_PX, Mended, NEAR_PX, Place};
+use std::mem;
+use tips::{ONE_PX, beyond, trim};
+
+/// Directions that differ by less are one, radians.
+const SMOOTH: f64 = 0.0175;
+/// Way along an edge between places that are looked at, px.
+const STEP_PX: f64 = 1.5;
+/// Sum of squares around a place from which it is wrong, and from which in the picture's grain.
+const WRONG: f64 = 0.018;
+const WRONG_GRAIN: f64 = 90.0;
+/// Places that are tried at most, the worst first: a picture of noise is wrong everywhere.
+const MOST: usize = 1000;
+/// Places nearer to one that was tried are that one, px.
+const SAME_PX: f64 = 5.0;
+/// A node that went further than this, px, is followed by a window of its own, so many of them at most.
+const MOVED_PX: f64 = 2.0;
+const LOOKS: usize = 4;
+/// Places are looked at so often, each time with the levels of ink and paper that the paths leave then.
+const PASSES: usize = 4;
+/// One that was tried in vain is looked at again beside a change, or where the squares have changed by such a part.
+const NEW: f64 = 0.01;
+/// How far the nodes around move, px, and what each px of the lens' deviation adds; and times this where that mends little.
+const REACH_PX: f64 = 6.0;
+const REACH_LENS: f64 = 2.0;
+const WIDE: f64 = 2.0;
+
+/// The paths, changed where a few nodes explain the picture better, and with nodes at all extrema in the end.
+pub(super) fn mended(residual: &Residual<'_>, paths: &[BezPath]) -> Vec<BezPath> {
+    let read = |p: &BezPath| Chain::from_path(p, SMOOTH);
+    let mut chains: Vec<Option<Chain>> = paths.iter().map(read).collect();
+    let ring = |(chain, path): (&mut Option<Chain>, &BezPath)| {
+        let trimmed = chain
+            .as_mut()
+            .and_then(|c| trim(c, ONE_PX).then(|| c.to_path()));
+        Ring::new(trimmed.unwrap_or_else(|| path.clone()))
+    };
+    let rings: Vec<Ring> = chains.iter_mut().zip(paths).map(ring).collect();
+    let residual = residual.against(rings.iter().map(|r| r.chords.as_slice()));
+    let mut work = Work {
+        wrong: Wrong::new(&residual),
+        reach: REACH_PX + REACH_LENS * residual.lens_px(),
+        residual,
+        chains,
+        rings,
+        vain: Vec::new(),
+    };
+    let mut more = work.pass() || !work.vain.is_empty();
+    for _ in 1..PASSES {
+        if !more {
+            break;
+        }
+        // what a path does not follow yet has passed for a level
+        let chains = work.chains.iter().flatten();
+        work.residual.level(chains.flat_map(beyond));
+        more = work.pass();
+    }
+    let finished = |(chain, ring): (Option<Chain>, Ring)| {
+        let Some(mut chain) = chain else {
+            return ring.path;
+        };
+        // sides that run close together do so for the pixels' sake now
+        let trimmed = trim(&mut chain, 0.0);
+        let before = chain.kinds.len();
+        divide_at_extrema(&mut chain, 0.0);
+        if trimmed || chain.kinds.len() > before {
+            chain.to_path()
+        } else {
+            ring.path
+        }
+    };
+    work.chains
+        .into_iter()
+        .zip(work.rings)
+        .map(finished)
+        .collect()
+}
+
+/// Paths on their way.
+struct Work<'a> {
+    residual: Residual<'a>,
+    wrong: Wrong,
+    reach: f64,
+    /// those of which no chain could be read stay
+    chains: Vec<Option<Chain>>,
+    rings: Vec<Ring>,
+    /// places that were tried in vain, and the squares around them then
+    vain: Vec<(Point, f64)>,
+}
+
+impl Work<'_> {
+    /// Tries the places that are wrong, but not again where nothing is new; whether any was changed.
+    fn pass(&mut self) -> bool {
+        let near = |points: &[Point], p: Point, px: f64| points.iter().any(|q| q.distance(p) < px);
+        let (mut tried, mut changed) = (Vec::new(), Vec::new());
+        for (k, p) in self.wrong.places(&self.residual, &self.rings) {
+            if self.left(p) <= self.wrong.least || near(&tried, p, SAME_PX) || self.is_known(p) {
+                continue;
+            }
+            if tried.len() >= MOST {
+                break;
+            }
+            let mut next = Some(p);
+            for _ in 0..LOOKS {
+                let Some(at) = next.take() else { break };
+                tried.push(at);
+                self.vain.retain(|(q, _)| q.distance(at) >= SAME_PX);
+                let left = self.left(at);
+                match self.change(k, at) {
+                    Some(moved) => {
+                        changed.push(at);
+                        next = self.astray(&moved, at);
+                    }
+                    None => self.vain.push((at, left)),
+                }
+            }
+            tried.extend(next);
+        }
+        let beside = WIDE * self.reach;
+        self.vain.retain(|(p, _)| !near(&changed, *p, beside));
+        !changed.is_empty()
+    }
+
+    /// Whether a place was tried in vain as it is.
+    fn is_known(&self, p: Point) -> bool {
+        let same = |(q, left): &(Point, f64)| {
+            q.distance(p) < SAME_PX && (self.left(*q) - left).abs() < NEW * left
+        };
+        self.vain.iter().any(same)
+    }
+
+    /// Changes ring `k` around a place if that explains enough more; then the nodes around it.
+    fn change(&mut self, k: usize, at: Point) -> Option<Vec<Point>> {
+        let chain = self.chains[k].as_ref()?;
+        let place = Place {
+            residual: &self.residual,
+            chain,
+            at,
+            rings: (&self.rings, k),
+            grain: self.wrong.grain,
+        };
+        let mut reaches = [self.reach, WIDE * self.reach].into_iter();
+        let Mended { chain, moved } = reaches.find_map(|reach| place.mended(reach))?;
+        let bounds = changed(place.chain, &chain)?;
+        let old = mem::replace(&mut self.rings[k], Ring::new(chain.to_path()));
+        if self.redraw(bounds) >= 0.0 {
+            // what held it beyond its window was wrong
+            self.rings[k] = old;
+            self.redraw(bounds);
+            return None;
+        }
+        self.chains[k] = Some(chain);
+        Some(moved)
+    }
+
+    /// The worst of the nodes that went far from a place and left something wrong.
+    fn astray(&self, moved: &[Point], at: Point) -> Option<Point> {
+        let wrong = |p: &&Point| self.left(**p) > self.wrong.least && p.distance(at) > MOVED_PX;
+        let wrong = moved.iter().filter(wrong);
+        let worst = wrong.max_by(|a, b| self.left(**a).total_cmp(&self.left(**b)));
+        worst.copied()
+    }
+
+    /// By how much the squares grow now that a ring has changed there.
+    fn redraw(&mut self, bounds: Rect) -> f64 {
+        let rings = self.rings.iter().map(|r| (r.bounds, r.chords.as_slice()));
+        self.residual.redraw(bounds, rings)
+    }
+
+    /// Squares around a place.
+    fn left(&self, p: Point) -> f64 {
+        self.residual.squares(p, NEAR_PX)
+    }
+}
+
+/// A closed path as chords that come back to its start.
+#[derive(Debug)]
+struct Ring {
+    path: BezPath,
+    chords: Vec<Point>,
+    bounds: Rect,
+}
+
+impl Ring {
+    fn new(path: BezPath) -> Self {
+        let mut chords = polygon(&path, CHORD_PX);
+        chords.extend(chords.first().copied());
+        let bounds = path.bounding_box();
+        Self {
+            path,
+            chords,
+            bounds,
+        }
+    }
+}
+
+/// What counts as wrong in a picture.
+struct Wrong {
+    grain: f64,
+    /// squares within [`NEAR_PX`]
+    least: f64,
+}
+
+impl Wrong {
+    fn new(residual: &Residual<'_>) -> Self {
+        let grain = residual.grain();
+        Self {
+            grain,
+            least: WRONG.max(WRONG_GRAIN * grain),
+        }
+    }
+
+    /// Places along rings with more than that, and their rings, the worst first.
+    fn places(&self, residual: &Residual<'_>, rings: &[Ring]) -> Vec<(usize, Point)> {
+        let mut places = Vec::new();
+        for (k, ring) in rings.iter().enumerate() {
+            let mut last = Point::new(f64::INFINITY, 0.0);
+            for (a, b) in ring.chords.iter().zip(ring.chords.iter().skip(1)) {
+                let mut gone = 0.0;
+                while gone < a.distance(*b) {
+                    let p = a.lerp(*b, gone / a.distance(*b));
+                    gone += STEP_PX;
+                    if last.distance(p) < STEP_PX {
+                        continue;
+                    }
+                    last = p;
+                    let left = residual.squares(p, NEAR_PX);
+                    if left > self.least {
+                        places.push((left, k, p));
+                    }
+                }
+            }
+        }
+        places.sort_by(|a, b| b.0.total_cmp(&a.0));
+        places.into_iter().map(|(_, k, p)| (k, p)).collect()
+    }
+}

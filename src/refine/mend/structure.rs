@@ -1,0 +1,185 @@
+//! The structure of a place: nodes and corners that a window's pixels ask for, one more or less at a time.
+
+use super::{
+    WRONG,
+    fair::is_fair,
+    tips::{has_tip, tip},
+    variants::variants,
+    window::{Drawn, Window},
+};
+use crate::numeric::{
+    chain::{Chain, Join},
+    joins::{DEPTH_PX, divide_at_extrema, is_soft, keep_levels, sharpen, soften},
+};
+use kurbo::{ParamCurveNearest, Point};
+
+/// Changes of structure in a place, one upon the other.
+const CHANGES: usize = 3;
+/// What a node must save, squares, and in the picture's grain.
+const NODE: f64 = 0.1;
+const NODE_GRAIN: f64 = 48.0;
+/// The part of what is wrong, beyond grain, that a change of structure must mend.
+const WORTH: f64 = 0.4;
+/// What a node must save beside a tip, of whose length few pixels tell, and that part there.
+const TIP: (f64, f64) = (0.03, 0.2);
+/// A structure that no outline may have gives way to one that leaves so many times as much.
+const ASTRAY: f64 = 1.1;
+/// A smooth node so near to an axis is an extremum, radians.
+const AXIS: f64 = 0.15;
+/// A node is at home within so many reaches of its place, a tip within as many, or so near to the path that was there, px.
+const HOME: f64 = 1.5;
+pub(super) const FAR: f64 = 3.0;
+const HOME_PX: f64 = 2.0;
+/// How precisely the nearest place on a curve is found, px.
+const NEAREST_PX: f64 = 1e-3;
+
+/// An open part of a path, a window of the picture around it, and what counts in it.
+#[derive(Debug)]
+pub(super) struct Search<'a> {
+    pub(super) window: &'a Window,
+    pub(super) part: &'a Chain,
+    /// nodes within `reach` px of `at` may change
+    pub(super) at: Point,
+    pub(super) reach: f64,
+    /// mean square of the differences that mean nothing
+    pub(super) grain: f64,
+}
+
+/// A structure, fit.
+#[derive(Debug)]
+pub(super) struct Fitted {
+    pub(super) chain: Chain,
+    pub(super) drawn: Drawn,
+    /// whether an outline may look like that
+    sound: bool,
+}
+
+impl Search<'_> {
+    /// The structure of least squares and nodes that an outline may have.
+    pub(super) fn best(&self) -> Option<Fitted> {
+        let mut now = self.fit(self.part.clone(), f64::INFINITY);
+        for _ in 0..CHANGES {
+            if now.sound && self.is_explained(&now) {
+                break;
+            }
+            let Some(better) = self.better(&now) else {
+                break;
+            };
+            now = better;
+        }
+        now.sound.then_some(now)
+    }
+
+    /// The cheapest sound structure with a node or corner more or less, if that is worth it.
+    fn better(&self, now: &Fitted) -> Option<Fitted> {
+        let squares = now.drawn.squares;
+        let noise = self.noise();
+        let most = |other: &Chain| {
+            if now.sound {
+                squares - asked(now, other).1 * (squares - noise).max(0.0)
+            } else {
+                ASTRAY * squares.max(noise)
+            }
+        };
+        let cost = |other: &Fitted| {
+            let price = asked(now, &other.chain).0 + NODE_GRAIN * self.grain;
+            let more = other.chain.nodes.len() as f64 - now.chain.nodes.len() as f64;
+            other.drawn.squares + price * more
+        };
+        let mut least = if now.sound { squares } else { f64::INFINITY };
+        let mut found: Option<Fitted> = None;
+        // a fit that ended in what no outline may have is no place to begin
+        let from = if now.sound { &now.chain } else { self.part };
+        for other in variants(from, self.at, self.reach) {
+            let done = |f: &Fitted| self.is_explained(f) && f.chain.nodes.len() < other.nodes.len();
+            if found.as_ref().is_some_and(done) {
+                // what more nodes could save is less than they must
+                break;
+            }
+            let enough = most(&other);
+            let other = self.fit(other, enough);
+            let cost = cost(&other);
+            if cost < least && other.drawn.squares < most(&other.chain) && other.sound {
+                (least, found) = (cost, Some(other));
+            }
+        }
+        found
+    }
+
+    /// Fits a structure, its extrema upright and level, and its soft corners smooth.
+    fn fit(&self, mut chain: Chain, enough: f64) -> Fitted {
+        let mut drawn = self.window.fit(&mut chain, enough);
+        let before = chain.clone();
+        for i in 1..chain.kinds.len() {
+            if is_soft(&chain, i) {
+                soften(&mut chain.nodes[i]);
+            }
+            sharpen(&mut chain, i);
+            let beside = chain.line_beside(i).is_some();
+            let node = &mut chain.nodes[i];
+            if beside && node.join != before.nodes[i].join {
+                // an axis would move the line's other end
+                node.join = Join::Smooth;
+            } else if !beside && node.join == Join::Smooth {
+                node.join = match node.leave {
+                    v if v.y.abs() < AXIS => Join::Horizontal,
+                    v if v.x.abs() < AXIS => Join::Vertical,
+                    _ => Join::Smooth,
+                };
+            }
+        }
+        divide_at_extrema(&mut chain, DEPTH_PX);
+        if chain != before {
+            drawn = self.window.fit(&mut chain, enough);
+        }
+        let before = chain.clone();
+        keep_levels(&mut chain);
+        if chain != before {
+            drawn = self.window.drawn(&chain);
+        }
+        Fitted {
+            sound: self.is_sound(&chain),
+            chain,
+            drawn,
+        }
+    }
+
+    /// Whether an outline may look like that, and no node lies astray.
+    fn is_sound(&self, chain: &Chain) -> bool {
+        let home = |i: usize| {
+            let p = chain.nodes[i].point;
+            let far = if tip(chain, i).is_some() { FAR } else { HOME };
+            p.distance(self.at) < far * self.reach || {
+                let off = |s: usize| self.part.cubic(s).nearest(p, NEAREST_PX).distance_sq;
+                (0..self.part.kinds.len()).any(|s| off(s) < HOME_PX * HOME_PX)
+            }
+        };
+        (1..chain.kinds.len()).all(home) && is_fair(chain)
+    }
+
+    fn is_explained(&self, fitted: &Fitted) -> bool {
+        fitted.drawn.squares - self.noise() < WRONG
+    }
+
+    /// Squares in the window that mean nothing.
+    fn noise(&self) -> f64 {
+        self.grain * self.window.pixels()
+    }
+}
+
+/// What another structure must save: squares a node, and a part of what is wrong beyond grain.
+fn asked(now: &Fitted, other: &Chain) -> (f64, f64) {
+    if alike(other, &now.chain) {
+        (0.0, 0.0)
+    } else if has_tip(&now.chain) && has_tip(other) {
+        TIP
+    } else {
+        (NODE, WORTH)
+    }
+}
+
+/// Whether two chains have the same structure.
+fn alike(a: &Chain, b: &Chain) -> bool {
+    let joins = |c: &Chain| c.nodes.iter().map(|n| n.join).collect::<Vec<_>>();
+    a.kinds == b.kinds && joins(a) == joins(b)
+}

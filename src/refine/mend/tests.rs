@@ -1,0 +1,223 @@
+use super::{
+    part::open_part,
+    tips::{ONE_PX, trim},
+    variants::variants,
+};
+use crate::{
+    numeric::{
+        chain::{Chain, Node},
+        joins::inner_extrema,
+    },
+    refine::{
+        Comparison,
+        comparison::polygon,
+        tests::{notched, photograph, picture, rounded, square},
+    },
+    types::{Contour, Gray},
+};
+use kurbo::{BezPath, ParamCurveNearest, PathSeg, Point};
+
+/// The largest distance of two closed paths.
+fn apart(a: &BezPath, b: &BezPath) -> f64 {
+    let off = |a: &BezPath, b: &BezPath| {
+        let to = |p: Point| {
+            let each = b.segments().map(|s| s.nearest(p, 1e-6).distance_sq);
+            each.fold(f64::INFINITY, f64::min).sqrt()
+        };
+        polygon(a, 0.01).into_iter().map(to).fold(0.0, f64::max)
+    };
+    off(a, b).max(off(b, a))
+}
+
+fn mended(gray: &Gray, path: &BezPath, blur: f64) -> BezPath {
+    let path = std::slice::from_ref(path);
+    Comparison::new(gray, path, blur).mended(path).remove(0)
+}
+
+#[test]
+fn a_wrong_structure_gives_way_to_the_one_drawn() {
+    let cut = BezPath::from_svg("M8.2 8.4L40.3 8.4L40.3 36.6L37.1 40.1L8.2 40.1Z").unwrap();
+    for (name, drawn, fit) in [
+        ("a corner for an arc", rounded(3.5), square()),
+        ("a corner for a chamfer", cut.clone(), square()),
+        ("a chamfer for a corner", square(), cut),
+        ("a tip too far out", notched(15.0), notched(12.0)),
+    ] {
+        for lens in [0.0, 0.9] {
+            let gray = photograph(&drawn, lens);
+            let got = mended(&gray, &fit, Contour::PIXEL_BLUR_PX.hypot(lens));
+            let off = apart(&got, &drawn);
+            // what squares too small to be looked at leave of a tip
+            assert!(off < 0.45, "{name}, lens {lens}: {off} {}", got.to_svg());
+            // a node more may be left where it does not show
+            let [got, drawn] = [&got, &drawn].map(|p| p.segments().count());
+            assert!(got <= drawn + 1, "{name}, lens {lens}: {got} {drawn}");
+        }
+    }
+}
+
+#[test]
+fn a_tip_that_was_cut_short_comes_out_again() {
+    let spike = |tip: &str| {
+        let text = format!("M6.2 4.3L42.1 4.3L42.1 20.6L27.1 20.6L{tip}L21.4 20.6L6.2 20.6Z");
+        BezPath::from_svg(&text).unwrap()
+    };
+    for (lens, limit) in [(0.0, 1.2), (0.9, 2.0)] {
+        let drawn = spike("24.1 44.2");
+        let gray = photograph(&drawn, lens);
+        let blur = Contour::PIXEL_BLUR_PX.hypot(lens);
+        let got = mended(&gray, &spike("24.6 37.1"), blur);
+        let off = apart(&got, &drawn);
+        // of seven px; the squares of the last ones are too small to be looked at
+        assert!(off < limit, "lens {lens}: {off} {}", got.to_svg());
+    }
+}
+
+#[test]
+fn a_long_line_gives_way_to_what_no_window_holds() {
+    // the edge leaves the line by a third of a pixel, over twice the width of the widest window
+    let slab = |top: &str| {
+        let text = format!(
+            "M6.2 4.3L113.1 4.3L113.1 30.2C113.1 35.9 109 40.2 103.3 40.2{top}C11.1 40.6 6.2 36.4 6.2 30.8Z"
+        );
+        BezPath::from_svg(&text).unwrap()
+    };
+    let drawn = slab("C73.2 40.2 46.4 40.6 16.5 40.6");
+    let line = slab("L16.5 40.2");
+    for lens in [0.0, 0.9] {
+        let gray = picture(&polygon(&drawn, 0.001), 120, lens);
+        let got = mended(&gray, &line, Contour::PIXEL_BLUR_PX.hypot(lens));
+        let off = apart(&got, &drawn);
+        assert!(off < 0.1, "lens {lens}: {off} {}", got.to_svg());
+    }
+}
+
+#[test]
+fn a_tip_whose_side_hooks_comes_out_again() {
+    let wedge = |side: &str| {
+        let text = format!("M6.2 4.3L42.1 4.3L42.1 12.6L31.1 12.6{side}L16.4 12.6L6.2 12.6Z");
+        BezPath::from_svg(&text).unwrap()
+    };
+    let drawn = wedge("C29.1 23 26 34 24.1 42.2");
+    let hooked = wedge("C29.4 22 28.4 38.1 23.1 37.6");
+    for lens in [0.0, 0.9] {
+        let gray = photograph(&drawn, lens);
+        let got = mended(&gray, &hooked, Contour::PIXEL_BLUR_PX.hypot(lens));
+        let off = apart(&got, &drawn);
+        assert!(off < 1.0, "lens {lens}: {off} {}", got.to_svg());
+    }
+}
+
+#[test]
+fn a_hooked_tip_is_tried_with_sides_that_do_not_turn() {
+    let hooked =
+        BezPath::from_svg("M42.1 12.6L31.1 12.6C29.4 22 28.4 38.1 23.1 37.6L16.4 12.6L6.2 12.6Z");
+    let chain = Chain::from_path(&hooked.unwrap(), 0.0175).unwrap();
+    let part = open_part(&chain, 4);
+    let tip = Point::new(23.1, 37.6);
+    let i = part.nodes.iter().position(|n| n.point == tip).unwrap();
+    let side = (tip - Point::new(26.6, 33.2)).normalize();
+    let leads = |c: &Chain| {
+        let node = c.nodes.iter().min_by(|a, b| {
+            let off = |n: &&Node| n.point.distance(tip);
+            off(a).total_cmp(&off(b))
+        });
+        node.unwrap().arrive.dot(side)
+    };
+    assert!(part.nodes[i].arrive.dot(side) < 0.8);
+    let tried = variants(&part, tip, 8.0);
+    assert!(
+        tried
+            .iter()
+            .any(|c| c.kinds == part.kinds && leads(c) > 0.95)
+    );
+}
+
+#[test]
+fn sides_that_cross_or_run_on_as_one_end_where_they_part() {
+    for (name, path, tip) in [
+        (
+            "crossed",
+            "M5 5L30 5L30 15L29 17C28.8 20 24 24.5 21 25L25.5 25.5C25 22 15 12 5 12Z",
+            None,
+        ),
+        (
+            "crossed within a step",
+            "M5 5L30 5L30 15L21 15C22 18.3 19.99 21.67 20 25C20.01 21.67 18 18.3 19 15L5 15Z",
+            Some(Point::new(20.0, 25.0)),
+        ),
+        (
+            "a needle",
+            "M5 5L30 5L30 15L20 15L20 25L20.02 15L5 15Z",
+            Some(Point::new(20.0, 15.0)),
+        ),
+        (
+            "a loop",
+            "M5 5L30 5L30 27L32 27L32 25L5 25Z",
+            Some(Point::new(30.0, 25.0)),
+        ),
+        (
+            "a tip",
+            "M5 5L30 5L30 15L21 15L20 25L19 15L5 15Z",
+            Some(Point::new(20.0, 25.0)),
+        ),
+        ("drawn across", "M5 5L30 5L30 35L40 35L40 25L5 25Z", None),
+    ] {
+        let path = BezPath::from_svg(path).unwrap();
+        let mut ring = Chain::from_path(&path, 0.0175).unwrap();
+        let before = ring.clone();
+        let trimmed = trim(&mut ring, ONE_PX);
+        assert_eq!(
+            trimmed,
+            !["a tip", "drawn across"].contains(&name),
+            "{name}: {}",
+            ring.to_path().to_svg()
+        );
+        assert_eq!(trimmed, ring != before, "{name}");
+        if let Some(tip) = tip {
+            let off = ring.nodes.iter().map(|n| n.point.distance(tip));
+            let off = off.fold(f64::INFINITY, f64::min);
+            assert!(off < 0.5, "{name}: {off} {}", ring.to_path().to_svg());
+        }
+        let longest = ring.nodes.iter().map(|n| n.point.y).fold(0.0, f64::max);
+        assert!(!trimmed || longest < 25.4, "{name}: {longest}");
+    }
+}
+
+#[test]
+fn a_path_that_explains_its_picture_stays_as_it_is() {
+    for path in [square(), rounded(2.0), rounded(9.0), notched(15.0)] {
+        for lens in [0.0, 0.9] {
+            let blur = Contour::PIXEL_BLUR_PX.hypot(lens);
+            let got = mended(&photograph(&path, lens), &path, blur);
+            assert_eq!(got, path, "lens {lens}");
+        }
+    }
+}
+
+#[test]
+fn a_curve_that_turns_back_before_its_corner_has_a_node_there() {
+    let path = "M8.2 8.4L40.3 8.4L40.3 40C30 40.4 20 40.1 8.2 30.1Z";
+    let path = BezPath::from_svg(path).unwrap();
+    let got = mended(&photograph(&path, 0.0), &path, Contour::PIXEL_BLUR_PX);
+    assert!(apart(&got, &path) < 1e-3);
+    let inner = |s: PathSeg| inner_extrema(&s.to_cubic()).count();
+    assert_eq!(path.segments().map(inner).sum::<usize>(), 1);
+    assert_eq!(got.segments().map(inner).sum::<usize>(), 0);
+}
+
+#[test]
+fn mending_a_picture_of_nothing_and_of_noise_ends() {
+    let noise = |x: usize, y: usize| ((x * 7 + y * 13 + x * y) % 11) as f32 / 10.0;
+    for gray in [
+        Gray::from_fn(0, 0, |_, _| 0.0),
+        Gray::from_fn(1, 1, |_, _| 1.0),
+        Gray::from_fn(48, 48, |_, _| 0.0),
+        Gray::from_fn(48, 48, noise),
+    ] {
+        for path in [square(), rounded(2.0), notched(15.0)] {
+            let got = mended(&gray, &path, 0.6);
+            assert!(got.is_finite());
+        }
+    }
+}
