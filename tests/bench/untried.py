@@ -69,7 +69,10 @@ def parted(path):
 def row(args, text, folder):
     text, _, more = text.partition("::")
     name, *options = shlex.split(text)
-    path = name if os.path.exists(name) else sorted(glob.glob(os.path.join(args.fonts, "**", name), recursive=True))[0]
+    found = [name] if os.path.exists(name) else sorted(glob.glob(os.path.join(args.fonts, "**", name), recursive=True))
+    if not found:
+        return f"| {text} | no such font below {args.fonts} |"
+    path = found[0]
     truth, project = page(args.bench, path, options, more.strip().replace("] ", "]\n"), folder)
     build = subprocess.run([args.khatt, "build", "--no-cache", "--quiet", project], capture_output=True, text=True)
     if build.returncode:

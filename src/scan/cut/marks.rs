@@ -11,11 +11,15 @@ use crate::scan::components::Component;
 use crate::scan::letters::{Pieces, Shape};
 use glyphs_reader::glyphdata::GlyphData;
 use kurbo::Rect;
+use std::ptr;
 
 /// Area of a dot beside that of the largest of the letter's dots at least: two of three may touch.
 const ALIKE: f64 = 0.3;
-/// How many times as large as a piece the dots of its letter are that it is none of.
-const LARGER: f64 = 1.5;
+/// A piece is none of its letter's dots if these are so many times as large and it lies beside the letter, by so many of its
+/// widths; further off, if they are about as large.
+const LARGER: [(f64, f64); 2] = [(1.5, 1.0), (0.8, 3.0)];
+/// A letter of one piece has none whose side is a smaller part of its height: hairlines are thinner than dust.
+const SPECK: f64 = 0.03;
 /// How far a dot stands off its letter, as a share of the height of the letter's body.
 const REACH: f64 = 0.75;
 
@@ -32,7 +36,10 @@ pub(super) fn dust(layer: &mut Layer, all: &[Component], claims: &[(usize, Vec<u
         };
         let is_dust = |i: usize| match Shape::of(&slot.label, &names).pieces {
             _ if i == body => false,
-            Pieces::One => (all[i].area as f64) < dot,
+            Pieces::One => {
+                let speck = (SPECK * all[body].upright.height()).powi(2);
+                (all[i].area as f64) < speck.max(dot)
+            }
             Pieces::DotAbove | Pieces::DotBelow => astray(&all[i], &slot.parts, all),
             Pieces::Marked | Pieces::Unknown => false,
         };
@@ -43,24 +50,22 @@ pub(super) fn dust(layer: &mut Layer, all: &[Component], claims: &[(usize, Vec<u
     }
 }
 
-/// Whether a piece is smaller than a dot of its letter, and lies neither over, under nor in what is larger.
+/// Whether a piece is hardly larger than the dots of its letter, and lies neither over, under nor in what is larger.
 fn astray(c: &Component, parts: &[usize], all: &[Component]) -> bool {
-    let larger = parts.iter().map(|&i| &all[i]);
-    let larger = larger.filter(|o| o.area as f64 > LARGER * c.area as f64);
-    let larger: Vec<Rect> = larger.map(|o| o.upright).collect();
-    // a body and a dot at least
-    let Some(rest) = larger
-        .iter()
-        .copied()
-        .reduce(|a, b| a.union(b))
-        .filter(|_| larger.len() > 1)
-    else {
-        return false;
-    };
-    let (at, reach) = (c.upright.center().x, c.upright.width());
-    let beside = at < rest.x0 - reach || at > rest.x1 + reach;
-    let far = (c.upright.y0 - rest.y1).max(rest.y0 - c.upright.y1) > REACH * rest.height();
-    beside || far
+    let at = c.upright.center().x;
+    LARGER.into_iter().any(|(times, widths)| {
+        let others = parts.iter().map(|&i| &all[i]);
+        let larger = others.filter(|o| !ptr::eq(*o, c) && o.area as f64 >= times * c.area as f64);
+        let larger: Vec<Rect> = larger.map(|o| o.upright).collect();
+        let rest = larger.iter().copied().reduce(|a, b| a.union(b));
+        // a body and a dot at least
+        rest.filter(|_| larger.len() > 1).is_some_and(|rest| {
+            let reach = widths * c.upright.width();
+            let beside = at < rest.x0 - reach || at > rest.x1 + reach;
+            let far = (c.upright.y0 - rest.y1).max(rest.y0 - c.upright.y1);
+            beside || far > widths * REACH * rest.height()
+        })
+    })
 }
 
 /// Gives small pieces of ink, in no slot so far, to the letters that want them: they go to the end of `all`. Returns how many.

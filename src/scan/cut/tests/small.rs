@@ -100,7 +100,10 @@ fn dust_beside_a_letter_with_dots_is_none_of_them() {
     paper.bar(98.0, 254.0, 5.0, 5.0);
     paper.bar(88.0, 176.0, 8.0, 8.0);
     paper.bar(206.0, 74.0, 8.0, 8.0);
-    let names = "n ن p n l ن n p i n i n l n n n p n i n";
+    // and as large as the dot, but far from it
+    paper.bar(350.0, 176.0, 8.0, 8.0);
+    paper.bar(296.0, 174.0, 8.0, 8.0);
+    let names = "n ن p n l ن n ن i n i n l n n n p n i n";
     let cut = cut_page(&paper, names, &options(Layout::Grid(4, 5))).unwrap();
     let place = |i: usize| cut.cells[i].in_sheet;
     assert!(
@@ -113,6 +116,27 @@ fn dust_beside_a_letter_with_dots_is_none_of_them() {
         "{:?}",
         place(5)
     );
+    assert!(
+        place(7).x0 > 325.0 && place(7).height() > 42.0,
+        "{:?}",
+        place(7)
+    );
+}
+
+#[test]
+fn dust_beside_a_hairline_is_none_of_its_letter() {
+    let mut paper = Paper::new(500, 300, 1.0);
+    for x in [60.0, 180.0, 300.0, 420.0] {
+        // a ring of two pixels, 160 px high
+        paper.bar(x, 60.0, 2.0, 160.0);
+        paper.bar(x + 50.0, 60.0, 2.0, 160.0);
+        paper.bar(x, 60.0, 52.0, 2.0);
+        paper.bar(x, 218.0, 52.0, 2.0);
+    }
+    paper.bar(200.0, 225.0, 4.0, 4.0);
+    let cut = cut_page(&paper, "o o o o", &options(Layout::Grid(1, 4))).unwrap();
+    let bottoms: Vec<f64> = cut.cells.iter().map(|c| c.in_sheet.y1).collect();
+    assert!(bottoms.iter().all(|y| *y < 225.0), "{bottoms:?}");
 }
 
 #[test]
