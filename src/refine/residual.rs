@@ -230,6 +230,14 @@ impl Residual<'_> {
         self.lens
     }
 
+    /// A place in pixels from the first one's centre, y down, and the columns and rows within `reach` px of it.
+    fn around(&self, p: Point, reach: f64) -> ((f64, f64), [Range<usize>; 2]) {
+        let (w, h) = (self.seen.width(), self.seen.height());
+        let (cx, cy) = (p.x - 0.5, h as f64 - p.y - 0.5);
+        let span = |c: f64, n: usize| index((c - reach).ceil())..index(c + reach + 1.0).min(n);
+        ((cx, cy), [span(cx, w), span(cy, h)])
+    }
+
     /// How much of a blot of ink the picture has and the model lacks, as a part of it.
     pub(super) fn lacking(&self, blot: &Blot) -> f64 {
         let (along, across) = (blot.along, perp(blot.along));
@@ -239,11 +247,10 @@ impl Residual<'_> {
             .map(|v| v + self.lens * self.lens + pixel * pixel);
         let height = blot.ink / (TAU * (va * vc).sqrt());
         let reach = 3.0 * va.max(vc).sqrt();
-        let (cx, cy) = (blot.at.x - 0.5, self.seen.height() as f64 - blot.at.y - 0.5);
-        let span = |c: f64, n: usize| index((c - reach).ceil())..index(c + reach + 1.0).min(n);
+        let ((cx, cy), [columns, rows]) = self.around(blot.at, reach);
         let (mut seen, mut whole) = (0.0, 0.0);
-        for y in span(cy, self.seen.height()) {
-            for x in span(cx, self.seen.width()) {
+        for y in rows {
+            for x in columns.clone() {
                 let d = Vec2::new(x as f64 - cx, cy - y as f64);
                 let (a, c) = (d.dot(along), d.dot(across));
                 let pattern = height * (-0.5 * (a * a / va + c * c / vc)).exp();
@@ -256,10 +263,9 @@ impl Residual<'_> {
 
     /// Sum of the squared differences within `reach` px of `p`.
     pub(super) fn squares(&self, p: Point, reach: f64) -> f64 {
-        let (cx, cy) = (p.x - 0.5, self.seen.height() as f64 - p.y - 0.5);
-        let span = |c: f64, n: usize| index((c - reach).ceil())..index(c + reach + 1.0).min(n);
-        let rows = span(cy, self.seen.height()).map(|y| y * self.seen.width());
-        let pixels = rows.flat_map(|row| span(cx, self.seen.width()).map(move |x| row + x));
+        let (_, [columns, rows]) = self.around(p, reach);
+        let rows = rows.map(|y| y * self.seen.width());
+        let pixels = rows.flat_map(|row| columns.clone().map(move |x| row + x));
         pixels.map(|i| f64::from(self.off[i] * self.off[i])).sum()
     }
 
@@ -310,11 +316,8 @@ impl Residual<'_> {
 
     /// How far outwards an edge through `p` must move, px; linear, good for fractions of a pixel.
     pub(super) fn shift(&self, p: Point) -> f64 {
-        let (w, h) = (self.seen.width(), self.seen.height());
-        let (cx, cy) = (p.x - 0.5, h as f64 - p.y - 0.5);
-        let reach = self.reach_px();
-        let span = |c: f64, n: usize| index((c - reach).ceil())..index(c + reach + 1.0).min(n);
-        let (rows, columns) = (span(cy, h), span(cx, w));
+        let w = self.seen.width();
+        let ((cx, cy), [columns, rows]) = self.around(p, self.reach_px());
         let (mut sum, mut total) = (0.0, 0.0);
         for (y, wy) in rows.clone().zip(self.bell(rows.start as f64 - cy)) {
             // a place outside the picture has none
