@@ -104,7 +104,7 @@ pub(super) fn give(layer: &mut Layer, all: &mut Vec<Component>, small: &[Compone
         areas.extend(pieces.iter().map(|c| c.area));
         let dot = areas.into_iter().max().unwrap_or(0) as f64;
         for c in pieces {
-            if marked && c.area as f64 > ALIKE * dot {
+            if marked && c.area as f64 > ALIKE * dot && !astray(&c, &slot.parts, all) {
                 slot.parts.push(all.len());
                 all.push(c);
             }
