@@ -19,7 +19,7 @@ const ALIKE: f64 = 0.3;
 /// widths; further off, if they are about as large.
 const LARGER: [(f64, f64); 2] = [(1.5, 1.0), (0.8, 3.0)];
 /// A letter of one piece has none whose side is a smaller part of its height: hairlines are thinner than dust.
-const SPECK: f64 = 0.03;
+const MOTE: f64 = 0.03;
 /// How far a dot stands off its letter, as a share of the height of the letter's body.
 const REACH: f64 = 0.75;
 
@@ -37,8 +37,8 @@ pub(super) fn dust(layer: &mut Layer, all: &[Component], claims: &[(usize, Vec<u
         let is_dust = |i: usize| match Shape::of(&slot.label, &names).pieces {
             _ if i == body => false,
             Pieces::One => {
-                let speck = (SPECK * all[body].upright.height()).powi(2);
-                (all[i].area as f64) < speck.max(dot)
+                let mote = (MOTE * all[body].upright.height()).powi(2);
+                (all[i].area as f64) < mote.max(dot)
             }
             Pieces::DotAbove | Pieces::DotBelow => astray(&all[i], &slot.parts, all),
             Pieces::Marked | Pieces::Unknown => false,
