@@ -6,11 +6,14 @@
 //! | [`place`] | a place | the part of its path whose nodes are near, put back where that explains enough more |
 //! | [`structure`] | an open part | the [`variants`] of its nodes and corners that leave least |
 //! | [`window`] | a structure | its nodes by least squares of the pixels around |
+//! | [`bends`] | a path | its tight bends, and the corners that may stand in their place |
 //!
 //! What is left of the picture around an edge tells where a fit is wrong, and by how much. There the few nodes near by are
 //! fit to the pixels themselves, as they stand and with a node or corner more or less; what leaves least for its nodes is kept.
 //! Between such looks the levels of ink and paper are read again: what a path did not follow had passed for a part of them.
+//! In the end bends that a lens cannot tell from corners become corners, where the pixels do not speak against it.
 
+mod bends;
 mod fair;
 mod part;
 mod place;
@@ -23,9 +26,10 @@ mod window;
 
 use super::{comparison::polygon, residual::Residual};
 use crate::numeric::{chain::Chain, joins::divide_at_extrema};
+use bends::bends;
 use kurbo::{BezPath, Point, Rect, Shape};
 use part::changed;
-use place::{CHORD_PX, Mended, NEAR_PX, Place};
+use place::{CHORD_PX, Look, Mended, NEAR_PX, Place};
 use std::mem;
 use tips::{ONE_PX, beyond, trim};
 
@@ -82,6 +86,7 @@ pub(super) fn mended(residual: &Residual<'_>, paths: &[BezPath]) -> Vec<BezPath>
         work.residual.level(chains.flat_map(beyond));
         more = work.pass();
     }
+    work.sharpen();
     let finished = |(chain, ring): (Option<Chain>, Ring)| {
         let Some(mut chain) = chain else {
             return ring.path;
@@ -133,7 +138,7 @@ impl Work<'_> {
                 tried.push(at);
                 self.vain.retain(|(q, _)| q.distance(at) >= SAME_PX);
                 let left = self.left(at);
-                match self.change(k, at) {
+                match self.change(k, at, Look::Wrong) {
                     Some(moved) => {
                         changed.push(at);
                         next = self.astray(&moved, at);
@@ -148,6 +153,29 @@ impl Work<'_> {
         !changed.is_empty()
     }
 
+    /// Puts corners in the place of tight bends, if most of them may be corners: a drawing has either.
+    fn sharpen(&mut self) {
+        let of = |(k, (chain, ring)): (usize, (&Option<Chain>, &Ring))| {
+            let places = chain.as_ref().map(|c| bends(c, &ring.chords));
+            let places = places.into_iter().flatten();
+            places.map(|p| (k, p)).collect::<Vec<_>>()
+        };
+        let both = self.chains.iter().zip(&self.rings);
+        let places: Vec<(usize, Point)> = both.enumerate().flat_map(of).collect();
+        if places.len() > MOST {
+            return;
+        }
+        let before = (self.chains.clone(), self.rings.clone());
+        let mut round = 0;
+        for &(k, at) in &places {
+            round += usize::from(self.change(k, at, Look::Bend).is_none());
+            if 2 * round >= places.len() {
+                (self.chains, self.rings) = before;
+                return;
+            }
+        }
+    }
+
     /// Whether a place was tried in vain as it is.
     fn is_known(&self, p: Point) -> bool {
         let same = |(q, left): &(Point, f64)| {
@@ -157,7 +185,7 @@ impl Work<'_> {
     }
 
     /// Changes ring `k` around a place if that explains enough more; then the nodes around it.
-    fn change(&mut self, k: usize, at: Point) -> Option<Vec<Point>> {
+    fn change(&mut self, k: usize, at: Point, look: Look) -> Option<Vec<Point>> {
         let chain = self.chains[k].as_ref()?;
         let place = Place {
             residual: &self.residual,
@@ -167,10 +195,10 @@ impl Work<'_> {
             grain: self.wrong.grain,
         };
         let mut reaches = [self.reach, WIDE * self.reach].into_iter();
-        let Mended { chain, moved } = reaches.find_map(|reach| place.mended(reach))?;
+        let Mended { chain, moved } = reaches.find_map(|reach| place.mended(look, reach))?;
         let bounds = changed(place.chain, &chain)?;
         let old = mem::replace(&mut self.rings[k], Ring::new(chain.to_path()));
-        if self.redraw(bounds) >= 0.0 {
+        if self.redraw(bounds) >= look.more(self.wrong.grain) {
             // what held it beyond its window was wrong
             self.rings[k] = old;
             self.redraw(bounds);
@@ -201,7 +229,7 @@ impl Work<'_> {
 }
 
 /// A closed path as chords that come back to its start.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 struct Ring {
     path: BezPath,
     chords: Vec<Point>,

@@ -41,6 +41,27 @@ pub(super) struct Mended {
     pub(super) moved: Vec<Point>,
 }
 
+/// Why a place is looked at.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Look {
+    /// The path leaves something unexplained there.
+    Wrong,
+    /// It bends there as tightly as a corner would look.
+    Bend,
+}
+
+impl Look {
+    /// By how much squares may grow in a place.
+    pub(super) const fn more(self, grain: f64) -> f64 {
+        /// Squares that mean nothing, and in the picture's grain.
+        const TIE: (f64, f64) = (0.001, 1.0);
+        match self {
+            Self::Wrong => 0.0,
+            Self::Bend => TIE.0 + TIE.1 * grain,
+        }
+    }
+}
+
 /// Where a path is wrong.
 #[derive(Debug)]
 pub(super) struct Place<'a> {
@@ -54,8 +75,9 @@ pub(super) struct Place<'a> {
 }
 
 impl Place<'_> {
-    /// The chain with the nodes within `reach` px of the place where the pixels have them, if that explains enough more.
-    pub(super) fn mended(&self, reach: f64) -> Option<Mended> {
+    /// The chain with what is better within `reach` px of the place: at a wrong one its nodes where the pixels have them, if
+    /// that explains enough more, at a bend a corner, if that explains no less.
+    pub(super) fn mended(&self, look: Look, reach: f64) -> Option<Mended> {
         let (start, count) = self.run(reach)?;
         let ring = begun_at(self.chain, start);
         let part = open_part(&ring, count);
@@ -67,8 +89,14 @@ impl Place<'_> {
             reach,
             grain: self.grain,
         };
-        let best = search.best()?;
-        let enough = self.enough(&best.chain);
+        let best = match look {
+            Look::Wrong => search.best(),
+            Look::Bend => search.sharpened(look.more(self.grain)),
+        }?;
+        let enough = match look {
+            Look::Wrong => self.enough(&best.chain),
+            Look::Bend => -look.more(self.grain),
+        };
         if window.drawn(&part).squares - best.drawn.squares < enough {
             return None;
         }

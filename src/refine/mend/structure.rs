@@ -2,6 +2,7 @@
 
 use super::{
     WRONG,
+    bends::{cornered, is_cornered},
     fair::is_fair,
     tips::{has_tip, tip},
     variants::variants,
@@ -30,6 +31,8 @@ const AXIS: f64 = 0.15;
 const HOME: f64 = 1.5;
 pub(super) const FAR: f64 = 3.0;
 const HOME_PX: f64 = 2.0;
+/// So far from a tight bend its sides lead to a corner, px.
+const SIDES_PX: [f64; 2] = [2.0, 4.0];
 /// How precisely the nearest place on a curve is found, px.
 const NEAREST_PX: f64 = 1e-3;
 
@@ -70,6 +73,28 @@ impl Search<'_> {
         now.sound.then_some(now)
     }
 
+    /// The structure with a corner in place of the bend there, if it is sound and leaves no more than `more` squares more.
+    pub(super) fn sharpened(&self, more: f64) -> Option<Fitted> {
+        let now = self.fit(self.part.clone(), f64::INFINITY);
+        let left = if now.sound {
+            &now.drawn
+        } else {
+            &self.window.drawn(self.part)
+        };
+        let mut most = left.squares + more;
+        let mut found = None;
+        let corners = SIDES_PX.map(|px| cornered(self.part, self.at, px));
+        for other in corners.into_iter().flatten() {
+            let other = self.fit(other, most);
+            let corner = is_cornered(&other.chain, self.at);
+            if corner && other.sound && other.drawn.squares < most {
+                most = other.drawn.squares;
+                found = Some(other);
+            }
+        }
+        found
+    }
+
     /// The cheapest sound structure with a node or corner more or less, if that is worth it.
     fn better(&self, now: &Fitted) -> Option<Fitted> {
         let squares = now.drawn.squares;
@@ -88,19 +113,31 @@ impl Search<'_> {
         };
         let mut least = if now.sound { squares } else { f64::INFINITY };
         let mut found: Option<Fitted> = None;
-        // a fit that ended in what no outline may have is no place to begin
-        let from = if now.sound { &now.chain } else { self.part };
-        for other in variants(from, self.at, self.reach) {
-            let done = |f: &Fitted| self.is_explained(f) && f.chain.nodes.len() < other.nodes.len();
-            if found.as_ref().is_some_and(done) {
-                // what more nodes could save is less than they must
-                break;
+        // a fit that ended in what no outline may have is the second place to begin
+        let from: &[&Chain] = if now.sound {
+            &[&now.chain]
+        } else {
+            &[self.part, &now.chain]
+        };
+        for from in from {
+            for other in variants(from, self.at, self.reach) {
+                let fewer = |f: &Fitted| f.chain.nodes.len() < other.nodes.len();
+                if found
+                    .as_ref()
+                    .is_some_and(|f| self.is_explained(f) && fewer(f))
+                {
+                    // what more nodes could save is less than they must
+                    break;
+                }
+                let enough = most(&other);
+                let other = self.fit(other, enough);
+                let cost = cost(&other);
+                if cost < least && other.drawn.squares < most(&other.chain) && other.sound {
+                    (least, found) = (cost, Some(other));
+                }
             }
-            let enough = most(&other);
-            let other = self.fit(other, enough);
-            let cost = cost(&other);
-            if cost < least && other.drawn.squares < most(&other.chain) && other.sound {
-                (least, found) = (cost, Some(other));
+            if found.is_some() {
+                break;
             }
         }
         found

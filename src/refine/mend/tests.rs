@@ -1,4 +1,6 @@
 use super::{
+    SMOOTH,
+    bends::bends,
     part::open_part,
     tips::{ONE_PX, trim},
     variants::variants,
@@ -53,6 +55,59 @@ fn a_wrong_structure_gives_way_to_the_one_drawn() {
             let [got, drawn] = [&got, &drawn].map(|p| p.segments().count());
             assert!(got <= drawn + 1, "{name}, lens {lens}: {got} {drawn}");
         }
+    }
+}
+
+#[test]
+fn a_bend_that_no_lens_tells_from_a_corner_becomes_one() {
+    let corners = |path: &BezPath| {
+        let chain = Chain::from_path(path, SMOOTH).unwrap();
+        chain.nodes.iter().filter(|n| !n.join.is_smooth()).count()
+    };
+    for lens in [0.0, 0.9] {
+        let blur = Contour::PIXEL_BLUR_PX.hypot(lens);
+        let sharp = mended(&photograph(&square(), lens), &rounded(0.6), blur);
+        let off = apart(&sharp, &square());
+        assert!(
+            off < 0.05 && corners(&sharp) == 4,
+            "{off} {}",
+            sharp.to_svg()
+        );
+        for radius in [1.5, 2.5] {
+            let drawn = rounded(radius);
+            let round = mended(&photograph(&drawn, lens), &drawn, blur);
+            let off = apart(&round, &drawn);
+            assert!(
+                off < 0.05 && corners(&round) == 3,
+                "{off} {}",
+                round.to_svg()
+            );
+        }
+    }
+}
+
+#[test]
+fn a_path_bends_tightly_where_it_is_nearly_a_corner() {
+    let tight = |path: &BezPath| {
+        let chain = Chain::from_path(path, SMOOTH).unwrap();
+        let mut chords = polygon(path, 0.001);
+        chords.push(chords[0]);
+        bends(&chain, &chords)
+    };
+    let [bend] = tight(&rounded(1.0))[..] else {
+        panic!("one bend")
+    };
+    assert!(bend.distance(Point::new(40.3, 40.1)) < 0.7, "{bend}");
+    assert!(tight(&rounded(6.0)).is_empty() && tight(&square()).is_empty());
+    // a ring that is shorter than two bends, and one of a single place
+    for small in ["M2 2L4 2L4 4Z", "M2 2L2 2Z"] {
+        assert!(
+            Chain::from_path(&BezPath::from_svg(small).unwrap(), SMOOTH).is_none_or(|c| bends(
+                &c,
+                &[Point::ORIGIN]
+            )
+            .is_empty())
+        );
     }
 }
 

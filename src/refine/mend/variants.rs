@@ -1,6 +1,6 @@
 //! Other structures of a few nodes: what a drawing may have where another was fit.
 
-use super::tips::tip;
+use super::{bends::meeting, tips::tip};
 use crate::{
     numeric::{
         chain::{Chain, Join, Kind, Node},
@@ -17,7 +17,7 @@ const CUT: f64 = 0.4;
 /// So far from a smooth node its sides tell how sharp a corner would be, px.
 const SHARP_PX: f64 = 4.0;
 /// A corner whose sides turn by more than this on their last px is tried with sides that do not, radians.
-const HOOKED: f64 = 0.3;
+pub(super) const HOOKED: f64 = 0.3;
 /// How much further out a tip is tried, as parts of the reach.
 const PULLS: [f64; 2] = [0.4, 0.8];
 /// The largest part of a line that is bent.
@@ -26,8 +26,6 @@ const BENT: f64 = 0.5;
 const ROUND: f64 = 0.55;
 /// Segments at most in whose place a corner may be.
 const RUN: usize = 3;
-/// Sides lead to a corner no further than this, in gaps between them.
-const AHEAD: f64 = 6.0;
 /// So near to a curve's end no node is put, parameter.
 const INSIDE: f64 = 0.02;
 /// How precisely the nearest place on a curve is found, px.
@@ -245,15 +243,7 @@ fn met(chain: &Chain, i: usize, j: usize) -> Chain {
         Kind::Cubic => own,
     };
     let (u, v) = (along(i - 1, a.arrive), along(j, b.leave));
-    let gap = b.point - a.point;
-    let cross = u.cross(v);
-    let (on, back) = (gap.cross(v) / cross, -gap.cross(u) / cross);
-    let far = AHEAD * gap.hypot();
-    let (point, on, back) = if (0.0..far).contains(&on) && (0.0..far).contains(&back) {
-        (a.point + on * u, on, back)
-    } else {
-        (a.point.midpoint(b.point), 0.0, 0.0)
-    };
+    let (point, on, back) = meeting((a.point, u), (b.point, v));
     let corner = Node {
         point,
         join: Join::Corner,
