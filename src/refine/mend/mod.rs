@@ -194,8 +194,12 @@ impl Work<'_> {
             rings: (&self.rings, k),
             grain: self.wrong.grain,
         };
-        let mut reaches = [self.reach, WIDE * self.reach].into_iter();
-        let Mended { chain, moved } = reaches.find_map(|reach| place.mended(look, reach))?;
+        let reaches = [self.reach, WIDE * self.reach];
+        let reaches = match look {
+            Look::Wrong => &reaches[..],
+            Look::Bend => &reaches[..1],
+        };
+        let Mended { chain, moved } = reaches.iter().find_map(|r| place.mended(look, *r))?;
         let bounds = changed(place.chain, &chain)?;
         let old = mem::replace(&mut self.rings[k], Ring::new(chain.to_path()));
         if self.redraw(bounds) >= look.more(self.wrong.grain) {
