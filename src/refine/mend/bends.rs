@@ -27,7 +27,7 @@ const STEPS: usize = 32;
 const NEAREST_PX: f64 = 1e-3;
 
 /// Tight bends of a ring, the tightest first; `chords` come back to their start.
-pub(super) fn bends(chain: &Chain, chords: &[Point]) -> Vec<Point> {
+pub(super) fn tight_bends(chain: &Chain, chords: &[Point]) -> Vec<Point> {
     let way = Way::new(chords);
     let reach = WITHIN_PX + CHORD_PX;
     if way.length < 4.0 * reach {

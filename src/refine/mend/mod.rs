@@ -26,7 +26,7 @@ mod window;
 
 use super::{comparison::polygon, residual::Residual};
 use crate::numeric::{chain::Chain, joins::divide_at_extrema};
-use bends::bends;
+use bends::tight_bends;
 use kurbo::{BezPath, Point, Rect, Shape};
 use part::changed;
 use place::{CHORD_PX, Look, Mended, NEAR_PX, Place};
@@ -156,7 +156,7 @@ impl Work<'_> {
     /// Puts corners in the place of tight bends, if most of them may be corners: a drawing has either.
     fn sharpen(&mut self) {
         let of = |(k, (chain, ring)): (usize, (&Option<Chain>, &Ring))| {
-            let places = chain.as_ref().map(|c| bends(c, &ring.chords));
+            let places = chain.as_ref().map(|c| tight_bends(c, &ring.chords));
             let places = places.into_iter().flatten();
             places.map(|p| (k, p)).collect::<Vec<_>>()
         };
@@ -170,6 +170,7 @@ impl Work<'_> {
         for &(k, at) in &places {
             round += usize::from(self.change(k, at, Look::Bend).is_none());
             if 2 * round >= places.len() {
+                // nothing is asked of the residual after this
                 (self.chains, self.rings) = before;
                 return;
             }

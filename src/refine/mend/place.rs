@@ -76,7 +76,7 @@ pub(super) struct Place<'a> {
 
 impl Place<'_> {
     /// The chain with what is better within `reach` px of the place: at a wrong one its nodes where the pixels have them, if
-    /// that explains enough more, at a bend a corner, if that explains no less.
+    /// that explains enough more, at a bend a corner, if that explains as much.
     pub(super) fn mended(&self, look: Look, reach: f64) -> Option<Mended> {
         let (start, count) = self.run(reach)?;
         let ring = begun_at(self.chain, start);

@@ -1,6 +1,6 @@
 use super::{
     SMOOTH,
-    bends::bends,
+    bends::tight_bends,
     part::open_part,
     tips::{ONE_PX, trim},
     variants::variants,
@@ -92,22 +92,17 @@ fn a_path_bends_tightly_where_it_is_nearly_a_corner() {
         let chain = Chain::from_path(path, SMOOTH).unwrap();
         let mut chords = polygon(path, 0.001);
         chords.push(chords[0]);
-        bends(&chain, &chords)
+        tight_bends(&chain, &chords)
     };
     let [bend] = tight(&rounded(1.0))[..] else {
         panic!("one bend")
     };
     assert!(bend.distance(Point::new(40.3, 40.1)) < 0.7, "{bend}");
     assert!(tight(&rounded(6.0)).is_empty() && tight(&square()).is_empty());
-    // a ring that is shorter than two bends, and one of a single place
+    // rings that are shorter than two bends, or a single place
     for small in ["M2 2L4 2L4 4Z", "M2 2L2 2Z"] {
-        assert!(
-            Chain::from_path(&BezPath::from_svg(small).unwrap(), SMOOTH).is_none_or(|c| bends(
-                &c,
-                &[Point::ORIGIN]
-            )
-            .is_empty())
-        );
+        let chain = Chain::from_path(&BezPath::from_svg(small).unwrap(), SMOOTH);
+        assert!(chain.is_none_or(|c| tight_bends(&c, &[Point::ORIGIN]).is_empty()));
     }
 }
 
