@@ -59,11 +59,27 @@ pub fn judge(span: Span<'_>, path: &BezPath) -> Judgement {
     }
 }
 
+/// Whether both maxima of [`judge`] are at most `limit_px`: sooner told than how large they are.
+#[must_use]
+pub fn is_within(span: Span<'_>, path: &BezPath, limit_px: f64) -> bool {
+    let lines = curve(span.points(), path).zip(polyline(span));
+    lines.is_some_and(|(curve, points)| {
+        path.segments().next().is_some()
+            && curve.is_within(span.points().iter().copied(), limit_px)
+            && points.is_within(steps(path), limit_px)
+    })
+}
+
 /// The half of [`judge`] that tells what the curve misses.
 #[must_use]
 pub fn points_to_curve(points: &[Point], path: &BezPath) -> Deviation {
-    let line = (!strays(points, path)).then(|| chords(path)).flatten();
+    let line = curve(points, path);
     line.map_or(ASTRAY, |line| deviation(points.iter().copied(), &line))
+}
+
+/// The path as chords, if it does not stray from these points.
+fn curve(points: &[Point], path: &BezPath) -> Option<Polyline> {
+    (!strays(points, path)).then(|| chords(path)).flatten()
 }
 
 /// Whether the path is not finite, or a control point lies [`FAR`] away from these points.
@@ -89,14 +105,16 @@ const ASTRAY: Deviation = Deviation {
 };
 
 fn curve_to_points(span: Span<'_>, path: &BezPath) -> Deviation {
-    let mut ring = span.points().to_vec();
-    if span.is_ring() {
-        ring.extend(span.points().first());
-    }
-    match Polyline::new(ring) {
+    match polyline(span) {
         Some(line) if !strays(span.points(), path) => deviation(steps(path), &line),
         _ => ASTRAY,
     }
+}
+
+/// The span's points, a ring's back to the first.
+fn polyline(span: Span<'_>) -> Option<Polyline> {
+    let close = span.points().first().filter(|_| span.is_ring());
+    Polyline::new(span.points().iter().chain(close).copied().collect())
 }
 
 /// The path as chords within [`PRECISION_PX`].
@@ -170,6 +188,8 @@ mod tests {
         ] {
             assert!((d - 1.0).abs() < 2e-3, "{j:?}");
         }
+        assert!(is_within(Span::Ring(&points), &path, j.max_px() + 1e-9));
+        assert!(!is_within(Span::Ring(&points), &path, j.max_px() - 1e-9));
     }
 
     #[test]

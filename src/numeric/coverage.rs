@@ -147,35 +147,40 @@ impl Coverage {
     pub fn write(&self, out: &mut Vec<f32>) {
         /// Neighbours that are looked at together: most lie far from any edge.
         const TOGETHER: usize = 8;
-        /// What differs by less from all or nothing is that.
-        const ROUNDING: f32 = 1e-6;
         out.resize(self.width * self.height, 0.0);
         let lines = self.differences.chunks_exact(self.width + 2);
         for (line, row) in lines.zip(out.chunks_exact_mut(self.width.max(1))) {
             let mut sum: f32 = 0.0;
-            for (line, row) in line[..self.width]
-                .chunks(TOGETHER)
-                .zip(row.chunks_mut(TOGETHER))
-            {
-                if line.iter().fold(0, |any, d| any | d.to_bits()) == 0 {
-                    // sums of parts are off by their rounding
-                    let whole = if sum.abs() < 0.5 {
-                        0.0
-                    } else {
-                        f32::copysign(1.0, sum)
-                    };
-                    if (sum - whole).abs() < ROUNDING {
-                        sum = whole;
-                    }
-                    row.fill(sum);
-                    continue;
-                }
-                for (d, to) in line.iter().zip(row) {
-                    sum += d;
-                    *to = sum;
-                }
+            let (blocks, rest) = line[..self.width].as_chunks::<TOGETHER>();
+            let (to, last) = row.as_chunks_mut::<TOGETHER>();
+            for (block, to) in blocks.iter().zip(to) {
+                add_up(&mut sum, block, to);
             }
+            add_up(&mut sum, rest, last);
         }
+    }
+}
+
+/// Sums of a row's differences from `sum` on; one that is off by rounding becomes whole where nothing differs.
+#[inline]
+fn add_up(sum: &mut f32, differences: &[f32], to: &mut [f32]) {
+    /// What differs by less from all or nothing is that.
+    const ROUNDING: f32 = 1e-6;
+    if differences.iter().fold(0, |any, d| any | d.to_bits()) == 0 {
+        let whole = if sum.abs() < 0.5 {
+            0.0
+        } else {
+            f32::copysign(1.0, *sum)
+        };
+        if (*sum - whole).abs() < ROUNDING {
+            *sum = whole;
+        }
+        to.fill(*sum);
+        return;
+    }
+    for (d, to) in differences.iter().zip(to) {
+        *sum += d;
+        *to = *sum;
     }
 }
 

@@ -93,6 +93,23 @@ impl Polyline {
         }
     }
 
+    /// Whether no point of a row lies farther away than `limit`: each is looked for where the one before it was found.
+    #[must_use]
+    pub fn is_within(&self, points: impl IntoIterator<Item = Point>, limit: f64) -> bool {
+        let mut at = 0;
+        points.into_iter().all(|p| {
+            let ahead = &self.points[at..self.points.len().min(at + LEAF)];
+            let near = |ab: &[Point]| to_segment(p, ab[0], ab[1]).0 <= limit * limit;
+            if let Some(on) = ahead.windows(2).position(near) {
+                at += on;
+                return true;
+            }
+            let nearest = self.nearest(p);
+            at = nearest.segment;
+            nearest.distance <= limit
+        })
+    }
+
     /// Lowers `best`, whose distance is squared here, by what lies below `node`.
     fn descend(&self, node: usize, p: Point, best: &mut Nearest) {
         if node >= self.leaves {
@@ -168,6 +185,22 @@ pub fn distances(points: impl IntoIterator<Item = Point>, lines: &[Polyline]) ->
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_row_is_within_its_farthest_distance() {
+        let wave = |i: u32, by: f64| {
+            let x = 0.1 * f64::from(i);
+            Point::new(x, x.sin() + by * (1.7 * x).cos())
+        };
+        let line = Polyline::new((0..=400).map(|i| wave(i, 0.0)).collect()).unwrap();
+        let row: Vec<Point> = (0..=1000).map(|i| wave(i * 2 / 5, 0.3)).collect();
+        for row in [row.clone(), row.into_iter().rev().collect()] {
+            let off = distances(row.iter().copied(), std::slice::from_ref(&line));
+            let most = off.iter().map(|(_, d)| *d).fold(0.0, f64::max);
+            assert!(line.is_within(row.iter().copied(), most + 1e-9));
+            assert!(!line.is_within(row, most - 1e-9));
+        }
+    }
 
     #[test]
     fn the_tree_finds_what_looking_at_all_finds() {

@@ -2,7 +2,7 @@
 
 use super::found::Draft;
 use super::samples::Samples;
-use super::{Joint, STRAY, judge, tidy};
+use super::{Joint, STRAY, is_within, tidy};
 use crate::numeric::chain::{Chain, Join, Node};
 use crate::numeric::joins::level_ends;
 use crate::numeric::refit::Foot;
@@ -110,6 +110,6 @@ fn keeps(chain: &Chain, corners: &[usize], spans: &[&[Point]], reach: f64) -> bo
             for (i, node) in given.into_iter().zip(ends) {
                 points[i] = node.map_or(points[i], |n| n.point);
             }
-            path.is_finite() && judge(Span::Open(&points), &path).max_px() <= reach
+            is_within(Span::Open(&points), &path, reach)
         })
 }

@@ -15,7 +15,7 @@ mod piece;
 mod samples;
 mod tidy;
 
-use super::judge::{Judgement, judge, points_to_curve};
+use super::judge::{Judgement, is_within, judge, points_to_curve};
 use super::path;
 use super::{FitError, Fitter};
 use crate::types::{Fitted, Span, Spans, Verdict};

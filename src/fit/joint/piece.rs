@@ -197,17 +197,18 @@ impl<'a> Trial<'a> {
         let count = (j - i).clamp(1, LOOKS);
         let length = (j - i) as f64 * s.step;
         let mut looks = [(Point::ORIGIN, 0.0, 1.0); LOOKS];
+        // the middle of each of `count` parts: a sample and what is left, in halves of a part
+        let halves = 2 * count;
+        let (mut k, mut rest) = (i + (j - i) / halves, (j - i) % halves);
+        let (whole, more) = ((j - i) / count, 2 * (j - i) % halves);
         for (m, look) in looks.iter_mut().take(count).enumerate() {
-            // The middle of part m of `count`, in halves of a part.
-            let (k, rest) = (
-                (2 * m + 1) * (j - i) / (2 * count),
-                (2 * m + 1) * (j - i) % (2 * count),
-            );
-            let at = s
-                .point(i + k)
-                .lerp(s.point(i + k + 1), rest as f64 / (2 * count) as f64);
-            let tells = s.weight[(i + k) % s.len()];
+            let at = s.point(k).lerp(s.point(k + 1), rest as f64 / halves as f64);
+            let tells = s.weight[k % s.len()];
             *look = (at, (m as f64 + 0.5) / count as f64, tells);
+            (k, rest) = (k + whole, rest + more);
+            if rest >= halves {
+                (k, rest) = (k + 1, rest - halves);
+            }
         }
         Self {
             ends: [a, b],

@@ -40,6 +40,14 @@ pub(super) struct Samples {
 impl Samples {
     /// Resamples a span of different points.
     pub(super) fn new(span: Span<'_>) -> Self {
+        let mut s = Self::resampled(span);
+        s.sigma = deviation(s.off.clone());
+        s.lean();
+        s
+    }
+
+    /// A span's samples without what its noise tells.
+    fn resampled(span: Span<'_>) -> Self {
         let (at, step) = resample(span);
         let weight = weights(span, &at, step);
         let mut s = Self {
@@ -54,14 +62,12 @@ impl Samples {
             bend: Vec::new(),
         };
         s.off = s.scatter();
-        s.sigma = deviation(s.off.clone());
-        s.lean();
         s
     }
 
     /// Spans of one contour: their noise is one, for a short one tells little of its own.
     pub(super) fn together(spans: &[Span<'_>]) -> Vec<Self> {
-        let mut all: Vec<Self> = spans.iter().map(|s| Self::new(*s)).collect();
+        let mut all: Vec<Self> = spans.iter().map(|s| Self::resampled(*s)).collect();
         let sigma = deviation(all.iter().flat_map(|s| s.off.iter().copied()).collect());
         for s in &mut all {
             s.sigma = sigma;
@@ -95,7 +101,11 @@ impl Samples {
 
     /// Sample `k`, counted around a ring.
     pub(super) fn point(&self, k: usize) -> Point {
-        self.at[k % self.at.len()]
+        // most stand before a ring's end, and a division takes its time
+        self.at
+            .get(k)
+            .copied()
+            .unwrap_or_else(|| self.at[k % self.at.len()])
     }
 
     /// Value, first and second derivative by arc length at sample `k` of the parabola through `behind`
@@ -111,19 +121,24 @@ impl Samples {
         let origin = self.at[k].to_vec2();
         let mut s = [0.0; 5];
         let mut m = [Vec2::ZERO; 3];
-        for i in 0..=lo + hi {
-            let x = i as f64 - lo as f64;
-            let w = self.weight[(k + n + i - lo) % n];
-            let q = w * (self.point(k + n + i - lo).to_vec2() - origin);
-            let (x2, qx) = (w * x * x, q * x);
-            s[0] += w;
-            s[1] += w * x;
-            s[2] += x2;
-            s[3] += x2 * x;
-            s[4] += x2 * x2;
-            m[0] += q;
-            m[1] += qx;
-            m[2] += qx * x;
+        // a ring goes on at its start
+        let first = if k < lo { k + n - lo } else { k - lo };
+        let beyond = (first + lo + hi + 1).saturating_sub(n);
+        let mut x = -(lo as f64);
+        for part in [first..first + lo + hi + 1 - beyond, 0..beyond] {
+            for (p, w) in self.at[part.clone()].iter().zip(&self.weight[part]) {
+                let q = *w * (p.to_vec2() - origin);
+                let (x2, qx) = (w * x * x, q * x);
+                s[0] += w;
+                s[1] += w * x;
+                s[2] += x2;
+                s[3] += x2 * x;
+                s[4] += x2 * x2;
+                m[0] += q;
+                m[1] += qx;
+                m[2] += qx * x;
+                x += 1.0;
+            }
         }
         let [a, b, c] = solve3(&s, m).unwrap_or_else(|| {
             let d = self.point(k + n + hi) - self.point(k + n - lo);
