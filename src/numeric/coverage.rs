@@ -262,17 +262,24 @@ pub fn blur(samples: &mut Vec<f32>, width: usize, sigma_px: f64, margin: usize) 
 /// Whether values are all the same.
 fn is_even(values: &[f32]) -> bool {
     let first = values.first().map_or(0, |v| v.to_bits());
-    values.iter().fold(0, |any, v| any | v.to_bits() ^ first) == 0
+    let differ = |any: u32, v: &f32| any | v.to_bits() ^ first;
+    let (most, rest) = values.as_chunks::<LANES>();
+    rest.iter().fold(0, differ) == 0 && most.iter().all(|m| m.iter().fold(0, differ) == 0)
 }
 
 /// A block of a row weighed with what lies left and right of it; `around` holds both.
 fn across(around: &[f32], kernel: &[f32]) -> [f32; LANES] {
-    let at = |i: usize| around[i..].first_chunk::<LANES>().unwrap_or(&[0.0; LANES]);
     let radius = kernel.len() - 1;
-    let mut sum = at(radius).map(|v| kernel[0] * v);
+    let mut sum = [0.0; LANES];
+    for (sum, v) in sum.iter_mut().zip(&around[radius..]) {
+        *sum = kernel[0] * v;
+    }
     for (d, k) in kernel.iter().enumerate().skip(1) {
-        let (left, right) = (at(radius - d), at(radius + d));
-        sum = array::from_fn(|i| sum[i] + k * left[i] + k * right[i]);
+        let (left, right) = (&around[radius - d..], &around[radius + d..]);
+        let sides = left[..LANES].iter().zip(&right[..LANES]);
+        for (sum, (left, right)) in sum.iter_mut().zip(sides) {
+            *sum = *sum + k * left + k * right;
+        }
     }
     sum
 }
