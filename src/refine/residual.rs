@@ -240,6 +240,18 @@ impl Residual<'_> {
 
     /// How much of a blot of ink the picture has and the model lacks, as a part of it.
     pub(super) fn lacking(&self, blot: &Blot) -> f64 {
+        let (seen, whole) = self.weighed(blot);
+        seen / whole.max(1e-12)
+    }
+
+    /// By how much squares would fall with the best part of a blot of ink more; negative where it is ink less.
+    pub(super) fn gain(&self, blot: &Blot) -> f64 {
+        let (seen, whole) = self.weighed(blot);
+        seen * seen.abs() / whole.max(1e-12)
+    }
+
+    /// The differences weighed by what the lens makes of a blot, and that weighed by itself.
+    fn weighed(&self, blot: &Blot) -> (f64, f64) {
         let (along, across) = (blot.along, perp(blot.along));
         let pixel = Contour::PIXEL_BLUR_PX;
         let [va, vc] = blot
@@ -258,7 +270,7 @@ impl Residual<'_> {
                 whole += pattern * pattern;
             }
         }
-        seen / whole.max(1e-12)
+        (seen, whole)
     }
 
     /// Sum of the squared differences within `reach` px of `p`.

@@ -6,6 +6,7 @@
 //! | [`place`] | a place | the part of its path whose nodes are near, put back where that explains enough more |
 //! | [`structure`] | an open part | the [`variants`] of its nodes and corners that leave least |
 //! | [`window`] | a structure | its nodes by least squares of the pixels around |
+//! | [`ends`] | a path's corner | whether its end may be cut off |
 //! | [`bends`] | a path | its tight bends, and the corners that may stand in their place |
 //!
 //! What is left of the picture around an edge tells where a fit is wrong, and by how much. There the few nodes near by are
@@ -14,6 +15,7 @@
 //! In the end bends that a lens cannot tell from corners become corners, where the pixels do not speak against it.
 
 mod bends;
+mod ends;
 mod fair;
 mod part;
 mod place;
@@ -27,6 +29,7 @@ mod window;
 use super::{comparison::polygon, residual::Residual};
 use crate::numeric::{chain::Chain, joins::divide_at_extrema};
 use bends::tight_bends;
+use ends::hint;
 use kurbo::{BezPath, Point, Rect, Shape};
 use part::changed;
 use place::{CHORD_PX, Look, Mended, NEAR_PX, Place};
@@ -47,6 +50,8 @@ const SAME_PX: f64 = 5.0;
 /// A node that went further than this, px, is followed by a window of its own, so many of them at most.
 const MOVED_PX: f64 = 2.0;
 const LOOKS: usize = 4;
+/// A corner is tried with a blunt end where its pixels alone would mend such a part of what that must.
+const HINT: f64 = 0.3;
 /// Places are looked at so often, each time with the levels of ink and paper that the paths leave then.
 const PASSES: usize = 4;
 /// One that was tried in vain is looked at again beside a change, or where the squares have changed by such a part.
@@ -87,6 +92,7 @@ pub(super) fn mended(residual: &Residual<'_>, paths: &[BezPath]) -> Vec<BezPath>
         more = work.pass();
     }
     work.sharpen();
+    work.blunt();
     let finished = |(chain, ring): (Option<Chain>, Ring)| {
         let Some(mut chain) = chain else {
             return ring.path;
@@ -170,10 +176,28 @@ impl Work<'_> {
         for &(k, at) in &places {
             round += usize::from(self.change(k, at, Look::Bend).is_none());
             if 2 * round >= places.len() {
-                // nothing is asked of the residual after this
                 (self.chains, self.rings) = before;
+                let rings = self.rings.iter().map(|r| r.chords.as_slice());
+                self.residual.update(rings);
                 return;
             }
+        }
+    }
+
+    /// Puts lines across the ends of corners where the pixels ask for them.
+    fn blunt(&mut self) {
+        let least = -HINT * Look::Corner.more(self.wrong.grain);
+        let of = |(k, chain): (usize, &Option<Chain>)| {
+            let chain = chain.iter();
+            let corners = chain.flat_map(|c| (0..c.nodes.len()).map(move |i| (c, i)));
+            let hinted = corners.filter(|(c, i)| hint(&self.residual, c, *i) > least);
+            hinted
+                .map(|(c, i)| (k, c.nodes[i].point))
+                .collect::<Vec<_>>()
+        };
+        let places: Vec<(usize, Point)> = self.chains.iter().enumerate().flat_map(of).collect();
+        for (k, at) in places.into_iter().take(MOST) {
+            self.change(k, at, Look::Corner);
         }
     }
 
@@ -198,7 +222,7 @@ impl Work<'_> {
         let reaches = [self.reach, WIDE * self.reach];
         let reaches = match look {
             Look::Wrong => &reaches[..],
-            Look::Bend => &reaches[..1],
+            Look::Bend | Look::Corner => &reaches[..1],
         };
         let Mended { chain, moved } = reaches.iter().find_map(|r| place.mended(look, *r))?;
         let bounds = changed(place.chain, &chain)?;

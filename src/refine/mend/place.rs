@@ -48,6 +48,8 @@ pub(super) enum Look {
     Wrong,
     /// It bends there as tightly as a corner would look.
     Bend,
+    /// It has a corner there whose end may be blunt.
+    Corner,
 }
 
 impl Look {
@@ -55,9 +57,12 @@ impl Look {
     pub(super) const fn more(self, grain: f64) -> f64 {
         /// Squares that mean nothing, and in the picture's grain.
         const TIE: (f64, f64) = (0.001, 1.0);
+        /// What a line across the end of a corner must mend.
+        const BLUNT: (f64, f64) = (0.003, 16.0);
         match self {
             Self::Wrong => 0.0,
             Self::Bend => TIE.0 + TIE.1 * grain,
+            Self::Corner => -(BLUNT.0 + BLUNT.1 * grain),
         }
     }
 }
@@ -92,10 +97,11 @@ impl Place<'_> {
         let best = match look {
             Look::Wrong => search.best(),
             Look::Bend => search.sharpened(look.more(self.grain)),
+            Look::Corner => search.blunted(look.more(self.grain)),
         }?;
         let enough = match look {
             Look::Wrong => self.enough(&best.chain),
-            Look::Bend => -look.more(self.grain),
+            Look::Bend | Look::Corner => -look.more(self.grain),
         };
         if window.drawn(&part).squares - best.drawn.squares < enough {
             return None;

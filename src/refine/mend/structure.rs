@@ -3,13 +3,14 @@
 use super::{
     WRONG,
     bends::{cornered, is_cornered},
+    ends::is_blunt,
     fair::is_fair,
     tips::{has_tip, tip},
-    variants::variants,
+    variants::{CUTS_PX, cut, variants},
     window::{Drawn, Window},
 };
 use crate::numeric::{
-    chain::{Chain, Join},
+    chain::{Chain, Join, Kind},
     joins::{DEPTH_PX, divide_at_extrema, is_soft, keep_levels, sharpen, soften},
 };
 use kurbo::{ParamCurveNearest, Point};
@@ -88,6 +89,29 @@ impl Search<'_> {
             let other = self.fit(other, most);
             let corner = is_cornered(&other.chain, self.at);
             if corner && other.sound && other.drawn.squares < most {
+                most = other.drawn.squares;
+                found = Some(other);
+            }
+        }
+        found
+    }
+
+    /// The structure with a line across the end of the corner there, if it is sound and leaves no more than `more` squares more.
+    pub(super) fn blunted(&self, more: f64) -> Option<Fitted> {
+        let now = self.fit(self.part.clone(), f64::INFINITY);
+        let (from, left) = if now.sound {
+            (&now.chain, now.drawn.squares)
+        } else {
+            (self.part, self.window.drawn(self.part).squares)
+        };
+        let off = |i: &usize| from.nodes[*i].point.distance(self.at);
+        let corners = (1..from.kinds.len()).filter(|i| from.nodes[*i].join == Join::Corner);
+        let corner = corners.min_by(|a, b| off(a).total_cmp(&off(b)))?;
+        let mut most = left + more;
+        let mut found = None;
+        for px in CUTS_PX {
+            let other = self.fit(cut(from, corner, px, Kind::Line), most);
+            if other.sound && is_blunt(&other.chain, corner) && other.drawn.squares < most {
                 most = other.drawn.squares;
                 found = Some(other);
             }

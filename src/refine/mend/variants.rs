@@ -11,7 +11,7 @@ use crate::{
 use kurbo::{CubicBez, ParamCurve, ParamCurveDeriv, ParamCurveNearest, Point, Vec2};
 
 /// How much of each side a corner that is cut off may lose, px.
-const CUTS_PX: [f64; 2] = [0.8, 2.0];
+pub(super) const CUTS_PX: [f64; 2] = [0.8, 2.0];
 /// And as a part of the side at most.
 const CUT: f64 = 0.4;
 /// So far from a smooth node its sides tell how sharp a corner would be, px.
@@ -144,7 +144,7 @@ fn bent(chain: &Chain, (line, i): (usize, usize), px: f64) -> Vec<Chain> {
 }
 
 /// With corner `i` cut off about `px` from its tip, by a line or by a curve that goes on smoothly.
-fn cut(chain: &Chain, i: usize, px: f64, by: Kind) -> Chain {
+pub(super) fn cut(chain: &Chain, i: usize, px: f64, by: Kind) -> Chain {
     let mut out = chain.clone();
     let sides = [chain.cubic(i - 1), reversed(&chain.cubic(i))];
     let [before, after] = sides.map(|c| c.subsegment(0.0..1.0 - behind(&c, px)));
