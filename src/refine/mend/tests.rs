@@ -235,6 +235,21 @@ fn sides_that_cross_or_run_on_as_one_end_where_they_part() {
 }
 
 #[test]
+fn the_end_of_a_corner_is_cut_off_where_it_is_drawn_blunt() {
+    let wedge = |top: &str| BezPath::from_svg(&format!("M8.3 8.2L40.6 8.2L{top}Z")).unwrap();
+    let (sharp, blunt) = (wedge("24.45 41.6"), wedge("24.95 40.57L23.95 40.57"));
+    for lens in [0.0, 0.9] {
+        for drawn in [&sharp, &blunt] {
+            let blur = Contour::PIXEL_BLUR_PX.hypot(lens);
+            let got = mended(&photograph(drawn, lens), &sharp, blur);
+            let off = apart(&got, drawn);
+            assert!(off < 0.1, "lens {lens}: {off} {}", got.to_svg());
+            assert_eq!(got.segments().count(), drawn.segments().count());
+        }
+    }
+}
+
+#[test]
 fn a_path_that_explains_its_picture_stays_as_it_is() {
     for path in [square(), rounded(2.0), rounded(9.0), notched(15.0)] {
         for lens in [0.0, 0.9] {
