@@ -11,6 +11,7 @@ use crate::scan::letters::{Foot, Head, Kind, Shape};
 use crate::scan::options::{Options, Scale};
 use glyphs_reader::glyphdata::GlyphData;
 use kurbo::Rect;
+use std::iter;
 
 /// How far bows reach past a flat edge, as a share of the letter's height.
 const OVERSHOOT: f64 = 0.015;
@@ -19,6 +20,8 @@ const SHRINK: f64 = 2.0;
 /// How far a foot may lie off the page's common line and still be one, as a share of the usual letter's
 /// height: a hand's rows drift by less, a letter that hangs is farther off.
 const ASTRAY: f64 = 0.1;
+/// Pairs of letters in two rows that tell how rows drift: one alone may have a tail.
+const SLOPES: usize = 2;
 /// Millimetres an inch.
 const MM_PER_INCH: f64 = 25.4;
 /// Heights that letters usually have, as shares of the em, where a user gives no scale: H, x, and alef.
@@ -148,7 +151,9 @@ struct Line {
 
 impl Line {
     fn through(points: &[(usize, f64)]) -> Self {
-        let slope = median(slopes(&medians(points))).unwrap_or(0.0);
+        let slopes = pairs(points);
+        let enough = slopes.len() >= SLOPES;
+        let slope = median(slopes).filter(|_| enough).unwrap_or(0.0);
         let flat: Vec<f64> = points.iter().map(|p| p.1 - slope * p.0 as f64).collect();
         Self {
             level: median(flat).unwrap_or(0.0),
@@ -182,7 +187,6 @@ fn standing(letters: &[Letter]) -> Vec<(usize, f64)> {
         .zip(own)
         .filter(|(dip, own)| *dip > 0.0 && *own < dip / 2.0)
     {
-        let pairs = |v: &[(usize, f64)]| slopes(&medians(v));
         let drift = median([pairs(&capitals), pairs(&small)].concat()).unwrap_or(0.0);
         let level = |v: &[(usize, f64)]| median(v.iter().map(|o| o.1 - drift * o.0 as f64));
         let hook = level(&small).unwrap_or(0.0) - level(&capitals).unwrap_or(0.0);
@@ -195,30 +199,34 @@ fn standing(letters: &[Letter]) -> Vec<(usize, f64)> {
 fn dip(bows: &[(usize, f64)], flat: &[(usize, f64)]) -> Option<f64> {
     let flat = medians(flat);
     let beside = medians(bows).into_iter().filter_map(|(row, bow)| {
-        let foot = flat.iter().find(|f| f.0.total_cmp(&row).is_eq())?;
+        let foot = flat.iter().find(|f| f.0 == row)?;
         Some(bow - foot.1)
     });
     median(beside)
 }
 
 /// Rows and the medians of their values.
-fn medians(points: &[(usize, f64)]) -> Vec<(f64, f64)> {
+fn medians(points: &[(usize, f64)]) -> Vec<(usize, f64)> {
     let last = points.iter().map(|p| p.0).max().unwrap_or(0);
     let of = |r: usize| points.iter().filter(move |p| p.0 == r).map(|p| p.1);
-    let rows = (0..=last).filter_map(|r| Some((r as f64, median(of(r))?)));
+    let rows = (0..=last).filter_map(|r| Some((r, median(of(r))?)));
     rows.collect()
 }
 
-/// The slopes through all pairs of points; none for fewer than three points.
-fn slopes(points: &[(f64, f64)]) -> Vec<f64> {
-    if points.len() < 3 {
-        return Vec::new();
-    }
-    let pairs = points
+/// The slopes through the medians of all pairs of rows, each as many times as the row with fewer letters has letters: one
+/// letter with a tail is no row.
+fn pairs(points: &[(usize, f64)]) -> Vec<f64> {
+    let rows = medians(points);
+    let count = |row: usize| points.iter().filter(|p| p.0 == row).count();
+    let pairs = rows
         .iter()
         .enumerate()
-        .flat_map(|(i, a)| points[i + 1..].iter().map(move |b| (a, b)));
-    pairs.map(|(a, b)| (b.1 - a.1) / (b.0 - a.0)).collect()
+        .flat_map(|(i, a)| rows[i + 1..].iter().map(move |b| (a, b)));
+    let weighed = pairs.flat_map(|(a, b)| {
+        let slope = (b.1 - a.1) / (b.0 - a.0) as f64;
+        iter::repeat_n(slope, count(a.0).min(count(b.0)))
+    });
+    weighed.collect()
 }
 
 /// Pixels an em, and a word where nobody gave it.
@@ -333,6 +341,32 @@ mod tests {
             let drop = drops(&letters(&rows), rows.len());
             assert!(drop.iter().all(|d| d.abs() < 0.5), "{drop:?}");
         }
+    }
+
+    #[test]
+    fn a_letter_with_a_tail_is_no_row() {
+        let capitals: &[_] = &[("H", 0.0), ("E", 0.1), ("T", 0.0), ("O", 2.0)];
+        let both: &[_] = &[("H", 0.0), ("R", 0.0), ("f", 31.0), ("h", 1.5)];
+        let hooks: &[_] = &[("n", 1.7), ("i", 1.7), ("o", 1.7), ("m", 1.7)];
+        let tail: &[_] = &[("z", 12.0), ("0", 2.0), ("1", 0.0)];
+        for rows in [
+            [capitals, capitals, capitals, tail],
+            [capitals, both, hooks, tail],
+        ] {
+            let drop = drops(&letters(&rows), 4);
+            assert!(drop.iter().all(|d| d.abs() < 0.5), "{drop:?}");
+        }
+    }
+
+    #[test]
+    fn two_rows_have_baselines_of_their_own() {
+        let first: &[_] = &[("A", 0.0), ("B", 0.1), ("C", 2.0), ("D", 0.0), ("E", 0.0)];
+        let second: &[_] = &[("F", 9.0), ("G", 11.0), ("H", 9.0), ("I", 9.1), ("J", 14.0)];
+        let drop = drops(&letters(&[first, second]), 2);
+        assert!(
+            drop[0].abs() < 0.5 && (drop[1] - 9.0).abs() < 0.5,
+            "{drop:?}"
+        );
     }
 
     #[test]
