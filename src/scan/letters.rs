@@ -33,8 +33,9 @@ const DOT_BELOW: &str = "!?؟بجيیپچٻڀڃڄڇڍڊڔڕڝڢڣڥڮڳڸې";
 
 /// Letters that hang below the baseline.
 const TAILED: &str = "gjpqyрф";
-/// Letters with most of their ink on the left, the right, above and below the middle.
-const LEFT: &str = "BDEFKLPRbhkpГЕБВКРЬ";
+/// Letters with most of their ink on the left, the right, above and below the middle. The bows of B, D and R weigh more than their
+/// stems in slanted styles.
+const LEFT: &str = "EFKLPbhkpГЕБКРЬ";
 const RIGHT: &str = "Jdq";
 const TOP: &str = "FPTVYpqy79ТРГУр";
 const BOTTOM: &str = "ALbdh6ЬЛД";
@@ -207,5 +208,7 @@ mod tests {
                 assert_eq!(shape.head, head, "{label}");
             }
         }
+        assert_eq!(of("E").heavy, [-1, 0]);
+        assert_eq!(of("D").heavy, [0, 0], "its bow weighs as much as its stem");
     }
 }
