@@ -8,6 +8,7 @@ mod free;
 mod furniture;
 mod grid;
 mod guides;
+mod hidden;
 mod marks;
 mod odd;
 mod pins;

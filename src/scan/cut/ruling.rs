@@ -2,8 +2,9 @@
 //!
 //! Lines are straight: on the upright page the heights at which a lattice has ink for more than half of its width are its
 //! lines', and so for its columns. What lies there goes, unless it has ink on both sides of the line, straight across or aslant:
-//! there the line crosses a letter.
+//! there the line crosses a letter. What a letter's edge encloses that runs along within the line stays too.
 
+use super::hidden::{self, Hidden};
 use crate::numeric::view::View;
 use crate::scan::components::Component;
 use crate::scan::whole::floor;
@@ -42,13 +43,22 @@ pub(super) fn freed(lattice: &Component, upright: &View) -> Vec<Component> {
         let p = back.at(Point::new(x, y));
         lattice.covers(floor(p.x.max(0.0)), floor(p.y.max(0.0)))
     };
+    let across = |along: f64, x: f64| ink(x, along);
+    let of = |lines: Vec<Range<f64>>, ends: Range<f64>, ink: &dyn Fn(f64, f64) -> bool| {
+        let stripe = |line| Stripe {
+            hidden: hidden::find(&line, &ends, ink),
+            line,
+        };
+        lines.into_iter().map(stripe).collect::<Vec<Stripe>>()
+    };
+    let columns = of(columns, b.y0..b.y1, &across);
+    let rows = of(rows, b.x0..b.x1, &ink);
     let is_line = |x: usize, y: usize| {
         let p = at(x, y);
-        let of = |stripes: &[Range<f64>], v: f64| stripes.iter().find(|s| s.contains(&v)).cloned();
-        match (of(&columns, p.x), of(&rows, p.y)) {
+        match (Stripe::at(&columns, p.x), Stripe::at(&rows, p.y)) {
             (None, None) => false,
-            (Some(c), None) => !crosses(&c, p.x, |to, aside| ink(to, p.y + aside)),
-            (None, Some(r)) => !crosses(&r, p.y, |to, aside| ink(p.x + aside, to)),
+            (Some(c), None) => !c.is_letter((p.y, p.x), across),
+            (None, Some(r)) => !r.is_letter((p.x, p.y), ink),
             (Some(_), Some(_)) => true,
         }
     };
@@ -56,6 +66,25 @@ pub(super) fn freed(lattice: &Component, upright: &View) -> Vec<Component> {
     pieces.iter_mut().for_each(|c| c.stand(upright));
     pieces.retain(|c| c.upright.width().min(c.upright.height()) > thick);
     pieces
+}
+
+/// A printed line and the letters' edges that run along within it.
+struct Stripe {
+    line: Range<f64>,
+    hidden: Vec<Hidden>,
+}
+
+impl Stripe {
+    /// The line at a place across.
+    fn at(all: &[Self], across: f64) -> Option<&Self> {
+        all.iter().find(|s| s.line.contains(&across))
+    }
+
+    /// Whether a place along it and across is a letter's; `ink` takes such places.
+    fn is_letter(&self, (along, across): (f64, f64), ink: impl Fn(f64, f64) -> bool) -> bool {
+        crosses(&self.line, across, |to, aside| ink(along + aside, to))
+            || self.hidden.iter().any(|h| h.holds(along, across))
+    }
 }
 
 /// Whether a letter crosses a line where it is at `v` across: whether there is `ink` on both sides of it, on one of the ways
