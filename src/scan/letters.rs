@@ -31,6 +31,9 @@ const DOT_ABOVE: &str = "ijةتثخذزشضظغفقنٹٺٿڈڌڎڏڐڑڒڗژڙ�
 /// Letters and signs with a dot below or dots.
 const DOT_BELOW: &str = "!?؟بجيیپچٻڀڃڄڇڍڊڔڕڝڢڣڥڮڳڸې";
 
+/// Letters whose only sign is a dot.
+const ONE_DOT: &str = "ijبجخذزضظغفن";
+
 /// Letters that hang below the baseline.
 const TAILED: &str = "gjpqyрф";
 /// Letters with most of their ink on the left, the right, above and below the middle. The bows of B, D and R weigh more than their
@@ -97,6 +100,8 @@ pub(super) struct Shape {
     pub(super) head: Head,
     pub(super) kind: Kind,
     pub(super) pieces: Pieces,
+    /// It has one dot and no other sign.
+    pub(super) one_dot: bool,
     /// It is as large as most letters are.
     pub(super) full: bool,
     /// Where most of its ink is: 1 to the right and 1 down, −1 the other way, 0 where hands differ.
@@ -117,6 +122,7 @@ impl Shape {
             () if any(base, DOT_BELOW) => Pieces::DotBelow,
             () => Pieces::Unknown,
         };
+        let one_dot = plain && any(base, ONE_DOT);
         let full = letter.is_some_and(super::is_full);
         let side = |less: &str, more: &str| {
             i8::from(plain && any(base, more)) - i8::from(plain && any(base, less))
@@ -137,6 +143,7 @@ impl Shape {
                 head: if alef { Head::Alef } else { Head::None },
                 kind: Kind::Arabic,
                 pieces,
+                one_dot,
                 full,
                 heavy,
             };
@@ -163,6 +170,7 @@ impl Shape {
                 Kind::Other
             },
             pieces,
+            one_dot,
             full,
             heavy,
         }
@@ -210,5 +218,6 @@ mod tests {
         }
         assert_eq!(of("E").heavy, [-1, 0]);
         assert_eq!(of("D").heavy, [0, 0], "its bow weighs as much as its stem");
+        assert!(of("uni0646.fina").one_dot && !of("uni062A").one_dot && !of("ñ").one_dot);
     }
 }

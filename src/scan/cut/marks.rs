@@ -20,6 +20,9 @@ const ALIKE: f64 = 0.3;
 const LARGER: [(f64, f64); 2] = [(1.5, 1.0), (0.8, 3.0)];
 /// A letter of one piece has none whose side is a smaller part of its height: hairlines are thinner than dust.
 const MOTE: f64 = 0.03;
+/// The longer side of a dot beside its shorter one at most, and the share of its box that it covers at least: 0.5 where it
+/// stands on its point.
+const COMPACT: (f64, f64) = (2.0, 0.4);
 /// How far a dot stands off its letter, as a share of the height of the letter's body.
 const REACH: f64 = 0.75;
 
@@ -34,14 +37,17 @@ pub(super) fn dust(layer: &mut Layer, all: &[Component], claims: &[(usize, Vec<u
         let Some(body) = slot.parts.iter().copied().max_by_key(|&i| all[i].area) else {
             continue;
         };
-        let is_dust = |i: usize| match Shape::of(&slot.label, &names).pieces {
+        let shape = Shape::of(&slot.label, &names);
+        let is_dust = |i: usize| match shape.pieces {
             _ if i == body => false,
             Pieces::One => {
                 let mote = (MOTE * all[body].upright.height()).powi(2);
                 (all[i].area as f64) < mote.max(dot)
             }
-            Pieces::DotAbove | Pieces::DotBelow => astray(&all[i], &slot.parts, all),
-            Pieces::Marked | Pieces::Unknown => false,
+            Pieces::DotAbove | Pieces::DotBelow | Pieces::Marked => {
+                astray(&all[i], &slot.parts, all) || second(&all[i], &shape, &slot.parts, all)
+            }
+            Pieces::Unknown => false,
         };
         let (small, kept): (Vec<usize>, Vec<usize>) = slot.parts.iter().partition(|&&i| is_dust(i));
         slot.parts = kept;
@@ -66,6 +72,60 @@ fn astray(c: &Component, parts: &[usize], all: &[Component]) -> bool {
             beside || far > widths * REACH * rest.height()
         })
     })
+}
+
+/// Whether another piece is rather the one dot of its letter: larger, or about as large and nearer to the body.
+fn second(c: &Component, shape: &Shape, parts: &[usize], all: &[Component]) -> bool {
+    let side = match shape.pieces {
+        Pieces::DotAbove => -1.0,
+        Pieces::DotBelow => 1.0,
+        _ => return false,
+    };
+    let size = |i: &&usize| all[**i].area;
+    let Some(&main) = parts.iter().max_by_key(size).filter(|_| shape.one_dot) else {
+        return false;
+    };
+    let body = all[main].upright;
+    let off = |o: &Component| gap(o.upright, body);
+    let rest = parts.iter().filter(|&&i| i != main).map(|&i| &all[i]);
+    // pieces of the body lie beside it
+    let is_there = |o: &&Component| is_dot(o) && side * (o.centre.y - body.center().y) > 0.0;
+    let mut dots = rest.filter(is_there);
+    dots.any(|o| {
+        let times = o.area as f64 / c.area as f64;
+        times >= LARGER[0].0 || (times >= LARGER[1].0 && off(o) < off(c))
+    })
+}
+
+/// Whether a piece is as compact as dots are, and no stroke or ring.
+fn is_dot(c: &Component) -> bool {
+    let (w, h) = (c.upright.width(), c.upright.height());
+    w.max(h) < COMPACT.0 * w.min(h) && c.area as f64 > COMPACT.1 * w * h
+}
+
+/// Gives letters that have none of the signs which their names say what lies beside the grid, close over or under them.
+pub(super) fn reclaim(layer: &mut Layer, all: &[Component]) {
+    let names = GlyphData::default();
+    for slot in &mut layer.slots {
+        let pieces = Shape::of(&slot.label, &names).pieces;
+        let &[body] = slot.parts.as_slice() else {
+            continue;
+        };
+        if matches!(pieces, Pieces::One | Pieces::Unknown) {
+            continue;
+        }
+        let own = &all[body];
+        let is_sign = |&(i, reason): &(usize, Reason)| {
+            let sign = &all[i];
+            let over = sign.upright.x0 < own.upright.x1 && sign.upright.x1 > own.upright.x0;
+            let near = gap(sign.upright, own.upright) < REACH * own.upright.height();
+            reason == Reason::Outside && over && near && sign.area < own.area
+        };
+        let (signs, rest) = layer.rejected.iter().partition(|r| is_sign(r));
+        let signs: Vec<(usize, Reason)> = signs;
+        layer.rejected = rest;
+        slot.parts.extend(signs.into_iter().map(|s| s.0));
+    }
 }
 
 /// Gives small pieces of ink, in no slot so far, to the letters that want them: they go to the end of `all`. Returns how many.

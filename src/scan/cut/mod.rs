@@ -241,6 +241,7 @@ pub fn cut_with(
     let mut layer = placed(&mut all, labels, (page, low, upright), options, &claims)?;
     pins::settle(&mut layer, &claims);
     let dot = (DUST * stroke_width(&all)).powi(2);
+    marks::reclaim(&mut layer, &all);
     marks::dust(&mut layer, &all, &claims, dot);
     let freed = whole..all.len();
     small.iter_mut().for_each(|c| c.stand(&upright));

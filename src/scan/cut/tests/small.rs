@@ -104,24 +104,54 @@ fn dust_beside_a_letter_with_dots_is_none_of_them() {
     paper.bar(350.0, 176.0, 6.5, 6.5);
     paper.bar(296.0, 174.0, 6.5, 6.5);
     paper.bar(380.0, 176.0, 4.0, 4.0);
-    let names = "n ن p n l ن n ن i n i n l n n n p n i n";
-    let cut = cut_page(&paper, names, &options(Layout::Grid(4, 5))).unwrap();
-    let place = |i: usize| cut.cells[i].in_sheet;
-    assert!(
-        place(1).x1 < 242.0 && place(1).height() > 42.0,
-        "{:?}",
-        place(1)
-    );
-    assert!(
-        place(5).y1 < 230.0 && place(5).height() > 40.0,
-        "{:?}",
-        place(5)
-    );
-    assert!(
-        place(7).x0 > 325.0 && place(7).x1 < 375.0 && place(7).height() > 42.0,
-        "{:?}",
-        place(7)
-    );
+    for sign in ["ن", "ṅ"] {
+        let names = format!("n {sign} p n l {sign} n {sign} i n i n l n n n p n i n");
+        let cut = cut_page(&paper, &names, &options(Layout::Grid(4, 5))).unwrap();
+        let place = |i: usize| cut.cells[i].in_sheet;
+        assert!(
+            place(1).x1 < 242.0 && place(1).height() > 42.0,
+            "{:?}",
+            place(1)
+        );
+        assert!(
+            place(5).y1 < 230.0 && place(5).height() > 40.0,
+            "{:?}",
+            place(5)
+        );
+        assert!(
+            place(7).x0 > 325.0 && place(7).x1 < 375.0 && place(7).height() > 42.0,
+            "{:?}",
+            place(7)
+        );
+    }
+}
+
+#[test]
+fn a_letter_of_one_dot_has_no_second_one_farther_off() {
+    let mut paper = grid_page(1.0);
+    paper.bar(211.0, 68.0, 6.0, 5.0);
+    // and a smaller one nearer by
+    paper.bar(218.0, 90.0, 4.5, 4.5);
+    // what the pen left of the body beside it is none
+    paper.bar(220.0, 108.0, 10.0, 10.0);
+    for (name, height) in [("ن", 42.0), ("ت", 52.0)] {
+        let names = format!("n {name} p n l n n p i n i n l n n n p n i n");
+        let cut = cut_page(&paper, &names, &options(Layout::Grid(4, 5))).unwrap();
+        let found = cut.cells[1].in_sheet.height();
+        assert!((found - height).abs() < 3.0, "{name}: {found}");
+    }
+}
+
+#[test]
+fn a_sign_above_the_grid_goes_to_the_letter_that_lacks_it() {
+    let mut paper = grid_page(0.0);
+    paper.bar(566.0, 40.0, 14.0, 6.0);
+    for (name, height) in [("l", 45.0), ("ĺ", 80.0)] {
+        let names = NAMES.replacen('l', name, 1);
+        let cut = cut_page(&paper, &names, &options(Layout::Grid(4, 5))).unwrap();
+        let found = cut.cells[4].in_sheet.height();
+        assert!((found - height).abs() < 2.0, "{name}: {found}");
+    }
 }
 
 #[test]
