@@ -12,7 +12,8 @@
 //! What is left of the picture around an edge tells where a fit is wrong, and by how much. There the few nodes near by are
 //! fit to the pixels themselves, as they stand and with a node or corner more or less; what leaves least for its nodes is kept.
 //! Between such looks the levels of ink and paper are read again: what a path did not follow had passed for a part of them.
-//! In the end bends that a lens cannot tell from corners become corners, where the pixels do not speak against it.
+//! In the end bends that a lens cannot tell from corners become corners, where the pixels do not speak against it, and corners
+//! lose their ends, where the pixels ask for it.
 
 mod bends;
 mod ends;
