@@ -98,7 +98,9 @@ impl<F: Fn(f64, f64) -> bool> Line<'_, F> {
         }
         let seen = |beside: &Run, end: f64, way: f64| {
             let at = |share: &f64| {
+                // two places in one say nothing of a slope
                 let out = (share * run.length()).min(beside.length() - 1.0);
+                let out = Some(out).filter(|out| *out >= 1.0)?;
                 let place = self.seen(run, beside, (end, way * out))?;
                 Some([(end, place.0), (end + way * out, place.1)])
             };
@@ -169,6 +171,16 @@ mod tests {
         let edge = |x: f64| 104.0 + 0.15 * (x - 200.0);
         let far = off(|x, y| y > edge(x) && y < edge(x) + 60.0, edge);
         assert!(far < 1.0, "{far}");
+    }
+
+    #[test]
+    fn an_edge_that_is_seen_for_one_pixel_alone_is_not_known() {
+        // ink above the line, and on both its sides in one place at each end of it
+        let bow = |x: f64, y: f64| {
+            (150.0..250.0).contains(&x) && y < 104.0
+                || [150.5, 249.5].iter().any(|end| (x - end).abs() < 0.1)
+        };
+        assert_eq!(find(&LINE, &ENDS, bow), []);
     }
 
     #[test]
