@@ -53,11 +53,11 @@ pub(super) enum Look {
 }
 
 impl Look {
-    /// By how much squares may grow in a place.
+    /// By how much squares may grow in a place; negative where they must fall.
     pub(super) const fn more(self, grain: f64) -> f64 {
         /// Squares that mean nothing, and in the picture's grain.
         const TIE: (f64, f64) = (0.001, 1.0);
-        /// What a line across the end of a corner must mend.
+        /// What a line across the end of a corner must mend, squares, and in the picture's grain.
         const BLUNT: (f64, f64) = (0.003, 16.0);
         match self {
             Self::Wrong => 0.0,

@@ -96,7 +96,8 @@ impl Search<'_> {
         found
     }
 
-    /// The structure with a line across the end of the corner there, if it is sound and leaves no more than `more` squares more.
+    /// The structure with a line across the end of the corner there, if it is sound and leaves no more than `more` squares more,
+    /// which is negative: fewer.
     pub(super) fn blunted(&self, more: f64) -> Option<Fitted> {
         let now = self.fit(self.part.clone(), f64::INFINITY);
         let (from, left) = if now.sound {
