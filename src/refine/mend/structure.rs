@@ -131,10 +131,9 @@ impl Search<'_> {
                 ASTRAY * squares.max(noise)
             }
         };
-        let cost = |other: &Fitted| {
-            let price = asked(now, &other.chain).0 + NODE_GRAIN * self.grain;
-            let more = other.chain.nodes.len() as f64 - now.chain.nodes.len() as f64;
-            other.drawn.squares + price * more
+        let price = |other: &Chain| {
+            let more = other.nodes.len() as f64 - now.chain.nodes.len() as f64;
+            (asked(now, other).0 + NODE_GRAIN * self.grain) * more
         };
         let mut least = if now.sound { squares } else { f64::INFINITY };
         let mut found: Option<Fitted> = None;
@@ -154,9 +153,12 @@ impl Search<'_> {
                     // what more nodes could save is less than they must
                     break;
                 }
-                let enough = most(&other);
+                let enough = most(&other).min(least - price(&other));
+                if enough <= 0.0 {
+                    continue;
+                }
                 let other = self.fit(other, enough);
-                let cost = cost(&other);
+                let cost = other.drawn.squares + price(&other.chain);
                 if cost < least && other.drawn.squares < most(&other.chain) && other.sound {
                     (least, found) = (cost, Some(other));
                 }

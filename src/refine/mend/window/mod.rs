@@ -156,8 +156,12 @@ impl Window {
             chords.iter().fold(first, |r, p| r.union_pt(*p))
         };
         let bounds: Vec<Rect> = chords.iter().map(around).collect();
-        let feet = self.anchors.iter();
-        let feet = feet.map(|a| foot(a.at - self.origin, &chords, &bounds));
+        let mut last = 0;
+        let feet = self.anchors.iter().map(|a| {
+            let foot = foot(a.at - self.origin, (&chords, &bounds), last);
+            last = foot.0;
+            foot
+        });
         let feet = feet.collect();
         self.with(chain, chords, feet)
     }
@@ -337,10 +341,12 @@ impl Anchor {
     }
 }
 
-/// Segment and parameter of the place on chords that is nearest to a point; each segment's chords lie within their bounds.
-fn foot(at: Point, chords: &[Vec<Point>], bounds: &[Rect]) -> (usize, f64) {
-    let mut nearest = (f64::INFINITY, (0, 0.0));
-    for (i, (chords, around)) in chords.iter().zip(bounds).enumerate() {
+/// Segment and parameter of the place on chords that is nearest to a point; each segment's chords lie within their bounds,
+/// and the one that is looked at `first` is likely to hold it.
+fn foot(at: Point, (chords, bounds): (&[Vec<Point>], &[Rect]), first: usize) -> (usize, f64) {
+    let mut nearest = (f64::INFINITY, (first, 0.0));
+    for i in (first..chords.len()).chain(0..first) {
+        let (chords, around) = (&chords[i], bounds[i]);
         let inside = Point::new(
             at.x.max(around.x0).min(around.x1),
             at.y.max(around.y0).min(around.y1),

@@ -92,12 +92,14 @@ impl Normal {
 
     fn add_anchors(&mut self, window: &Window, ways: &[Vec<Way>], now: &Drawn) {
         let left = &now.left[index(window.pixels())..];
+        let mut grows = Vec::new();
         for ((anchor, &(segment, t)), left) in window.anchors.iter().zip(&now.feet).zip(left) {
             let weighed = anchor.weight * anchor.outward;
-            let grows = ways[segment]
-                .iter()
-                .map(|w| (w.number, weighed.dot(w.at(t))));
-            self.add_row(&grows.collect::<Vec<_>>(), f64::from(*left));
+            let basis = bernstein(t);
+            let ways = ways[segment].iter();
+            grows.clear();
+            grows.extend(ways.map(|w| (w.number, w.along(weighed, &basis))));
+            self.add_row(&grows, f64::from(*left));
         }
     }
 
@@ -109,13 +111,15 @@ impl Normal {
         now: &Drawn,
     ) {
         let left = &now.left[index(window.pixels()) + window.anchors.len()..];
+        let mut grows = Vec::new();
         for ((segment, ways), left) in ways.iter().enumerate().zip(left.chunks_exact(4)) {
             let before = window.handles(chain, segment);
             let after = |w: &Way| (w.number, window.handles(&moved[w.number], segment));
             let after: Vec<_> = ways.iter().map(after).collect();
             for (k, left) in left.iter().enumerate() {
-                let grows = after.iter().map(|(i, a)| (*i, (a[k] - before[k]) / DELTA));
-                self.add_row(&grows.collect::<Vec<_>>(), f64::from(*left));
+                grows.clear();
+                grows.extend(after.iter().map(|(i, a)| (*i, (a[k] - before[k]) / DELTA)));
+                self.add_row(&grows, f64::from(*left));
             }
         }
     }
@@ -138,12 +142,17 @@ struct Way {
 }
 
 impl Way {
-    /// How the curve goes at `t`.
-    fn at(&self, t: f64) -> Vec2 {
-        let s = 1.0 - t;
-        let [a, b, c, d] = self.points;
-        s * s * s * a + 3.0 * s * s * t * b + 3.0 * s * t * t * c + t * t * t * d
+    /// How far the curve goes in a direction where the control points have those weights.
+    fn along(&self, direction: Vec2, basis: &[f64; 4]) -> f64 {
+        let pairs = self.points.iter().zip(basis);
+        pairs.map(|(p, b)| b * direction.dot(*p)).sum()
     }
+}
+
+/// Weights of a cubic's control points at `t`.
+fn bernstein(t: f64) -> [f64; 4] {
+    let s = 1.0 - t;
+    [s * s * s, 3.0 * s * s * t, 3.0 * s * t * t, t * t * t]
 }
 
 /// Ways of the numbers that move a segment.
@@ -201,17 +210,19 @@ impl Inked {
     /// The chords of a segment, evenly in its parameter.
     fn add(&mut self, ways: &[Way], chords: &[Point]) {
         let count = (chords.len() - 1) as f64;
+        let mut parts = Vec::new();
         for (k, (a, b)) in chords.iter().zip(chords.iter().skip(1)).enumerate() {
             let outward = Vec2::new(b.y - a.y, a.x - b.x);
+            crossings(*a, *b, (self.width, self.height), &mut parts);
             let mut from = 0.0;
-            for to in crossings(*a, *b, (self.width, self.height)) {
+            for &to in &parts {
                 let (part, mid) = (to - from, (from + to) / 2.0);
                 from = to;
                 let p = a.lerp(*b, mid);
                 let Some(row) = self.row(p) else { continue };
-                let t = (k as f64 + mid) / count;
+                let basis = bernstein((k as f64 + mid) / count);
                 for w in ways {
-                    row[w.number] += part * outward.dot(w.at(t));
+                    row[w.number] += part * w.along(outward, &basis);
                 }
             }
         }
@@ -252,12 +263,17 @@ impl Inked {
             let to = out[to * n + first..].iter_mut().zip(values);
             to.for_each(|(to, v)| *to += light * v);
         };
-        for (i, a) in self.cells.iter().enumerate() {
-            for (j, b) in self.cells[..=i].iter().enumerate() {
-                let light = shared.of(*a, *b);
-                if light == 0.0 {
+        let mut order: Vec<usize> = (0..self.cells.len()).collect();
+        order.sort_unstable_by_key(|i| (self.cells[*i].1, self.cells[*i].0));
+        for (k, &i) in order.iter().enumerate() {
+            let a = self.cells[i];
+            let near = |j: &&usize| self.cells[**j].1 - a.1 <= shared.reach;
+            for &j in order[k..].iter().take_while(near) {
+                let b = self.cells[j];
+                if a.0.abs_diff(b.0) > shared.reach {
                     continue;
                 }
+                let light = shared.of(a, b);
                 add(i, j, light);
                 if i != j {
                     add(j, i, light);
@@ -269,9 +285,9 @@ impl Inked {
 }
 
 /// Parts of the way from `a` to `b` at which it enters another pixel of a picture or the picture itself, in order, and
-/// in the end the whole.
-fn crossings(a: Point, b: Point, (width, height): (usize, usize)) -> Vec<f64> {
-    let mut out = Vec::new();
+/// in the end the whole, in place of what `out` held.
+fn crossings(a: Point, b: Point, (width, height): (usize, usize), out: &mut Vec<f64>) {
+    out.clear();
     for (from, to, size) in [(a.x, b.x, width), (a.y, b.y, height)] {
         let (low, high) = (from.min(to).max(0.0), from.max(to).min(size as f64));
         if low <= high {
@@ -280,9 +296,8 @@ fn crossings(a: Point, b: Point, (width, height): (usize, usize)) -> Vec<f64> {
             out.extend(lines.filter(|part| (0.0..1.0).contains(part)));
         }
     }
-    out.sort_by(f64::total_cmp);
+    out.sort_unstable_by(f64::total_cmp);
     out.push(1.0);
-    out
 }
 
 /// How much light two pixels share: what a lens makes of the one times what it makes of the other, over all pixels that
@@ -307,11 +322,9 @@ impl Shared {
         }
     }
 
+    /// Of two pixels within `reach` columns and rows of each other.
     fn of(&self, a: (usize, usize), b: (usize, usize)) -> f64 {
         let (dx, dy) = (a.0.abs_diff(b.0), a.1.abs_diff(b.1));
-        if dx > self.reach || dy > self.reach {
-            return 0.0;
-        }
         let stride = self.reach + 1;
         self.columns[a.0.min(b.0) * stride + dx] * self.rows[a.1.min(b.1) * stride + dy]
     }
