@@ -129,16 +129,20 @@ pub(super) fn is_cornered(chain: &Chain, p: Point) -> bool {
         let node = &chain.nodes[*i];
         node.join == Join::Corner && node.point.distance(p) < APART_PX
     };
-    let is_sharp = |i: usize| {
-        let (before, after) = (chain.cubic(i - 1), reversed(&chain.cubic(i)));
-        let (u, v) = (arriving(&before), arriving(&after));
-        let leads = |c: &CubicBez, end: Vec2| {
-            let last = c.p3 - c.eval(1.0 - behind(c, SIDE_PX));
-            last.cross(end).atan2(last.dot(end)).abs() < HOOKED
-        };
-        (-u.cross(v)).atan2(-u.dot(v)).abs() > SHARP && leads(&before, u) && leads(&after, v)
+    (1..chain.kinds.len())
+        .filter(near)
+        .any(|i| is_sharp(chain, i))
+}
+
+/// Whether an inner node is a corner to which both sides lead: they do not hook just before it.
+pub(super) fn is_sharp(chain: &Chain, i: usize) -> bool {
+    let (before, after) = (chain.cubic(i - 1), reversed(&chain.cubic(i)));
+    let (u, v) = (arriving(&before), arriving(&after));
+    let leads = |c: &CubicBez, end: Vec2| {
+        let last = c.p3 - c.eval(1.0 - behind(c, SIDE_PX));
+        last.cross(end).atan2(last.dot(end)).abs() < HOOKED
     };
-    (1..chain.kinds.len()).filter(near).any(is_sharp)
+    (-u.cross(v)).atan2(-u.dot(v)).abs() > SHARP && leads(&before, u) && leads(&after, v)
 }
 
 /// Where two rays meet, the second one backwards, and how far along each; halfway between their starts where they do not.

@@ -50,6 +50,8 @@ pub(super) enum Look {
     Bend,
     /// It has a corner there whose end may be blunt.
     Corner,
+    /// It has a tip there that may lie elsewhere.
+    Tip,
 }
 
 impl Look {
@@ -59,10 +61,13 @@ impl Look {
         const TIE: (f64, f64) = (0.001, 1.0);
         /// What a line across the end of a corner must mend, squares, and in the picture's grain.
         const BLUNT: (f64, f64) = (0.003, 16.0);
+        /// What a tip that moves must mend: of the last px of an acute one hardly a pixel tells.
+        const MOVED: f64 = 1e-6;
         match self {
             Self::Wrong => 0.0,
             Self::Bend => TIE.0 + TIE.1 * grain,
             Self::Corner => -(BLUNT.0 + BLUNT.1 * grain),
+            Self::Tip => -MOVED,
         }
     }
 }
@@ -98,10 +103,11 @@ impl Place<'_> {
             Look::Wrong => search.best(),
             Look::Bend => search.sharpened(look.more(self.grain)),
             Look::Corner => search.blunted(look.more(self.grain)),
+            Look::Tip => search.settled(),
         }?;
         let enough = match look {
             Look::Wrong => self.enough(&best.chain),
-            Look::Bend | Look::Corner => -look.more(self.grain),
+            Look::Bend | Look::Corner | Look::Tip => -look.more(self.grain),
         };
         if window.drawn(&part).squares - best.drawn.squares < enough {
             return None;

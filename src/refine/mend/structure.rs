@@ -2,7 +2,7 @@
 
 use super::{
     WRONG,
-    bends::{cornered, is_cornered},
+    bends::{cornered, is_cornered, is_sharp},
     ends::is_blunt,
     fair::is_fair,
     tips::{has_tip, tip},
@@ -72,6 +72,15 @@ impl Search<'_> {
             now = better;
         }
         now.sound.then_some(now)
+    }
+
+    /// The structure as it is, with its nodes where the pixels have them, if that is sound and both sides lead to its tip.
+    pub(super) fn settled(&self) -> Option<Fitted> {
+        let now = self.fit(self.part.clone(), f64::INFINITY);
+        let tips = (1..now.chain.kinds.len()).filter(|i| tip(&now.chain, *i).is_some());
+        let off = |i: &usize| now.chain.nodes[*i].point.distance(self.at);
+        let nearest = tips.min_by(|a, b| off(a).total_cmp(&off(b)))?;
+        (now.sound && is_sharp(&now.chain, nearest)).then_some(now)
     }
 
     /// The structure with a corner in place of the bend there, if it is sound and leaves no more than `more` squares more.

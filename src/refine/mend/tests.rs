@@ -124,6 +124,20 @@ fn a_tip_that_was_cut_short_comes_out_again() {
 }
 
 #[test]
+fn a_tip_of_which_hardly_a_pixel_tells_comes_where_it_is_drawn() {
+    let wedge = |tip: &str| BezPath::from_svg(&format!("M8.2 18.1L{tip}L8.2 26.7Z")).unwrap();
+    let drawn = wedge("40.3 22.4");
+    for short in ["39.3 22.4", "39.6 22.4"] {
+        for lens in [0.0, 0.9] {
+            let gray = photograph(&drawn, lens);
+            let got = mended(&gray, &wedge(short), Contour::PIXEL_BLUR_PX.hypot(lens));
+            let off = apart(&got, &drawn);
+            assert!(off < 0.15, "{short}, lens {lens}: {off} {}", got.to_svg());
+        }
+    }
+}
+
+#[test]
 fn a_long_line_gives_way_to_what_no_window_holds() {
     // the edge leaves the line by a third of a pixel, over twice the width of the widest window
     let slab = |top: &str| {
