@@ -27,9 +27,12 @@ const ARABIC_HANGING: &str = "جحخچم";
 const ONE_PIECE: &str = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghklmnopqrstuvwxyz0123456789\
     ΑΒΓΔΕΗΙΚΛΜΝΟΠΡΤΥΦΧΨΩАБВГДЕЖЗИКЛМНОПРСТУФХЦЧШЭЮЯабвгдежзиклмнопрстуфхцчшэюяاحدرسصطعلمهوى";
 /// Letters with a dot above, dots, or another small sign.
-const DOT_ABOVE: &str = "ijةتثخذزشضظغفقنٹٺٿڈڌڎڏڐڑڒڗژڙڜڞڟڠڤڦڧڨڬڭڴڱڵڷڻڽۆۇۈۉۋێ";
+const DOT_ABOVE: &str = "ijةتثخذزشضظغفقنٹٺٿڈڌڎڏڐڑڒڗژڙڞڟڠڤڦڧڨڬڭڴڱڵڷڻڽۆۇۈۉۋ";
 /// Letters and signs with a dot below or dots.
 const DOT_BELOW: &str = "!?؟بجيیپچٻڀڃڄڇڍڊڔڕڝڢڣڥڮڳڸې";
+
+/// Letters with signs above and below.
+const SIGNS: &str = "ڜێ";
 
 /// Letters whose only sign is a dot.
 const ONE_DOT: &str = "ijبجخذزضظغفن";
@@ -52,7 +55,7 @@ pub(super) enum Pieces {
     DotAbove,
     /// A body and dots below it.
     DotBelow,
-    /// A letter and a mark.
+    /// A letter and a mark, or several.
     Marked,
     /// Nobody knows.
     Unknown,
@@ -116,7 +119,7 @@ impl Shape {
         let any = |c: Option<char>, set: &str| c.is_some_and(|c| set.contains(c));
         let plain = base == letter;
         let pieces = match () {
-            () if letter.is_some() && !plain => Pieces::Marked,
+            () if letter.is_some() && !plain || any(base, SIGNS) => Pieces::Marked,
             () if any(base, ONE_PIECE) => Pieces::One,
             () if any(base, DOT_ABOVE) => Pieces::DotAbove,
             () if any(base, DOT_BELOW) => Pieces::DotBelow,

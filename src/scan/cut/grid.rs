@@ -24,7 +24,7 @@ const NEAR: f64 = 0.2;
 /// What a distance within the cell counts beside one to another cell's letter.
 const HOME: f64 = 0.6;
 /// A part smaller than this share of the largest part of its cell is a dot or an accent.
-const SMALL: f64 = 0.4;
+pub(super) const SMALL: f64 = 0.4;
 /// Ink in a cell without a name counts from this share of a usual cell's ink.
 const COUNTS: f64 = 0.1;
 

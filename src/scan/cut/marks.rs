@@ -5,7 +5,7 @@
 //! it has dots or an accent takes the largest such piece beside it, and those like it, unless it has larger ones already;
 //! and one that is drawn in one piece has none of them, whatever lies beside it.
 
-use super::grid::group;
+use super::grid::{SMALL, group};
 use super::{Layer, Reason, gap};
 use crate::scan::components::Component;
 use crate::scan::letters::{Pieces, Shape};
@@ -42,10 +42,12 @@ pub(super) fn dust(layer: &mut Layer, all: &[Component], claims: &[(usize, Vec<u
             _ if i == body => false,
             Pieces::One => {
                 let mote = (MOTE * all[body].upright.height()).powi(2);
-                (all[i].area as f64) < mote.max(dot)
+                (all[i].area as f64) < mote.max(dot) || apart(&all[i], &slot.parts, all)
             }
             Pieces::DotAbove | Pieces::DotBelow | Pieces::Marked => {
-                astray(&all[i], &slot.parts, all) || second(&all[i], &shape, &slot.parts, all)
+                astray(&all[i], &slot.parts, all)
+                    || second(&all[i], &shape, &slot.parts, all)
+                    || opposite(&all[i], &shape, &slot.parts, all)
             }
             Pieces::Unknown => false,
         };
@@ -54,6 +56,14 @@ pub(super) fn dust(layer: &mut Layer, all: &[Component], claims: &[(usize, Vec<u
         let small = small.into_iter().map(|i| (i, Reason::Dirt));
         layer.rejected.extend(small);
     }
+}
+
+/// Whether a compact piece lies farther from all that is larger than it is long: what a pen's lift tears off a letter of one
+/// piece lies close to the rest, or is a stroke.
+fn apart(c: &Component, parts: &[usize], all: &[Component]) -> bool {
+    let length = c.upright.width().max(c.upright.height());
+    let mut others = parts.iter().map(|&i| &all[i]).filter(|o| o.area > c.area);
+    is_dot(c) && !others.any(|o| c.is_near(o, length))
 }
 
 /// Whether a piece is hardly larger than the dots of its letter, and lies neither over, under nor in what is larger.
@@ -76,25 +86,46 @@ fn astray(c: &Component, parts: &[usize], all: &[Component]) -> bool {
 
 /// Whether another piece is rather the one dot of its letter: larger, or about as large and nearer to the body.
 fn second(c: &Component, shape: &Shape, parts: &[usize], all: &[Component]) -> bool {
-    let side = match shape.pieces {
-        Pieces::DotAbove => -1.0,
-        Pieces::DotBelow => 1.0,
-        _ => return false,
-    };
-    let size = |i: &&usize| all[**i].area;
-    let Some(&main) = parts.iter().max_by_key(size).filter(|_| shape.one_dot) else {
+    let Some((body, dots)) = dots(shape, parts, all).filter(|_| shape.one_dot) else {
         return false;
     };
-    let body = all[main].upright;
     let off = |o: &Component| gap(o.upright, body);
-    let rest = parts.iter().filter(|&&i| i != main).map(|&i| &all[i]);
-    // pieces of the body lie beside it
-    let is_there = |o: &&Component| is_dot(o) && side * (o.centre.y - body.center().y) > 0.0;
-    let mut dots = rest.filter(is_there);
-    dots.any(|o| {
+    dots.iter().any(|o| {
         let times = o.area as f64 / c.area as f64;
         times >= LARGER[0].0 || (times >= LARGER[1].0 && off(o) < off(c))
     })
+}
+
+/// Whether a small piece lies apart under a letter that has its dots above it, or over one that has them below.
+fn opposite(c: &Component, shape: &Shape, parts: &[usize], all: &[Component]) -> bool {
+    let most = parts.iter().map(|&i| all[i].area).max().unwrap_or(0);
+    dots(shape, parts, all).is_some_and(|(body, dots)| {
+        let beyond = if shape.pieces == Pieces::DotAbove {
+            c.upright.y0 >= body.y1
+        } else {
+            c.upright.y1 <= body.y0
+        };
+        beyond && !dots.is_empty() && (c.area as f64) < SMALL * most as f64 && apart(c, parts, all)
+    })
+}
+
+/// The box of a letter's body, and the pieces that lie on the side on which its name says that it has dots.
+fn dots<'a>(
+    shape: &Shape,
+    parts: &[usize],
+    all: &'a [Component],
+) -> Option<(Rect, Vec<&'a Component>)> {
+    let side = match shape.pieces {
+        Pieces::DotAbove => -1.0,
+        Pieces::DotBelow => 1.0,
+        _ => return None,
+    };
+    let main = parts.iter().copied().max_by_key(|&i| all[i].area)?;
+    let body = all[main].upright;
+    let rest = parts.iter().filter(|&&i| i != main).map(|&i| &all[i]);
+    // pieces of the body lie beside it
+    let is_there = |o: &&Component| is_dot(o) && side * (o.centre.y - body.center().y) > 0.0;
+    Some((body, rest.filter(is_there).collect()))
 }
 
 /// Whether a piece is as compact as dots are, and no stroke or ring.
