@@ -11,6 +11,7 @@ use crate::scan::options::Options;
 use crate::types::Label;
 use glyphs_reader::glyphdata::GlyphData;
 use kurbo::Point;
+use std::collections::BTreeSet;
 use std::ops::Range;
 
 /// A piece longer than this many cells is no letter if it is thin or hollow.
@@ -25,7 +26,7 @@ const NEAR: f64 = 0.2;
 const HOME: f64 = 0.6;
 /// A part smaller than this share of the largest part of its cell is a dot or an accent.
 pub(super) const SMALL: f64 = 0.4;
-/// Ink in a cell without a name counts from this share of a usual cell's ink.
+/// Ink in a cell without a name, and where cells are looked for, counts from this share of a usual cell's ink.
 const COUNTS: f64 = 0.1;
 
 /// A cell is at least this large, px.
@@ -207,7 +208,7 @@ fn lines(all: &[Component], plan: &Plan<'_>) -> Vec<usize> {
     (0..all.len()).filter(|&i| is_line(&all[i])).collect()
 }
 
-/// Columns and rows.
+/// Columns and rows: those of all ink, unless more of the named cells have a letter in those of the ink that is no dust.
 fn axes(
     all: &[Component],
     letters: &[usize],
@@ -216,16 +217,31 @@ fn axes(
 ) -> Option<(Axis, Axis)> {
     let named = labels.iter().enumerate().filter(|(_, l)| l.0 != "_");
     let places: Vec<(usize, usize)> = named.map(|(i, _)| plan.place(i)).collect();
-    let range = |of: fn(&(usize, usize)) -> usize| -> Option<Range<usize>> {
-        let all = || places.iter().map(of);
-        Some(all().min()?..all().max()? + 1)
+    let fit = |pieces: &[usize]| {
+        let boxes = || pieces.iter().map(|&i| all[i].upright);
+        let across: Vec<_> = boxes().map(|b| (b.x0, b.x1)).collect();
+        let down: Vec<_> = boxes().map(|b| (b.y0, b.y1)).collect();
+        let range = |of: fn(&(usize, usize)) -> usize| -> Option<Range<usize>> {
+            let all = || places.iter().map(of);
+            Some(all().min()?..all().max()? + 1)
+        };
+        let x = Axis::fit(&across, plan.columns, range(|p| p.1)?)?;
+        let y = Axis::fit(&down, plan.rows, range(|p| p.0)?)?;
+        Some((x, y))
     };
-    let boxes = || letters.iter().map(|&i| all[i].upright);
-    let across: Vec<_> = boxes().map(|b| (b.x0, b.x1)).collect();
-    let down: Vec<_> = boxes().map(|b| (b.y0, b.y1)).collect();
-    let x = Axis::fit(&across, plan.columns, range(|p| p.1)?)?;
-    let y = Axis::fit(&down, plan.rows, range(|p| p.0)?)?;
-    Some((x, y))
+    let ink: usize = letters.iter().map(|&i| all[i].area).sum();
+    let least = COUNTS * ink as f64 / places.len().max(1) as f64;
+    let large = letters.iter().copied();
+    let large: Vec<usize> = large.filter(|&i| all[i].area as f64 >= least).collect();
+    let held = |(x, y): &(Axis, Axis)| {
+        let cells = large.iter().map(|&i| all[i].centre);
+        let cells = cells.filter_map(|p| Some((y.cell(p.y)?, x.cell(p.x)?)));
+        let cells: BTreeSet<(usize, usize)> = cells.collect();
+        places.iter().filter(|p| cells.contains(p)).count()
+    };
+    let whole = fit(letters)?;
+    let better = fit(&large).filter(|axes| held(axes) > held(&whole));
+    Some(better.unwrap_or(whole))
 }
 
 /// Dots and accents near a border of cells go to the letter that is nearer.

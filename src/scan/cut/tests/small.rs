@@ -157,6 +157,25 @@ fn dust_where_a_letter_has_no_dots_is_none_of_them() {
 }
 
 #[test]
+fn dust_in_empty_rows_does_not_move_the_grid() {
+    let mut paper = grid_page(0.0);
+    paper.bars.retain(|b| b.0.y1 < 260.0);
+    for (x, y) in [
+        (120.0, 320.0),
+        (600.0, 380.0),
+        (300.0, 410.0),
+        (460.0, 440.0),
+        (200.0, 470.0),
+    ] {
+        paper.bar(x, y, 5.0, 5.0);
+    }
+    let names = &NAMES[..NAMES.len() / 2];
+    let cut = cut_page(&paper, names, &options(Layout::Grid(4, 5))).unwrap();
+    assert_eq!(cut.cells.len(), 10, "{:?}", cut.warnings);
+    assert!(cut.cells.iter().all(|c| c.in_sheet.height() < 60.0));
+}
+
+#[test]
 fn a_letter_of_one_dot_has_no_second_one_farther_off() {
     let mut paper = grid_page(1.0);
     paper.bar(211.0, 68.0, 6.0, 5.0);
