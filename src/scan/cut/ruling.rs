@@ -83,7 +83,14 @@ impl Stripe {
     /// Whether a place along it and across is a letter's; `ink` takes such places.
     fn is_letter(&self, (along, across): (f64, f64), ink: impl Fn(f64, f64) -> bool) -> bool {
         crosses(&self.line, across, |to, aside| ink(along + aside, to))
-            || self.hidden.iter().any(|h| h.holds(along, across))
+            || self.encloses(along, across)
+    }
+
+    /// Whether the edges that run along there, of which a thin stroke has two, all say so.
+    fn encloses(&self, along: f64, across: f64) -> bool {
+        let mut told = self.hidden.iter().filter_map(|h| h.holds(along, across));
+        told.next()
+            .is_some_and(|first| first && told.all(|more| more))
     }
 }
 
