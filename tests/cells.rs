@@ -149,7 +149,7 @@ fn a_box_leaves_a_blot_out() {
         .expect("a picture")
         .to_luma8();
     let picture = png(600, 600, |x, y| {
-        let disc = edge((f64::from(x) - 172.0).hypot(f64::from(y) - 170.0) - 9.0);
+        let disc = edge((f64::from(x) - 158.0).hypot(f64::from(y) - 140.0) - 9.0);
         disc.max(255 - clean.get_pixel(x, y).0[0])
     });
     let with = bounds("", &picture, 'H').expect("a letter");
