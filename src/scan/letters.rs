@@ -25,7 +25,9 @@ const ARABIC_HANGING: &str = "جحخچم";
 
 /// Letters that a pen draws in one piece.
 const ONE_PIECE: &str = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghklmnopqrstuvwxyz0123456789\
-    ΑΒΓΔΕΗΙΚΛΜΝΟΠΡΤΥΦΧΨΩАБВГДЕЖЗИКЛМНОПРСТУФХЦЧШЭЮЯабвгдежзиклмнопрстуфхцчшэюяاحدرسصطعلمهوى";
+    &ÆØŒÞĐĦŁŦßæðøœþđħıłŧ\
+    ΑΒΓΔΕΗΙΚΛΜΝΟΠΡΤΥΦΧΨΩАБВГДЕЖЗИКЛМНОПРСТУФХЦЧШЭЮЯабвгдежзиклмнопрстуфхцчшэюя\
+    ءاحدرسصطعلمهوىٮٯڡںھہےﻻﻼ";
 /// Letters with a dot above, dots, or another small sign.
 const DOT_ABOVE: &str = "ijةتثخذزشضظغفقنٹٺٿڈڌڎڏڐڑڒڗژڙڞڟڠڤڦڧڨڬڭڴڱڵڷڻڽۆۇۈۉۋ";
 /// Letters and signs with a dot below or dots.
@@ -34,8 +36,14 @@ const DOT_BELOW: &str = "!?؟بجيیپچٻڀڃڄڇڍڊڔڕڝڢڣڥڮڳڸې";
 /// Letters with signs above and below.
 const SIGNS: &str = "ڜێ";
 
-/// Letters whose only sign is a dot.
-const ONE_DOT: &str = "ijبجخذزضظغفن";
+/// Letters with one dot, two and three, and no other sign.
+const DOTS: [&str; 3] = ["ij!?؟بجخذزضظغفن", "تةقي", "ثشپچژڤ"];
+
+/// Names of lam-alef, the ligature without a sign.
+const LAM_ALEF: [&str; 3] = ["uni06440627", "lam_alef-ar", "لا"];
+
+/// Letters that have a sign within their box where nothing follows, in some styles.
+const SIGN_WITHIN: &str = "كک";
 
 /// Letters that hang below the baseline.
 const TAILED: &str = "gjpqyрф";
@@ -57,6 +65,10 @@ pub(super) enum Pieces {
     DotBelow,
     /// A letter and a mark, or several.
     Marked,
+    /// A body, and a sign within its box.
+    Within,
+    /// The same, but most styles have no sign.
+    Bare,
     /// Nobody knows.
     Unknown,
 }
@@ -103,8 +115,8 @@ pub(super) struct Shape {
     pub(super) head: Head,
     pub(super) kind: Kind,
     pub(super) pieces: Pieces,
-    /// It has one dot and no other sign.
-    pub(super) one_dot: bool,
+    /// How many dots it has, where it has no other sign.
+    pub(super) dots: usize,
     /// It is as large as most letters are.
     pub(super) full: bool,
     /// Where most of its ink is: 1 to the right and 1 down, −1 the other way, 0 where hands differ.
@@ -115,17 +127,21 @@ impl Shape {
     pub(super) fn of(label: &Label, names: &GlyphData) -> Self {
         let (base, form) = label.0.split_once('.').unwrap_or((&label.0, ""));
         let letter = character(base, names).or_else(|| character(&label.0, names));
+        let ligature = LAM_ALEF.contains(&base);
         let base = letter.and_then(|c| c.nfd().next());
         let any = |c: Option<char>, set: &str| c.is_some_and(|c| set.contains(c));
         let plain = base == letter;
         let pieces = match () {
             () if letter.is_some() && !plain || any(base, SIGNS) => Pieces::Marked,
-            () if any(base, ONE_PIECE) => Pieces::One,
+            () if any(base, SIGN_WITHIN) && matches!(form, "init" | "medi") => Pieces::Bare,
+            () if any(base, SIGN_WITHIN) => Pieces::Within,
+            () if ligature || any(base, ONE_PIECE) => Pieces::One,
             () if any(base, DOT_ABOVE) => Pieces::DotAbove,
             () if any(base, DOT_BELOW) => Pieces::DotBelow,
             () => Pieces::Unknown,
         };
-        let one_dot = plain && any(base, ONE_DOT);
+        let dots = (1..).zip(DOTS).find(|(_, set)| plain && any(base, set));
+        let dots = dots.map_or(0, |d| d.0);
         let full = letter.is_some_and(super::is_full);
         let side = |less: &str, more: &str| {
             i8::from(plain && any(base, more)) - i8::from(plain && any(base, less))
@@ -146,7 +162,7 @@ impl Shape {
                 head: if alef { Head::Alef } else { Head::None },
                 kind: Kind::Arabic,
                 pieces,
-                one_dot,
+                dots,
                 full,
                 heavy,
             };
@@ -173,7 +189,7 @@ impl Shape {
                 Kind::Other
             },
             pieces,
-            one_dot,
+            dots,
             full,
             heavy,
         }
@@ -221,6 +237,8 @@ mod tests {
         }
         assert_eq!(of("E").heavy, [-1, 0]);
         assert_eq!(of("D").heavy, [0, 0], "its bow weighs as much as its stem");
-        assert!(of("uni0646.fina").one_dot && !of("uni062A").one_dot && !of("ñ").one_dot);
+        let dots = ["uni0646.fina", "uni062A", "ñ"].map(|s| of(s).dots);
+        assert_eq!(dots, [1, 2, 0]);
+        assert_eq!(of("uni06440627.fina").pieces, Pieces::One);
     }
 }

@@ -1,6 +1,6 @@
 //! Equal cells in rows and columns.
 
-use super::{Layer, Reason, Slot, furniture, gap, position, ruling};
+use super::{Layer, Reason, Slot, furniture, gap, marks, position, ruling};
 use crate::numeric::view::View;
 use crate::scan::clean::Page;
 use crate::scan::components::Component;
@@ -103,12 +103,16 @@ pub(super) fn place(
     };
     let mut shared = share(all, &letters, labels, plan).ok_or_else(blank)?;
     let names = GlyphData::default();
-    let one_piece = |cell: &usize| {
-        let label = plan.index((cell / plan.columns, cell % plan.columns));
-        let label = label.and_then(|i| labels.get(i));
-        label.is_some_and(|l| Shape::of(l, &names).pieces == Pieces::One)
+    let label = |cell: usize| labels.get(plan.index((cell / plan.columns, cell % plan.columns))?);
+    let one_piece = |l: &Label| Shape::of(l, &names).pieces == Pieces::One;
+    let drawn = shared.cells.iter().enumerate();
+    let drawn = drawn.filter_map(|(cell, parts)| Some((label(cell)?, parts.as_slice())));
+    let asked: Vec<usize> = if marks::in_pieces(drawn, all, &names) {
+        Vec::new()
+    } else {
+        let cells = 0..shared.cells.len();
+        cells.filter(|&c| label(c).is_some_and(one_piece)).collect()
     };
-    let asked: Vec<usize> = (0..shared.cells.len()).filter(one_piece).collect();
     let printed = furniture::find(all, &shared, &asked);
     if !printed.is_empty() {
         let rest: Vec<usize> = letters

@@ -7,8 +7,10 @@
 
 use super::grid::{SMALL, group};
 use super::{Layer, Reason, gap};
+use crate::numeric::median::median;
 use crate::scan::components::Component;
 use crate::scan::letters::{Pieces, Shape};
+use crate::types::Label;
 use glyphs_reader::glyphdata::GlyphData;
 use kurbo::Rect;
 use std::ptr;
@@ -23,6 +25,22 @@ const MOTE: f64 = 0.03;
 /// The longer side of a dot beside its shorter one at most, and the share of its box that it covers at least: 0.5 where it
 /// stands on its point.
 const COMPACT: (f64, f64) = (2.0, 0.4);
+/// Letters that say how large dots are on a page, or whether letters are drawn in pieces, at least.
+const ENOUGH: usize = 3;
+/// Dots are all that a letter has from this share of their usual area on: some are drawn smaller, or as one stroke.
+const WHOLE: f64 = 0.6;
+/// What is more times as large as all dots of its letter is no dust beside them.
+const EXTRA: f64 = 2.5;
+/// What is torn off a letter that has dots, or a sign within it, lies nearer than this share of its length.
+const NEAR: f64 = 0.5;
+/// The longer side of a stroke's piece beside its shorter one at least, and how far from it it lies at most, in strokes.
+const STROKE: f64 = 2.5;
+const TORN: f64 = 0.6;
+/// The same in px at least: a gap of one is blurred to three.
+const LEAST_GAP: f64 = 3.0;
+/// Compact dust beside a letter of one piece is this many times as thick as its strokes at least, as [`Component::stroke`] measures both: of a
+/// square that is two thirds of its side.
+const BLOT: f64 = 1.3;
 /// How far a dot stands off its letter, as a share of the height of the letter's body.
 const REACH: f64 = 0.75;
 
@@ -30,6 +48,9 @@ const REACH: f64 = 0.75;
 /// what a user gave to a letter stays.
 pub(super) fn dust(layer: &mut Layer, all: &[Component], claims: &[(usize, Vec<usize>)], dot: f64) {
     let names = GlyphData::default();
+    let drawn = layer.slots.iter().map(|s| (&s.label, s.parts.as_slice()));
+    let in_pieces = in_pieces(drawn, all, &names);
+    let usual = usual_dot(layer, all, &names);
     for slot in &mut layer.slots {
         if claims.iter().any(|c| c.0 == slot.index) {
             continue;
@@ -37,33 +58,92 @@ pub(super) fn dust(layer: &mut Layer, all: &[Component], claims: &[(usize, Vec<u
         let Some(body) = slot.parts.iter().copied().max_by_key(|&i| all[i].area) else {
             continue;
         };
-        let shape = Shape::of(&slot.label, &names);
-        let is_dust = |i: usize| match shape.pieces {
-            _ if i == body => false,
-            Pieces::One => {
-                let mote = (MOTE * all[body].upright.height()).powi(2);
-                (all[i].area as f64) < mote.max(dot) || apart(&all[i], &slot.parts, all)
-            }
-            Pieces::DotAbove | Pieces::DotBelow | Pieces::Marked => {
-                astray(&all[i], &slot.parts, all)
-                    || second(&all[i], &shape, &slot.parts, all)
-                    || opposite(&all[i], &shape, &slot.parts, all)
-            }
-            Pieces::Unknown => false,
+        let (shape, parts) = (Shape::of(&slot.label, &names), &slot.parts);
+        let is_dust = |i: usize| {
+            let (c, main) = (&all[i], &all[body]);
+            let dust = match shape.pieces {
+                _ if i == body => false,
+                Pieces::One => {
+                    let mote = (MOTE * main.upright.height()).powi(2);
+                    let small = (c.area as f64) < mote.max(dot);
+                    small && !torn(c, main) || blot(c, main) || apart(c, parts, all, 1.0)
+                }
+                Pieces::DotAbove | Pieces::DotBelow | Pieces::Marked => {
+                    astray(c, parts, all)
+                        || !in_pieces && surplus(c, &shape, (parts, all), usual)
+                        || opposite(c, &shape, parts, all)
+                }
+                Pieces::Within | Pieces::Bare => beside(c, main) && apart(c, parts, all, NEAR),
+                Pieces::Unknown => false,
+            };
+            dust && (!in_pieces || apart(c, parts, all, 1.0))
         };
-        let (small, kept): (Vec<usize>, Vec<usize>) = slot.parts.iter().partition(|&&i| is_dust(i));
+        let (small, kept): (Vec<usize>, Vec<usize>) = parts.iter().partition(|&&i| is_dust(i));
         slot.parts = kept;
         let small = small.into_iter().map(|i| (i, Reason::Dirt));
         layer.rejected.extend(small);
     }
 }
 
-/// Whether a compact piece lies farther from all that is larger than it is long: what a pen's lift tears off a letter of one
-/// piece lies close to the rest, or is a stroke.
-fn apart(c: &Component, parts: &[usize], all: &[Component]) -> bool {
+/// Whether most letters that a pen draws in one piece are drawn in several that lie close together, like a stencil's or a clock's: then only
+/// what lies apart is dust.
+pub(super) fn in_pieces<'a>(
+    letters: impl Iterator<Item = (&'a Label, &'a [usize])>,
+    all: &[Component],
+    names: &GlyphData,
+) -> bool {
+    let asked = letters.filter(|l| Shape::of(l.0, names).pieces == Pieces::One);
+    let parted = asked.filter_map(|(_, parts)| {
+        let body = parts.iter().copied().max_by_key(|&i| all[i].area)?;
+        let mut others = parts.iter().filter(|&&i| i != body);
+        Some(others.any(|&i| is_close(&all[i], &all[body])))
+    });
+    let parted: Vec<bool> = parted.collect();
+    let most = parted.iter().filter(|p| **p).count();
+    parted.len() >= ENOUGH && 2 * most > parted.len()
+}
+
+/// The usual area of a dot, px²: the median of those letters of one dot that have one piece where it may be.
+fn usual_dot(layer: &Layer, all: &[Component], names: &GlyphData) -> Option<f64> {
+    let areas = layer.slots.iter().filter_map(|slot| {
+        let shape = Shape::of(&slot.label, names);
+        let (_, dots) = dots(&shape, &slot.parts, all).filter(|_| shape.dots == 1)?;
+        let [dot] = dots.as_slice() else {
+            return None;
+        };
+        Some(dot.area as f64)
+    });
+    let areas: Vec<f64> = areas.collect();
+    median(areas.iter().copied()).filter(|_| areas.len() >= ENOUGH)
+}
+
+/// Whether a piece is a thin end of a stroke that is parted from it: a dot or dust is no stroke.
+fn torn(c: &Component, body: &Component) -> bool {
+    let (w, h) = (c.upright.width(), c.upright.height());
+    w.max(h) > STROKE * w.min(h) && is_close(c, body)
+}
+
+/// Whether less than a part of a stroke lies between a piece and the body.
+fn is_close(c: &Component, body: &Component) -> bool {
+    c.is_near(body, (TORN * body.stroke()).max(LEAST_GAP))
+}
+
+/// Whether a compact piece is thicker than any piece of its letter's strokes could be.
+fn blot(c: &Component, body: &Component) -> bool {
+    is_dot(c) && c.stroke() > BLOT * body.stroke()
+}
+
+/// Whether a small piece lies beside a letter, over or under it, where a sign within its box does not.
+fn beside(c: &Component, body: &Component) -> bool {
+    !body.upright.contains(c.centre) && (c.area as f64) < SMALL * body.area as f64
+}
+
+/// Whether a compact piece lies farther from all that is larger than so many times its length: what a pen's lift tears off a
+/// letter lies close to the rest, or is a stroke.
+fn apart(c: &Component, parts: &[usize], all: &[Component], times: f64) -> bool {
     let length = c.upright.width().max(c.upright.height());
     let mut others = parts.iter().map(|&i| &all[i]).filter(|o| o.area > c.area);
-    is_dot(c) && !others.any(|o| c.is_near(o, length))
+    is_dot(c) && !others.any(|o| c.is_near(o, times * length))
 }
 
 /// Whether a piece is hardly larger than the dots of its letter, and lies neither over, under nor in what is larger.
@@ -84,16 +164,52 @@ fn astray(c: &Component, parts: &[usize], all: &[Component]) -> bool {
     })
 }
 
-/// Whether another piece is rather the one dot of its letter: larger, or about as large and nearer to the body.
-fn second(c: &Component, shape: &Shape, parts: &[usize], all: &[Component]) -> bool {
-    let Some((body, dots)) = dots(shape, parts, all).filter(|_| shape.one_dot) else {
+/// Whether other pieces are rather the dots of its letter: nearer to as large as the page's dots are, and to the body. Dots that lie
+/// close together go together; if they are all that the letter has, what more lies on their side is dust, and so is what is as
+/// compact as a dot and no larger anywhere else.
+fn surplus(
+    c: &Component,
+    shape: &Shape,
+    (parts, all): (&[usize], &[Component]),
+    usual: Option<f64>,
+) -> bool {
+    let Some((body, dots)) = dots(shape, parts, all).filter(|_| shape.dots > 0) else {
         return false;
     };
+    let Some(usual) = usual else {
+        return shape.dots == 1 && dots.iter().any(|o| rather(o, c, body));
+    };
+    let whole = usual * shape.dots as f64;
+    let own: Vec<Component> = dots.into_iter().cloned().collect();
+    let indices: Vec<usize> = (0..own.len()).collect();
+    let area = |g: &[usize]| g.iter().map(|&i| own[i].area).sum::<usize>() as f64;
+    let cost = |g: &[usize]| {
+        let near = g.iter().map(|&i| gap(own[i].upright, body));
+        let off = near.fold(f64::INFINITY, f64::min) / body.height().max(1.0);
+        (area(g) / whole).ln().abs() + off
+    };
+    let groups = indices.iter().map(|&i| match shape.dots {
+        1 => vec![i],
+        _ => group(&own, i, indices.iter()),
+    });
+    let best = groups.min_by(|a, b| cost(a).total_cmp(&cost(b)));
+    best.filter(|best| is_dot(c) && area(best) > WHOLE * whole)
+        .is_some_and(|best| {
+            let is_own = |i: &usize| own[*i].bounds == c.bounds;
+            let most = if indices.iter().any(is_own) {
+                EXTRA * area(&best)
+            } else {
+                usual / LARGER[1].0
+            };
+            !best.iter().any(is_own) && (c.area as f64) < most
+        })
+}
+
+/// Whether a piece is rather the one dot of its letter than another: larger, or about as large and nearer to the body.
+fn rather(one: &Component, other: &Component, body: Rect) -> bool {
     let off = |o: &Component| gap(o.upright, body);
-    dots.iter().any(|o| {
-        let times = o.area as f64 / c.area as f64;
-        times >= LARGER[0].0 || (times >= LARGER[1].0 && off(o) < off(c))
-    })
+    let times = one.area as f64 / other.area as f64;
+    times >= LARGER[0].0 || (times >= LARGER[1].0 && off(one) < off(other))
 }
 
 /// Whether a small piece lies apart under a letter that has its dots above it, or over one that has them below.
@@ -105,7 +221,10 @@ fn opposite(c: &Component, shape: &Shape, parts: &[usize], all: &[Component]) ->
         } else {
             c.upright.y1 <= body.y0
         };
-        beyond && !dots.is_empty() && (c.area as f64) < SMALL * most as f64 && apart(c, parts, all)
+        beyond
+            && !dots.is_empty()
+            && (c.area as f64) < SMALL * most as f64
+            && apart(c, parts, all, NEAR)
     })
 }
 
@@ -123,15 +242,23 @@ fn dots<'a>(
     let main = parts.iter().copied().max_by_key(|&i| all[i].area)?;
     let body = all[main].upright;
     let rest = parts.iter().filter(|&&i| i != main).map(|&i| &all[i]);
-    // pieces of the body lie beside it
-    let is_there = |o: &&Component| is_dot(o) && side * (o.centre.y - body.center().y) > 0.0;
+    // dots that touch are one long piece, and pieces of the body lie beside it
+    let long = if shape.dots > 1 { 2.0 } else { 1.0 };
+    let is_there = |o: &&Component| {
+        is_compact(o, long * COMPACT.0) && side * (o.centre.y - body.center().y) > 0.0
+    };
     Some((body, rest.filter(is_there).collect()))
 }
 
-/// Whether a piece is as compact as dots are, and no stroke or ring.
+/// Whether a piece is as compact as a dot is, and no stroke or ring.
 fn is_dot(c: &Component) -> bool {
+    is_compact(c, COMPACT.0)
+}
+
+/// Whether its longer side is less than so many times the shorter one, and it is no ring.
+fn is_compact(c: &Component, times: f64) -> bool {
     let (w, h) = (c.upright.width(), c.upright.height());
-    w.max(h) < COMPACT.0 * w.min(h) && c.area as f64 > COMPACT.1 * w * h
+    w.max(h) < times * w.min(h) && c.area as f64 > COMPACT.1 * w * h
 }
 
 /// Gives letters that have none of the signs which their names say what lies beside the grid, close over or under them.
@@ -142,7 +269,10 @@ pub(super) fn reclaim(layer: &mut Layer, all: &[Component]) {
         let &[body] = slot.parts.as_slice() else {
             continue;
         };
-        if matches!(pieces, Pieces::One | Pieces::Unknown) {
+        if matches!(
+            pieces,
+            Pieces::One | Pieces::Unknown | Pieces::Within | Pieces::Bare
+        ) {
             continue;
         }
         let own = &all[body];
@@ -185,17 +315,23 @@ pub(super) fn give(layer: &mut Layer, all: &mut Vec<Component>, small: &[Compone
     }
     let before = all.len();
     for (slot, pieces) in layer.slots.iter_mut().zip(wanted) {
-        let marked = matches!(
-            Shape::of(&slot.label, &names).pieces,
-            Pieces::DotAbove | Pieces::DotBelow | Pieces::Marked
-        );
-        let mut areas: Vec<usize> = slot.parts.iter().map(|&i| all[i].area).collect();
-        areas.sort_unstable();
-        areas.pop();
-        areas.extend(pieces.iter().map(|c| c.area));
-        let dot = areas.into_iter().max().unwrap_or(0) as f64;
+        let shape = Shape::of(&slot.label, &names).pieces;
+        let Some(body) = slot.parts.iter().copied().max_by_key(|&i| all[i].area) else {
+            continue;
+        };
+        let others = slot.parts.iter().filter(|&&i| i != body);
+        let others = others.map(|&i| all[i].area);
+        let dot = others.chain(pieces.iter().map(|c| c.area)).max();
+        let dot = dot.unwrap_or(0) as f64;
         for c in pieces {
-            if marked && c.area as f64 > ALIKE * dot && !astray(&c, &slot.parts, all) {
+            let sign = c.area as f64 > ALIKE * dot && !astray(&c, &slot.parts, all);
+            let own = match shape {
+                Pieces::One => torn(&c, &all[body]),
+                Pieces::DotAbove | Pieces::DotBelow | Pieces::Marked => sign,
+                Pieces::Within => sign && !beside(&c, &all[body]),
+                Pieces::Bare | Pieces::Unknown => false,
+            };
+            if own {
                 slot.parts.push(all.len());
                 all.push(c);
             }

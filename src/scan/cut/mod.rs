@@ -242,10 +242,10 @@ pub fn cut_with(
     pins::settle(&mut layer, &claims);
     let dot = (DUST * stroke_width(&all)).powi(2);
     marks::reclaim(&mut layer, &all);
-    marks::dust(&mut layer, &all, &claims, dot);
     let freed = whole..all.len();
     small.iter_mut().for_each(|c| c.stand(&upright));
     let specks = specks - marks::give(&mut layer, &mut all, &small);
+    marks::dust(&mut layer, &all, &claims, dot);
     let seen = |slot: &Slot| pins::stance(slot.index, pins, &upright).0;
     let guides = guides::measure(&layer, &all, page, options, seen)?;
     let stance = Stance::of(&layer, &all, &guides.drop);

@@ -209,7 +209,7 @@ fn pieces(_: &Stance, d: &Drawn, shape: &Shape) -> Vec<f64> {
     let above: f64 = above.sum();
     let wrong = match (shape.pieces, dots.count()) {
         (Pieces::One, extra) => Some(f64::from(u8::from(extra > 0))),
-        (Pieces::Unknown | Pieces::Marked, _) | (_, 0) => None,
+        (Pieces::Unknown | Pieces::Marked | Pieces::Within | Pieces::Bare, _) | (_, 0) => None,
         (Pieces::DotAbove, _) => Some(f64::from(above <= 0.0)),
         (Pieces::DotBelow, _) => Some(f64::from(above >= 0.0)),
     };

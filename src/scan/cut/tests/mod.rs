@@ -1,3 +1,4 @@
+mod dust;
 mod small;
 
 use super::super::clean::clean;

@@ -1,0 +1,141 @@
+//! Dust beside letters: names and the page's other letters tell it from dots.
+
+use super::*;
+
+/// The box of the letter in the second cell of a page of letters with a stroke of 6, one of which is called `name`: its dot lies from 58 to 64,
+/// its body from 70 to 100.
+fn second(name: &str, bars: &[(f64, f64, f64, f64)]) -> Rect {
+    let mut paper = grid_page(0.0);
+    for &(x, y, w, h) in bars {
+        paper.bar(x, y + 20.0, w, h);
+    }
+    let names = NAMES.replacen('i', name, 1);
+    let cut = cut_page(&paper, &names, &options(Layout::Grid(4, 5))).unwrap();
+    cut.cells[1].in_sheet - Vec2::new(0.0, 20.0)
+}
+
+#[test]
+fn dust_smaller_than_dots_is_none_where_a_letter_has_no_dots() {
+    for mote in [(209.0, 112.0, 4.0, 4.0), (215.0, 65.0, 4.0, 4.0)] {
+        let found = second("ن", &[mote]);
+        assert!(found.height() < 44.0 && found.width() < 8.0, "{found:?}");
+    }
+}
+
+#[test]
+fn dots_are_as_large_as_other_letters_of_the_page_have_them() {
+    // two dots that touch, and three that do not; the dust is as large as one of them
+    let touching = vec![(216.0, 58.0, 6.0, 6.0)];
+    let three = vec![(216.0, 58.0, 6.0, 6.0), (213.0, 48.0, 6.0, 6.0)];
+    for (name, dots) in [("ت", touching), ("ث", three)] {
+        let alone = second(name, &dots);
+        for mote in [(228.0, 64.0, 6.0, 6.0), (209.0, 26.0, 6.0, 6.0)] {
+            let found = second(name, &[dots.clone(), vec![mote]].concat());
+            assert!(
+                (found.area() - alone.area()).abs() < 30.0,
+                "{name}: {found:?}"
+            );
+        }
+    }
+    // the nearer of two dots is the letter's, though dust is larger
+    let found = second("ن", &[(207.0, 36.0, 8.0, 8.0)]);
+    assert!((found.height() - 42.0).abs() < 3.0, "{found:?}");
+    // two dots that stand far from each other are both its own
+    let found = second("ت", &[(226.0, 58.0, 6.0, 6.0)]);
+    assert!(found.x1 > 228.0, "{found:?}");
+}
+
+#[test]
+fn letters_without_signs_have_none() {
+    for name in ["ء", "uni06440627", "lam_alef-ar", "&", "ø"] {
+        let mut paper = grid_page(0.0);
+        paper.bar(235.0, 70.0, 8.0, 8.0);
+        let names = NAMES.replacen('i', name, 1);
+        paper
+            .bars
+            .retain(|b| b.0.y0 > 79.0 || b.0.x0 < 200.0 || b.0.x0 > 225.0);
+        let cut = cut_page(&paper, &names, &options(Layout::Grid(4, 5))).unwrap();
+        let found = cut.cells[1].in_sheet;
+        assert!(found.width() < 10.0, "{name}: {found:?}");
+    }
+}
+
+#[test]
+fn the_sign_of_a_kaf_lies_within_it() {
+    let stroke = (216.0, 94.0, 24.0, 6.0);
+    for (name, mote, kept) in [
+        ("ك", (222.0, 78.0, 8.0, 8.0), true),
+        ("ك", (222.0, 78.0, 4.0, 4.0), true),
+        ("ك.medi", (222.0, 78.0, 4.0, 4.0), false),
+        ("ك", (250.0, 78.0, 8.0, 8.0), false),
+        ("ك", (222.0, 56.0, 4.0, 4.0), false),
+        ("ك.medi", (222.0, 112.0, 8.0, 8.0), false),
+    ] {
+        let mut paper = grid_page(0.0);
+        paper
+            .bars
+            .retain(|b| b.0.y0 > 79.0 || b.0.x0 < 200.0 || b.0.x0 > 225.0);
+        for (x, y, w, h) in [stroke, mote] {
+            paper.bar(x, y + 20.0, w, h);
+        }
+        let names = NAMES.replacen('i', name, 1);
+        let cut = cut_page(&paper, &names, &options(Layout::Grid(4, 5))).unwrap();
+        let cell = &cut.cells[1];
+        let origin = cell.to_sheet * Point::ORIGIN;
+        let at = Point::new(mote.0 + mote.2 / 2.0, mote.1 + 20.0 + mote.3 / 2.0) - origin;
+        let (x, y) = (floor(at.x.max(0.0)), floor(at.y.max(0.0)));
+        let seen = x < cell.gray.width() && y < cell.gray.height() && cell.gray.at(x, y) > 0.5;
+        assert_eq!(seen, kept, "{name}: {mote:?}");
+    }
+}
+
+#[test]
+fn dust_thicker_than_the_strokes_is_no_piece_of_them() {
+    for (side, kept) in [(6.0, true), (12.0, false)] {
+        let mut paper = grid_page(0.0);
+        paper
+            .bars
+            .retain(|b| b.0.y0 > 79.0 || b.0.x0 < 200.0 || b.0.x0 > 225.0);
+        paper.bar(219.0, 96.0, side, side);
+        let names = NAMES.replacen('i', "l", 1);
+        let cut = cut_page(&paper, &names, &options(Layout::Grid(4, 5))).unwrap();
+        assert_eq!(cut.cells[1].in_sheet.width() > 10.0, kept, "{side}");
+    }
+}
+
+#[test]
+fn a_thin_end_that_is_parted_stays_with_its_letter() {
+    let mut paper = grid_page(0.0);
+    paper
+        .bars
+        .retain(|b| b.0.y0 > 79.0 || b.0.x0 < 200.0 || b.0.x0 > 225.0);
+    // less ink than dust may have, in the line of a stroke and close to it
+    paper.bar(217.0, 97.0, 11.0, 2.0);
+    let names = NAMES.replacen('i', "l", 1);
+    let cut = cut_page(&paper, &names, &options(Layout::Grid(4, 5))).unwrap();
+    assert!(
+        cut.cells[1].in_sheet.width() > 14.0,
+        "{:?} {}",
+        cut.rejected,
+        cut.specks
+    );
+}
+
+#[test]
+fn letters_drawn_in_pieces_keep_them() {
+    // the segments of a clock's figures: most cells have the same ones at the same places
+    let mut paper = Paper::new(700, 500, 0.0);
+    for i in 0..20 {
+        let (x, y) = (
+            90.0 + 120.0 * f64::from(i % 5),
+            70.0 + 100.0 * f64::from(i / 5),
+        );
+        paper.bar(x, y, 6.0, 22.0);
+        paper.bar(x + 8.0, y + 14.0, 22.0, 6.0);
+        paper.bar(x + 8.0, y + 21.5, 5.0, 5.0);
+    }
+    let names = "n h p n l n n p h n h n l n n n p n h n";
+    let cut = cut_page(&paper, names, &options(Layout::Grid(4, 5))).unwrap();
+    assert!(cut.rejected.is_empty(), "{:?}", cut.rejected);
+    assert!(cut.cells.iter().all(|c| c.in_sheet.width() > 28.0));
+}
