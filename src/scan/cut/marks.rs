@@ -3,7 +3,8 @@
 //! Heavy styles have dots half as wide as their strokes.
 //! Ink below the speckle limit is too much like dust to be shared out with the letters. But a letter whose name says that
 //! it has dots or an accent takes the largest such piece beside it, and those like it, unless it has larger ones already;
-//! and one that is drawn in one piece has none of them, whatever lies beside it.
+//! and one that is drawn in one piece has none of them, but a thin end that is parted from its stroke. How large a dot is,
+//! the page's letters of one dot say.
 
 use super::grid::{SMALL, group};
 use super::{Layer, Reason, gap};
