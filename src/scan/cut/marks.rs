@@ -194,7 +194,12 @@ fn surplus(
         _ => group(&own, i, indices.iter()),
     });
     let best = groups.min_by(|a, b| cost(a).total_cmp(&cost(b)));
-    best.filter(|best| is_dot(c) && area(best) > WHOLE * whole)
+    // fewer pieces than dots are all of them only where some touch
+    let least = |g: &[usize]| match g.len() < shape.dots {
+        true => whole - (1.0 - WHOLE) * usual,
+        false => WHOLE * whole,
+    };
+    best.filter(|best| is_dot(c) && area(best) > least(best))
         .is_some_and(|best| {
             let is_own = |i: &usize| own[*i].bounds == c.bounds;
             let most = if indices.iter().any(is_own) {

@@ -43,6 +43,11 @@ fn dots_are_as_large_as_other_letters_of_the_page_have_them() {
     // two dots that stand far from each other are both its own
     let found = second("ت", &[(226.0, 58.0, 6.0, 6.0)]);
     assert!(found.x1 > 228.0, "{found:?}");
+    // and so is the third of three that stands high over the others, and the smaller of two of which one is large
+    let found = second("ث", &[(216.0, 58.0, 6.0, 6.0), (213.0, 42.0, 6.0, 6.0)]);
+    assert!(found.y0 < 45.0, "{found:?}");
+    let found = second("ت", &[(226.0, 57.0, 7.0, 7.0)]);
+    assert!(found.x1 > 228.0, "{found:?}");
 }
 
 #[test]
