@@ -13,6 +13,8 @@ const ROBUST: f64 = 4.0;
 const FREEDOM: f64 = 0.5;
 /// A line so near to an axis is meant to be parallel to it, radians.
 const UPRIGHT: f64 = 0.006;
+/// One whose ends are further off an axis than this is not, px.
+const ASLANT_PX: f64 = 0.1;
 
 /// A structure before its refinement.
 #[derive(Debug, Default)]
@@ -172,6 +174,25 @@ fn upright(chain: &mut Chain) {
                 if chain.nodes[n].join == Join::Smooth {
                     chain.nodes[n].join = axis;
                 }
+            }
+        }
+    }
+}
+
+/// Extrema at lines that lie aslant become smooth: held upright, such a line would turn what is beyond its other end.
+pub(super) fn turn(chain: &mut Chain) {
+    for i in 0..chain.kinds.len() {
+        let (a, b) = chain.ends(i);
+        let span = chain.nodes[b].point - chain.nodes[a].point;
+        for (n, other) in [(a, b), (b, a)] {
+            let off = match chain.nodes[n].join {
+                Join::Vertical => span.x,
+                Join::Horizontal => span.y,
+                _ => 0.0,
+            };
+            let aslant = chain.kinds[i] == Kind::Line && off.abs() > ASLANT_PX;
+            if aslant && chain.nodes[other].join == Join::Smooth {
+                chain.nodes[n].join = Join::Smooth;
             }
         }
     }

@@ -39,7 +39,7 @@ impl Default for Joint {
     }
 }
 
-/// Searches with half the noise each in the spans that miss the tolerance.
+/// Searches with half the noise each in the spans that miss the tolerance, and without extrema at lines that lie aslant.
 const TIGHTER: usize = 2;
 /// A contour's fit that lies so many times as far from the points as its spans' own, in the root mean square, has lost its
 /// way.
@@ -175,7 +175,11 @@ impl Joint {
             let each = spans.iter().zip(&marks).zip(&sigma);
             let drafts: Option<Vec<Draft>> =
                 each.map(|((s, m), &d)| Draft::choose(s, m, d)).collect();
-            let found = weld(drafts?)?.refine(least);
+            let mut draft = weld(drafts?)?;
+            if tighter > 0 {
+                found::turn(&mut draft.chain);
+            }
+            let found = draft.refine(least);
             let worst = found.worst();
             let missed = |&k: &usize| worst[k] > tolerance_px;
             let missed: Vec<usize> = (0..spans.len()).filter(missed).collect();

@@ -1,4 +1,5 @@
 use super::*;
+use crate::numeric::chain::{Chain, Join};
 use crate::types::Contour;
 use kurbo::{Arc, ParamCurve, PathEl, PathSeg, Shape, Vec2};
 
@@ -222,4 +223,23 @@ fn a_span_that_misses_is_followed_more_closely() {
         .collect();
     let got = fit(Span::Open(&p));
     assert_eq!(got.verdict, Verdict::Met, "{:?}", got.path);
+}
+
+#[test]
+fn an_extremum_at_a_line_that_lies_aslant_is_none() {
+    // held upright, the line would turn the slope beyond it
+    let read = |x: f64| {
+        let svg =
+            format!("M24.2 448.4C24.2 438 22.3 428 22.3 417.2L{x} 413.2C22.8 410 30 270 32.6 203");
+        let mut chain = Chain::from_path(&BezPath::from_svg(&svg).unwrap(), 0.3).unwrap();
+        chain.nodes[1].join = Join::Vertical;
+        chain.nodes[2].join = Join::Smooth;
+        chain
+    };
+    for (x, join) in [(22.55, Join::Smooth), (22.35, Join::Vertical)] {
+        let mut chain = read(x);
+        found::turn(&mut chain);
+        assert_eq!(chain.nodes[1].join, join, "{x}");
+        assert_eq!(chain.nodes[2].join, Join::Smooth);
+    }
 }
