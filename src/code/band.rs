@@ -1,7 +1,7 @@
 //! Where vertices may lie: the admissible control point band.
 
 use super::tube::Tube;
-use super::{Bounds, Kind, RUN, Width};
+use super::{Bounds, Kind, Width};
 use crate::numeric::qbc::Pull;
 use kurbo::{Point, Rect};
 use std::collections::BTreeMap;
@@ -29,13 +29,21 @@ pub(super) struct Band {
     pub(super) tube: Tube,
     /// The first boundary point, all others of the band, and the first again.
     pub(super) vertices: Vec<Vertex>,
+    /// Its longest step, px.
+    stride: f64,
     corner: (i32, i32),
     across: usize,
     index: Vec<Option<usize>>,
 }
 
 impl Band {
-    pub(super) fn new(boundary: &[Point], bounds: Bounds, kind: Kind, width: Width) -> Self {
+    /// For edges whose components are no longer than so many px.
+    pub(super) fn new(
+        boundary: &[Point],
+        bounds: Bounds,
+        kind: Kind,
+        (width, longest): (Width, i32),
+    ) -> Self {
         let admissible = admissible(boundary, bounds);
         // no shorter than the longest chord
         let chord = extent(boundary).size().to_vec2().hypot();
@@ -44,7 +52,12 @@ impl Band {
             let w = admissible[i]
                 + match width {
                     Width::Tolerance => 0.0,
-                    Width::Bound => beyond(kind, chord, bounds.t_max, admissible[i]),
+                    Width::Bound => beyond(
+                        kind,
+                        [chord, f64::from(longest)],
+                        bounds.t_max,
+                        admissible[i],
+                    ),
                 };
             let reach = near(w);
             for dy in -reach..=reach {
@@ -85,15 +98,36 @@ impl Band {
             .chain(admissible.first())
             .copied()
             .collect();
+        let strides = boundary.windows(2).map(|w| w[0].distance(w[1]));
+        let stride = strides.fold(1e-3, f64::max);
         Self {
             tube: Tube::new(&boundary, &t),
             squares: t.iter().map(|t| t * t + 1e-9).collect(),
+            stride,
             boundary,
             vertices,
             corner,
             across,
             index,
         }
+    }
+
+    /// The first of the boundary points nearest to a whole or half point, from one to another.
+    pub(super) fn nearest(&self, p: Point, (first, last): (usize, usize)) -> usize {
+        if let Some(all) = self.tube.nearest(p).filter(|i| (first..=last).contains(i)) {
+            return all;
+        }
+        let (mut at, mut best) = (first, (first, f64::INFINITY));
+        while at <= last {
+            let square = self.boundary[at].distance_squared(p);
+            if square < best.1 {
+                best = (at, square);
+            }
+            // those passed over are farther: no step is longer than the stride
+            let nearer = (square.sqrt() - best.1.sqrt()) / self.stride - 1e-6;
+            at += 1 + whole(nearer);
+        }
+        best.0
     }
 
     /// The vertex at a place; the last one at the first boundary point.
@@ -109,8 +143,8 @@ pub(super) fn place(corner: (i32, i32), width: usize, (x, y): (i32, i32)) -> Opt
 }
 
 /// `W_j - T_j` [sohel sec. III.C, eq. 13-15]; a polygon's vertices lie within T.
-fn beyond(kind: Kind, chord: f64, t_max: f64, t: f64) -> f64 {
-    let rho = f64::from(RUN) * std::f64::consts::SQRT_2;
+fn beyond(kind: Kind, [chord, run]: [f64; 2], t_max: f64, t: f64) -> f64 {
+    let rho = run * std::f64::consts::SQRT_2;
     let (bound, longest) = match kind {
         Kind::Polygon => (0.0, 0.0),
         Kind::Spline(Pull::Bezier) => ((3.0 * chord + 4.0 * t_max + 2.0 * t) / 6.0, rho / 4.0),
@@ -157,4 +191,14 @@ fn admissible(boundary: &[Point], bounds: Bounds) -> Vec<f64> {
 )]
 pub(super) fn near(v: f64) -> i32 {
     v.round() as i32
+}
+
+/// The whole part of what is at least 0; 0 below.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "`as` saturates"
+)]
+fn whole(v: f64) -> usize {
+    v as usize
 }

@@ -8,21 +8,26 @@
 //!          ([`Width`]), each with its nearest boundary point; T falls from `t_max` to `t_min` as the local turn
 //!          grows. Distances are taken both ways, the boundary's from the curve and the curve's from it
 //! Cost     O(|C| r^2 w) for runs of r boundary points and a band w wide. Exact under this code, the band and 16 chords
-//!          a piece: edges and groups of pairs are put aside only where each of their curves leaves the bounds
+//!          a piece: edges, and groups of pairs for an edge or a group of edges, are put aside only where each of their
+//!          curves leaves the bounds
 //! Fails    too short or too large a boundary; bounds out of order
 
 mod band;
+mod fan;
+mod line;
+mod moat;
 mod piece;
 mod search;
 mod tube;
 mod vertex;
+mod word;
 
 use crate::numeric::qbc::Pull;
 use kurbo::Point;
 use thiserror::Error;
 
 pub use search::encode;
-pub use vertex::{RUN, Steps};
+pub use vertex::Steps;
 
 /// Why a boundary is not coded.
 #[derive(Debug, Clone, PartialEq, Error)]

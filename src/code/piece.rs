@@ -1,15 +1,10 @@
 //! Pieces of curve, and whether they stay within the bounds.
 
+use super::Kind;
 use super::band::Band;
-use super::{Kind, RUN};
-use kurbo::Point;
+use super::line::{LOOK, Weights};
+use kurbo::{Point, Vec2};
 use std::cell::Cell;
-
-/// Edges of the polyline that a piece is measured by.
-const LOOK: usize = 16;
-
-/// Points of a piece in the order that they are looked at: the middle is the likeliest to be too far.
-const ORDER: [usize; LOOK + 1] = [8, 4, 12, 2, 6, 10, 14, 1, 3, 5, 7, 9, 11, 13, 15, 0, LOOK];
 
 /// Every such boundary point is looked at before all are.
 const SPARSE: usize = 4;
@@ -17,30 +12,42 @@ const SPARSE: usize = 4;
 /// Points on each piece of the answer: dense enough that their distances are the curve's.
 const DENSE: usize = 64;
 
-/// Weights of the ends and the vertex of a piece, at the points that it is measured by; of edges one end and the other.
+/// What the pieces of a curve have in common.
 #[derive(Debug)]
 pub(super) struct Piece<'a> {
     pub(super) band: &'a Band,
     pub(super) kind: Kind,
-    weights: [[f64; 3]; LOOK + 1],
-    /// The point of the last piece that lay outside the tube, and the boundary point that one passed too far away.
-    failed: Cell<(usize, usize)>,
+    weights: Weights,
+    /// Half of the longest edge, px.
+    reach: f64,
+    /// The point of the last piece that lay outside the tube.
+    failed: Cell<usize>,
+}
+
+/// Places near each other that pieces begin or end at.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Disc {
+    /// px.
+    pub(super) middle: Point,
+    /// px.
+    pub(super) radius: f64,
+    /// A boundary point that none of theirs lies beyond, seen from the piece.
+    pub(super) foot: usize,
 }
 
 impl<'a> Piece<'a> {
-    pub(super) fn new(band: &'a Band, kind: Kind) -> Self {
-        let weights = std::array::from_fn(|k| {
-            let u = k as f64 / LOOK as f64;
-            match kind {
-                Kind::Polygon => [1.0 - u, 0.0, u],
-                Kind::Spline(pull) => pull.quadratic(u),
-            }
-        });
+    /// Of a curve whose edges' components are no longer than so many px.
+    pub(super) fn new(band: &'a Band, kind: Kind, longest: i32) -> Self {
+        let pull = match kind {
+            Kind::Polygon => None,
+            Kind::Spline(pull) => Some(pull),
+        };
         Self {
             band,
             kind,
-            weights,
-            failed: Cell::new((LOOK / 2, usize::MAX)),
+            weights: Weights::new(pull),
+            reach: f64::from(longest) * std::f64::consts::FRAC_1_SQRT_2,
+            failed: Cell::new(LOOK / 2),
         }
     }
 
@@ -50,20 +57,13 @@ impl<'a> Piece<'a> {
         let (v, w) = (self.band.vertices[from], self.band.vertices[to]);
         let (p, q) = (v.point(), w.point());
         if self.kind == Kind::Polygon {
-            let within = self.within([p, p, q], (v.stage, w.stage));
+            let within = self.within([p, p, q], (v.stage, w.stage), &Cell::new(usize::MAX));
             return within.then_some(w.stage);
         }
         let middle = p.midpoint(q);
         let feet = (v.stage, w.stage);
-        let Band { boundary, tube, .. } = self.band;
-        if !tube.holds(boundary, middle, feet) {
-            return None;
-        }
-        let squares = boundary[v.stage..=w.stage]
-            .iter()
-            .map(|b| b.distance_squared(middle));
-        let nearest = squares.enumerate().min_by(|a, b| a.1.total_cmp(&b.1));
-        nearest.map(|(i, _)| v.stage + i)
+        let held = self.band.tube.holds(&self.band.boundary, middle, feet);
+        held.then(|| self.band.nearest(middle, feet))
     }
 
     /// Whether no curve within the bounds has an edge: a piece that it is half of leaves the tube
@@ -71,89 +71,98 @@ impl<'a> Piece<'a> {
     pub(super) fn leaves(&self, from: usize, to: usize) -> bool {
         /// Beyond this point of the piece its other end tells where it runs.
         const SOON: usize = 6;
-        /// Longest half of an edge, px.
-        const REACH: f64 = RUN as f64 * std::f64::consts::FRAC_1_SQRT_2;
         let [p, q] = [from, to].map(|i| self.band.vertices[i].point());
+        let ([a, _, c], middle) = (&self.weights.of, p.midpoint(q));
         let leaves = |vertex: Point| {
-            self.weights[..=SOON].iter().any(|[a, _, c]| {
-                let at = vertex.lerp(p.midpoint(q), *a);
-                self.band.tube.misses(at, c * REACH)
+            (1..=SOON).any(|k| {
+                let at = vertex + (middle - vertex) * a[k];
+                self.band.tube.misses(at, c[k] * self.reach)
             })
         };
         self.kind != Kind::Polygon && (leaves(p) || leaves(q))
     }
 
-    /// Whether no piece fits that begins in a disc (its middle and radius, px) and has these last vertices and feet.
-    pub(super) fn strays(
-        &self,
-        (middle, radius): (Point, f64),
-        [w, x]: [usize; 2],
-        feet: (usize, usize),
-    ) -> bool {
-        let [q, x] = [w, x].map(|i| self.band.vertices[i].point());
-        let legs = [middle, q, q.midpoint(x)];
+    /// Where the piece of a vertex ends, if a single one follows.
+    pub(super) fn end(&self, vertex: usize, next: usize, foot: usize) -> Disc {
+        let [p, q] = [vertex, next].map(|i| self.band.vertices[i].point());
+        Disc {
+            middle: p.midpoint(q),
+            radius: 0.0,
+            foot,
+        }
+    }
+
+    /// Whether no piece fits that begins in a disc, ends in another and has this vertex between.
+    pub(super) fn strays(&self, begin: Disc, vertex: usize, end: Disc, last: &Cell<usize>) -> bool {
         let Band {
             boundary,
             squares,
             tube,
             ..
         } = self.band;
-        let mut line = [Point::ZERO; LOOK + 1];
-        for k in ORDER {
-            line[k] = self.dot(legs, k);
-            if tube.misses(line[k], self.weights[k][0] * radius) {
-                return true;
-            }
+        let legs = [begin.middle, self.band.vertices[vertex].point(), end.middle];
+        // no point of a piece moves by more than its ends do
+        let radius = f64::max(begin.radius, end.radius);
+        let limit = |i: usize| {
+            let wider = squares[i].sqrt() + radius;
+            (boundary[i], wider * wider)
+        };
+        let far = last.get();
+        let line = self.weights.line(legs);
+        if (begin.foot..=end.foot).contains(&far) && line.far(limit(far)) {
+            return true;
         }
-        // no point of a piece moves by more than its beginning does
-        missed(&line, (feet.0..=feet.1).step_by(SPARSE), |i| {
-            (boundary[i], (squares[i].sqrt() + radius).powi(2))
-        })
-        .is_some()
+        if self.weights.miss(tube, legs, [begin.radius, end.radius]) {
+            return true;
+        }
+        let far = line.missed((begin.foot, end.foot, SPARSE), limit);
+        if let Some(i) = far {
+            last.set(i);
+        }
+        far.is_some()
     }
 
     /// Whether the piece of three vertices stays within T of the boundary between its ends' feet, both ways.
-    pub(super) fn fits(&self, abc: [usize; 3], feet: (usize, usize)) -> bool {
+    pub(super) fn fits(&self, abc: [usize; 3], feet: (usize, usize), last: &Cell<usize>) -> bool {
         if self.kind == Kind::Polygon {
             return true;
         }
         let [a, q, c] = abc.map(|i| self.band.vertices[i].point());
-        self.within([a.midpoint(q), q, q.midpoint(c)], feet)
+        self.within([a.midpoint(q), q, q.midpoint(c)], feet, last)
     }
 
-    fn within(&self, legs: [Point; 3], (first, last): (usize, usize)) -> bool {
+    fn within(
+        &self,
+        legs: [Point; 3],
+        (first, last): (usize, usize),
+        failed: &Cell<usize>,
+    ) -> bool {
         let Band {
             boundary,
             squares,
             tube,
             ..
         } = self.band;
-        let line: [Point; LOOK + 1] = std::array::from_fn(|k| self.dot(legs, k));
-        let limit = |i: usize| (boundary[i], squares[i]);
         // what the piece before failed at, one much like this one as a rule
-        let (at, far) = self.failed.get();
-        let holds = |k: usize| tube.holds(boundary, line[k], (first, last));
-        if !holds(at) {
+        let (at, far) = (self.failed.get(), failed.get());
+        if !tube.holds(boundary, self.weights.dot(legs, at), (first, last)) {
             return false;
         }
-        if (first..=last).contains(&far) && missed(&line, far..=far, limit).is_some() {
+        let line = self.weights.line(legs);
+        if (first..=last).contains(&far) && line.far((boundary[far], squares[far])) {
             return false;
         }
-        if let Some(k) = ORDER.into_iter().find(|&k| !holds(k)) {
-            self.failed.set((k, far));
+        if let Some(k) = self.weights.outside(tube, boundary, legs, (first, last)) {
+            self.failed.set(k);
             return false;
         }
-        let sparse = missed(&line, (first..=last).step_by(SPARSE), limit);
-        let far = sparse.or_else(|| missed(&line, first..=last, limit));
+        let limit = |i: usize| (boundary[i], squares[i]);
+        let sparse = line.missed((first, last, SPARSE), limit);
+        let far = sparse.or_else(|| line.missed((first, last, 1), limit));
         if let Some(i) = far {
-            self.failed.set((at, i));
+            failed.set(i);
         }
         far.is_none()
-    }
-
-    fn dot(&self, [p, q, r]: [Point; 3], k: usize) -> Point {
-        let [x, y, z] = self.weights[k];
-        (p.to_vec2() * x + q.to_vec2() * y + r.to_vec2() * z).to_point()
     }
 
     /// The whole curve, first and last vertex doubled.
@@ -178,26 +187,9 @@ impl<'a> Piece<'a> {
     }
 }
 
-/// The first of points that a line does not come as near to as it asks for: each with the square of its limit.
-fn missed(
-    line: &[Point],
-    mut points: impl Iterator<Item = usize>,
-    limit: impl Fn(usize) -> (Point, f64),
-) -> Option<usize> {
-    // the chord that the last point was close to is likely the next one's too
-    let (mut chord, chords) = (0, line.len() - 1);
-    points.find(|&i| {
-        let (p, square) = limit(i);
-        let close = |k: &usize| to_edge(p, &line[*k..*k + 2]) <= square;
-        let found = (chord..chords).chain(0..chord).find(close);
-        chord = found.unwrap_or(0);
-        found.is_none()
-    })
-}
-
 /// Square of the distance of a point from an edge.
 pub(super) fn to_edge(p: Point, w: &[Point]) -> f64 {
-    let v = w[1] - w[0];
+    let v: Vec2 = w[1] - w[0];
     let u = ((p - w[0]).dot(v) / v.hypot2().max(1e-12)).clamp(0.0, 1.0);
     (w[0] + v * u).distance_squared(p)
 }

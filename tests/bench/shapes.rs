@@ -1,6 +1,6 @@
 //! Shape coding of silhouettes under one vertex code, and the shape descriptor [sohel sec. IV]:
-//! `cargo bench --bench shapes -- [--svg OUT.svg] [--only eight-T] SHAPE…` (a shape is black or white on the
-//! other; `--only`: one code and band, all of them else).
+//! `cargo bench --bench shapes -- [--svg OUT.svg] [--only far-W] [--bounds 2/1] SHAPE…` (a shape is black or white on
+//! the other; `--only`: one code and band, `--bounds`: one `T_max/T_min`, all of them else).
 #![expect(
     clippy::disallowed_methods,
     clippy::print_stdout,
@@ -28,7 +28,11 @@ const KINDS: [(&str, Kind); 4] = [
 /// The bounds of table 4.
 const BOUNDS: [(f64, f64); 5] = [(1.0, 1.0), (2.0, 1.0), (2.0, 2.0), (3.0, 1.0), (3.0, 2.0)];
 
-const CODES: [(&str, Steps); 2] = [("eight", Steps::Eight), ("any", Steps::Any)];
+const CODES: [(&str, Steps); 3] = [
+    ("eight", Steps::Eight),
+    ("any", Steps::Any),
+    ("far", Steps::Far),
+];
 
 /// The longest border in a picture, px: of the shape that is not the picture's corner colour.
 fn boundary(path: &str) -> Vec<Point> {
@@ -54,7 +58,15 @@ fn main() {
         let i = args.iter().position(|a| a == name)?;
         args.drain(i..(i + 2).min(args.len())).nth(1)
     };
-    let (svg, only) = (option("--svg"), option("--only"));
+    let (svg, only, bounds) = (option("--svg"), option("--only"), option("--bounds"));
+    let bounds: Vec<(f64, f64)> = BOUNDS
+        .into_iter()
+        .filter(|(most, least)| {
+            bounds
+                .as_ref()
+                .is_none_or(|b| *b == format!("{most}/{least}"))
+        })
+        .collect();
     let shapes: Vec<(&String, Vec<Point>)> = args.iter().map(|a| (a, boundary(a))).collect();
     println!(
         "D_max px and D_ms px² of cubics with control points on the shape: Bézier, QBC, QBC-n\n"
@@ -76,7 +88,7 @@ fn main() {
                 continue;
             }
             println!("\nbits (D_max px, s): {code}, vertices within {band} of the boundary\n");
-            let curves = table(&shapes, width, steps);
+            let curves = table(&shapes, &bounds, width, steps);
             if let Some(path) = &svg {
                 let name = path.replace(".svg", &format!("-{code}-{band}.svg"));
                 fs::write(name, plot(&curves)).expect("written");
@@ -86,12 +98,17 @@ fn main() {
 }
 
 /// Bits of all shapes by bounds and kind; bits and mean square distance of all of them together.
-fn table(shapes: &[(&String, Vec<Point>)], width: Width, steps: Steps) -> Vec<Vec<(u64, f64)>> {
+fn table(
+    shapes: &[(&String, Vec<Point>)],
+    bounds: &[(f64, f64)],
+    width: Width,
+    steps: Steps,
+) -> Vec<Vec<(u64, f64)>> {
     let mut curves = vec![Vec::new(); KINDS.len()];
     println!(
         "| shape, T_max / T_min | polygon | B-spline | QBC | QBC-n | QBC-n saves |\n|---|---|---|---|---|---|"
     );
-    for (t_max, t_min) in BOUNDS {
+    for &(t_max, t_min) in bounds {
         let mut sums = [(0_u64, 0.0); 4];
         for (path, shape) in shapes {
             let name = Path::new(path).file_stem().unwrap_or_default();
