@@ -28,12 +28,11 @@ pub(super) struct Line {
 impl Weights {
     /// Of a curve; of a straight edge without one.
     pub(super) fn new(pull: Option<Pull>) -> Self {
-        let mut of = [[0.0; LOOK + 1]; 3];
-        for k in 0..=LOOK {
+        let at = |k: usize| {
             let u = k as f64 / LOOK as f64;
-            let three = pull.map_or([1.0 - u, 0.0, u], |pull| pull.quadratic(u));
-            (0..3).for_each(|i| of[i][k] = three[i]);
-        }
+            pull.map_or([1.0 - u, 0.0, u], |pull| pull.quadratic(u))
+        };
+        let of = std::array::from_fn(|i| std::array::from_fn(|k| at(k)[i]));
         Self { of }
     }
 

@@ -112,7 +112,7 @@ impl Tube {
     /// Whether a whole or half point, by its coordinates doubled, surely lies outside.
     pub(super) fn shuts(&self, doubled: (i32, i32)) -> bool {
         let cell = place(self.corner, self.width, doubled);
-        !cell.is_some_and(|i| self.inside.get(i) == Some(&true))
+        cell.is_none_or(|i| self.inside.get(i) != Some(&true))
     }
 
     /// The first of the boundary points nearest to a whole or half point, where it is known.

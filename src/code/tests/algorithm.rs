@@ -103,6 +103,9 @@ fn what_is_not_looked_at_would_not_be_cheaper() {
     let shape = boundary(0.5);
     for kind in SPLINES {
         for steps in [Steps::Eight, Steps::Any, Steps::Far] {
+            if steps == Steps::Far && kind != SPLINES[2] {
+                continue;
+            }
             let band = Band::new(&shape, BOUNDS, kind, (Width::Bound, steps.longest()));
             let plain = Plain { band: &band, kind };
             let coded = encode(&shape, kind, BOUNDS, Width::Bound, steps).unwrap();
