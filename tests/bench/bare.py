@@ -1,0 +1,222 @@
+#!/usr/bin/env python3
+"""Bare pages cut with `layout = "free"`: which letters come out in order and whole. A row of BENCHMARKS.md's "Bare pages" for each.
+
+    python3 tests/bench/bare.py --khatt target/release/khatt --bench ../shared/bench --fonts /usr/share/fonts \\
+        'FreeSans.ttf --rows 8 --cols 9 --skew 2' 'KacstBook.ttf --forms --rows 12 --cols 10 --condition rough'
+
+A page is a font's file, found below --fonts, and options of make_sheet.py, as in untried.py; --pages FILE reads one a line, as bare.txt and
+bare-unseen.txt have them. Pages of --forms are read from the right. A piece is a letter's where half of its ink lies in the letter's cell; a letter has its pieces where
+its cell has all of its own and none of another letter's. Dust is ink of no letter, a dot's worth or more, in a cell. Behind the figures of
+the free page stand those of the same page as a grid. --keep FOLDER keeps pages and cells, and draws none anew that is there. --forget N
+cuts each page so often again with one name left out, and counts how often that is told, and told at its place or the next one.
+Needs numpy, scipy, pillow and what make_sheet.py needs.
+"""
+import argparse, glob, json, os, re, shlex, subprocess, sys, tempfile, time
+import numpy as np
+from PIL import Image
+from scipy.ndimage import binary_dilation, label
+
+# ink this far from a letter is not the letter's own edge, px
+EDGE = 3
+# area of the least dust that counts, px²
+DUST = 6
+# area of the least piece of a letter that counts, em²: a dot has twice that in the thinnest styles, needles of outlines have less
+NEEDLE = 0.0005
+
+
+def draw(bench, font, options, folder):
+    """The truth of a page that is drawn unless it is kept already."""
+    picture = os.path.join(folder, "page.png")
+    if not os.path.exists(picture + ".json"):
+        command = [sys.executable, os.path.join(bench, "make_sheet.py"), "--font-file", font, "--chars", "latin"]
+        subprocess.run(command + options + ["--out", picture], check=True, capture_output=True)
+    return json.load(open(picture + ".json"))
+
+
+def outline(font, cell):
+    """A cell's outline in px of the page, flattened, as make_sheet.py drew it."""
+    import make_sheet as ms
+    import outline_bench as ob
+    from fontTools.ttLib import TTFont
+
+    if "." in cell["name"] or "\u200d" in cell["text"] or cell["name"].startswith("uni0"):
+        contours = ms.shaped_outline(font, cell["text"])[0]
+    else:
+        known = outline.cache.setdefault(font, TTFont(font))
+        contours = ob.true_outline(known, known.getGlyphSet(), cell["name"])
+    a, b, c, d, e, f = cell["map"]
+    for poly in ob.flatten(contours, 8):
+        yield a * poly[:, 0] + c * poly[:, 1] + e, b * poly[:, 0] + d * poly[:, 1] + f
+
+
+outline.cache = {}
+
+
+def pieces(font, truth):
+    """A picture of the number of the piece to which each pixel belongs, the letter of each piece, and its area, px²."""
+    import outline_bench as ob
+
+    width, height = truth["size"]
+    of, letters, areas = np.zeros((height, width), np.int32), [-1], [0]
+    for i, cell in enumerate(truth["cells"]):
+        left, top = (max(0, int(v) - 2) for v in cell["ink_box"][:2])
+        right, bottom = (int(v) + 3 for v in cell["ink_box"][2:])
+        cover = np.zeros((bottom - top, right - left + 2))
+        for x, y in outline(font, cell):
+            ob.cover(cover, x - left, y - top)
+        ink = np.abs(np.cumsum(cover, 1)) > 0.5
+        parts, count = label(ink, np.ones((3, 3)))
+        here = of[top:bottom, left : left + ink.shape[1]]
+        parts = parts[: here.shape[0], : here.shape[1]]
+        here[(parts > 0) & (here == 0)] = parts[(parts > 0) & (here == 0)] + len(letters) - 1
+        areas += [int((parts == k).sum()) for k in range(1, count + 1)]
+        letters += [i] * count
+    return of, np.array(letters), np.array(areas)
+
+
+def names_of(truth, forms):
+    """Names in reading order with the number of each one's letter; None where a row's end is empty."""
+    names = [cell["name"] if forms else cell["text"] for cell in truth["cells"]]
+    order = []
+    for row in range(truth["rows"]):
+        places = range(row * truth["cols"], (row + 1) * truth["cols"])
+        order += [p if p < len(names) else None for p in (reversed(places) if forms else places)]
+    return [(None if p is None else names[p], p) for p in order]
+
+
+def cut(khatt, truth, layout, forms, folder, without=None):
+    """Of each letter its cell's ink as (column, row) of the page; what was said where there is none; and the seconds taken. `without` is
+    a place in the list of names that lacks its own."""
+    named = [n for n in names_of(truth, forms) if layout != '"free"' or n[1] is not None]
+    named = [n for k, n in enumerate(named) if k != without]
+    kind = "free" if "free" in layout else "grid"
+    project, out = os.path.join(folder, kind + ".toml"), os.path.join(folder, kind)
+    with open(project, "w") as file:
+        file.write(
+            f'[font]\nfamily = "Bare"\n[[sheet]]\nimage = "page.png"\nlayout = {layout}\n'
+            f"direction = \"{'rtl' if forms else 'ltr'}\"\nglyphs = '''{' '.join(n[0] or '_' for n in named)}'''\n"
+            f"pixels_per_em = {truth['ppem']}\n"
+        )
+    start = time.time()
+    run = subprocess.run([khatt, "cut", "--quiet", project, "-o", out], capture_output=True, text=True)
+    took = time.time() - start
+    if run.returncode:
+        return None, " ".join(run.stderr.split()), took
+    found = {}
+    for cell in json.load(open(os.path.join(out, "cells.json")))[0]["cells"]:
+        ink = np.asarray(Image.open(os.path.join(out, cell["picture"]))) < 128
+        y, x = np.nonzero(ink)
+        a, b, c, d, e, f = cell["to_sheet"]
+        x, y = x + 0.5, y + 0.5
+        found[named[cell["cell"] - 1][1]] = np.floor([a * x + c * y + e, b * x + d * y + f]).astype(int)
+    return found, "", took
+
+
+def judge(found, truth, page):
+    """Letters in order, letters with just their pieces, pieces lost, pieces of others, dust; and which are wrong."""
+    of, letters, areas = page
+    height, width = of.shape
+    sums, bad = np.zeros(5, int), []
+    for i in range(len(truth["cells"])):
+        own = np.flatnonzero(letters == i)
+        x, y = found.get(i, np.zeros((2, 0), int))
+        inside = (x >= 0) & (y >= 0) & (x < width) & (y < height)
+        x, y = x[inside], y[inside]
+        ids = of[y, x]
+        seen = np.bincount(ids, minlength=len(areas))
+        has = seen >= 0.5 * np.maximum(areas, 1)
+        has[0] = False
+        lost, foreign = own[~has[own]], np.flatnonzero(has & (letters != i))
+        largest = own[areas[own].argmax()] if len(own) else 0
+        lost = lost[areas[lost] >= NEEDLE * truth["ppem"] ** 2]
+        foreign = foreign[areas[foreign] >= NEEDLE * truth["ppem"] ** 2]
+        right = largest > 0 and has[largest]
+        dusty = right and stray(x, y, ids, of, own) >= DUST
+        whole = right and not len(lost) and not len(foreign)
+        sums += [right, whole, len(lost), len(foreign), dusty]
+        if not whole:
+            bad.append(f"{i}:{truth['cells'][i]['name']}" + (f"-{len(lost)}" if len(lost) else "") + (f"+{len(foreign)}" if len(foreign) else ""))
+    return sums, bad
+
+
+def stray(x, y, ids, of, own):
+    """Pixels of a cell's ink that lie apart from all of the letter's own."""
+    if not len(x) or not (ids == 0).any():
+        return 0
+    left, top = x.min() - EDGE, y.min() - EDGE
+    mine = np.isin(of[max(0, top) : y.max() + EDGE + 1, max(0, left) : x.max() + EDGE + 1], own)
+    near = binary_dilation(mine, iterations=EDGE)
+    return int((~near[y - max(0, top), x - max(0, left)] & (ids == 0)).sum())
+
+
+def forgotten(khatt, truth, forms, folder, times):
+    """How often a page is refused where one name of its list is left out, and how often the place told is that or one next to it."""
+    count = len(truth["cells"])
+    told = near = 0
+    for k in range(times):
+        at = (2 * k + 1) * count // (2 * times)
+        found, said, _ = cut(khatt, truth, '"free"', forms, folder, at)
+        if found is not None:
+            continue
+        told += 1
+        place = re.search(r"letter (\d+) of row (\d+) seems to have no name", said)
+        lengths = [min(truth["cols"], count - r * truth["cols"]) for r in range(truth["rows"])]
+        near += bool(place) and abs(sum(lengths[: int(place[2]) - 1]) + int(place[1]) - 1 - at) <= 1
+    return f" | {told}, {near} of {times}"
+
+
+def row(args, text, folder):
+    name, *options = shlex.split(text)
+    fonts = [name] if os.path.exists(name) else sorted(glob.glob(os.path.join(args.fonts, "**", glob.escape(name)), recursive=True))
+    if not fonts:
+        return f"| {text} | no such font below {args.fonts} |"
+    truth, forms = draw(args.bench, fonts[0], options, folder), "--forms" in options
+    kept = os.path.join(folder, "pieces.npz")
+    if os.path.exists(kept):
+        page = tuple(np.load(kept)[k] for k in ("of", "letters", "areas"))
+    else:
+        page = pieces(fonts[0], truth)
+        np.savez_compressed(kept, of=page[0], letters=page[1], areas=page[2])
+    cells = f"| {text} | {len(truth['cells'])}"
+    for layout in args.layouts:
+        layout = f"{{ grid = [{truth['rows']}, {truth['cols']}] }}" if layout == "grid" else '"free"'
+        found, said, took = cut(args.khatt, truth, layout, forms, folder)
+        if found is None:
+            cells += f" | refused | | | {said[:args.say]} | {took:.1f}"
+            continue
+        sums, bad = judge(found, truth, page)
+        shown = f" ({' '.join(bad[:args.show])})" if bad and args.show else ""
+        cells += f" | {sums[0]} | {sums[1]}{shown} | {sums[2]}, {sums[3]} | {sums[4]} | {took:.1f}"
+    if args.forget:
+        cells += forgotten(args.khatt, truth, forms, folder, args.forget)
+    return cells + " |"
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--khatt", required=True)
+    parser.add_argument("--bench", required=True, help="folder of make_sheet.py and outline_bench.py")
+    parser.add_argument("--fonts", default="/usr/share/fonts", help="folder of the fonts")
+    parser.add_argument("--keep", help="folder where pages and cells stay")
+    parser.add_argument("--pages", help="file with a page a line")
+    parser.add_argument("--layouts", nargs="+", default=["free", "grid"], choices=["free", "grid"])
+    parser.add_argument("--show", type=int, default=0, help="so many letters that lack pieces or have others' are named")
+    parser.add_argument("--forget", type=int, default=0, help="cut each page so often again with one name left out")
+    parser.add_argument("--say", type=int, default=160, help="so much of why a page is refused")
+    parser.add_argument("page", nargs="*", metavar="PAGE")
+    args = parser.parse_args()
+    sys.path.insert(0, os.path.abspath(args.bench))
+    listed = open(args.pages).read().splitlines() if args.pages else []
+    more = " in order | whole | pieces lost, others' | dusty | s |"
+    forget = " a name forgotten: told, at its place |" if args.forget else ""
+    print("| page | letters |" + "".join(more.replace(" in", f" {name}: in", 1) for name in args.layouts) + forget)
+    print("|---|---|" + "---|" * (5 * len(args.layouts) + bool(forget)))
+    for text in args.page + [line for line in listed if line.strip()]:
+        with tempfile.TemporaryDirectory() as spare:
+            folder = os.path.join(args.keep, "".join(text.split()).replace("'", "").replace("--", "-").replace("/", "_")) if args.keep else spare
+            os.makedirs(folder, exist_ok=True)
+            print(row(args, text, folder), flush=True)
+
+
+if __name__ == "__main__":
+    main()
