@@ -5,13 +5,18 @@ use kurbo::Rect;
 /// Share of the lower box's height by which two neighbours of a row overlap.
 const BESIDE: f64 = 0.4;
 
+/// Two parts of a row lie less than this share of the rows' usual distance apart in height: letters that hang and letters that stand
+/// can link among themselves alone.
+const ASUNDER: f64 = 0.4;
+
 /// Pixels that each pixel of height in which two boxes do not stand beside each other counts for.
 const PARTLY: f64 = 4.0;
 
 /// Indices of boxes in rows from the top, each row from the left.
 ///
 /// Each box is linked to the next one on its right that stands beside it, so that rows may drift and letters
-/// may differ in height and reach down. What stands beside nothing joins the row that is nearest in height.
+/// may differ in height and reach down. Links of one row that do not meet are put together where they lie far nearer to each other
+/// than rows do. What stands beside nothing joins the row that is nearest in height.
 pub(super) fn rows(boxes: &[Rect]) -> Vec<Vec<usize>> {
     let mut row: Vec<usize> = (0..boxes.len()).collect();
     let mut linked = vec![false; boxes.len()];
@@ -39,6 +44,7 @@ pub(super) fn rows(boxes: &[Rect]) -> Vec<Vec<usize>> {
         .map(of)
         .partition(|r| r.iter().any(|&i| linked[i]));
     merge(boxes, &mut rows);
+    weave(boxes, &mut rows);
     for one in alone.into_iter().flatten() {
         adopt(boxes, &mut rows, one);
     }
@@ -92,6 +98,66 @@ fn merge(boxes: &[Rect], rows: &mut Vec<Vec<usize>>) {
     }
 }
 
+/// Parts of one row whose letters stand between each other become one.
+fn weave(boxes: &[Rect], rows: &mut Vec<Vec<usize>>) {
+    let Some(pitch) = pitch(boxes, rows) else {
+        return;
+    };
+    loop {
+        let pairs = (0..rows.len()).flat_map(|i| (i + 1..rows.len()).map(move |j| (i, j)));
+        let away = pairs.filter_map(|(i, j)| Some((apart(boxes, &rows[i], &rows[j])?, i, j)));
+        let near = away.filter(|a| a.0 < ASUNDER * pitch);
+        let Some((_, i, j)) = near.min_by(|a, b| a.0.total_cmp(&b.0)) else {
+            return;
+        };
+        let more = rows.remove(j);
+        rows[i].extend(more);
+    }
+}
+
+/// The usual distance of rows, px: the median from a box's middle to that of the next one that lies clear below it.
+fn pitch(boxes: &[Rect], rows: &[Vec<usize>]) -> Option<f64> {
+    let some: Vec<Rect> = rows.iter().flatten().map(|&i| boxes[i]).collect();
+    let over = |a: &Rect, b: &Rect| a.x1.min(b.x1) - a.x0.max(b.x0);
+    let below = |a: &Rect| {
+        let clear = some.iter().filter(|b| b.y0 >= a.y1);
+        let under = clear.filter(|b| over(a, b) > a.width().min(b.width()) / 2.0);
+        let down = under.map(|b| b.center().y - a.center().y);
+        down.min_by(f64::total_cmp)
+    };
+    let mut all: Vec<f64> = some.iter().filter_map(below).collect();
+    all.sort_by(f64::total_cmp);
+    all.get(all.len() / 2).copied()
+}
+
+/// How far two parts of rows lie from each other in height, px: the median over the smaller part's boxes, each against the other's next
+/// ones on both sides.
+fn apart(boxes: &[Rect], one: &[usize], other: &[usize]) -> Option<f64> {
+    let (few, many) = if one.len() < other.len() {
+        (one, other)
+    } else {
+        (other, one)
+    };
+    let off = |&i: &usize| Some((boxes[i].center().y - height(boxes, many, boxes[i])?).abs());
+    let mut all: Vec<f64> = few.iter().filter_map(off).collect();
+    all.sort_by(f64::total_cmp);
+    all.get(all.len() / 2).copied()
+}
+
+/// The height of the middles of a row where a box stands, px: between its next ones on both sides, or that of the only one.
+fn height(boxes: &[Rect], row: &[usize], at: Rect) -> Option<f64> {
+    let x = at.center().x;
+    let middles = || row.iter().map(|&i| boxes[i].center());
+    let left = middles().filter(|p| p.x < x);
+    let left = left.max_by(|a, b| a.x.total_cmp(&b.x));
+    let right = middles().filter(|p| p.x >= x);
+    let right = right.min_by(|a, b| a.x.total_cmp(&b.x));
+    match (left, right) {
+        (Some(l), Some(r)) => Some(l.y + (x - l.x) / (r.x - l.x) * (r.y - l.y)),
+        (one, other) => one.or(other).map(|p| p.y),
+    }
+}
+
 /// Puts a single box into the row nearest in height, or into a row of its own where none is near.
 fn adopt(boxes: &[Rect], rows: &mut Vec<Vec<usize>>, one: usize) {
     let y = boxes[one].center().y;
@@ -121,5 +187,42 @@ mod tests {
         assert_eq!(rows.len(), 2);
         assert_eq!(rows[0], [0, 2, 4, 6, 8, 10, 12, 14, 16]);
         assert_eq!(rows[1].len(), 8);
+    }
+
+    #[test]
+    fn letters_that_hang_stand_in_the_row_of_those_that_do_not() {
+        for drift in [-3.0, 0.0, 3.0] {
+            let mut boxes = Vec::new();
+            for row in 0..3 {
+                for i in 0..8 {
+                    let (x, foot) = (
+                        70.0 * f64::from(i),
+                        120.0 * f64::from(row) + drift * f64::from(i),
+                    );
+                    // two of the last row begin where the others end
+                    let low = if row == 2 && (i == 3 || i == 4) {
+                        34.0
+                    } else {
+                        0.0
+                    };
+                    boxes.push(Rect::new(x, foot - 40.0 + low, x + 40.0, foot + low));
+                }
+            }
+            let rows = rows(&boxes);
+            assert_eq!(rows.len(), 3, "drift {drift}");
+            assert_eq!(rows[2], [16, 17, 18, 19, 20, 21, 22, 23]);
+        }
+    }
+
+    #[test]
+    fn rows_that_stand_close_stay_apart() {
+        let mut boxes = Vec::new();
+        for row in 0..4 {
+            for i in 0..6 {
+                let (x, y) = (70.0 * f64::from(i), 46.0 * f64::from(row));
+                boxes.push(Rect::new(x, y, x + 40.0, y + 40.0));
+            }
+        }
+        assert_eq!(rows(&boxes).len(), 4);
     }
 }
