@@ -149,15 +149,26 @@ impl Component {
 
     /// Whether less than `reach` px of paper lies between its ink and another piece's.
     pub(super) fn is_near(&self, other: &Self, reach: f64) -> bool {
-        let (rows, first) = (floor(reach) + 1, |y| {
-            other.runs.partition_point(|r| r.y < y)
-        });
-        self.runs.iter().any(|a| {
-            let near = &other.runs[first(a.y.saturating_sub(rows))..];
-            near.iter().take_while(|b| b.y <= a.y + rows).any(|b| {
+        self.distances(other, reach).any(|d| d < reach)
+    }
+
+    /// The paper between its ink and another piece's, px, where that is less than `reach`.
+    pub(super) fn paper_to(&self, other: &Self, reach: f64) -> Option<f64> {
+        let near = self.distances(other, reach).filter(|d| *d < reach);
+        near.min_by(f64::total_cmp)
+    }
+
+    /// The paper between its runs and another piece's that lie no more than `reach` px higher or lower, px.
+    fn distances<'a>(&'a self, other: &'a Self, reach: f64) -> impl Iterator<Item = f64> + 'a {
+        let rows = floor(reach) + 1;
+        self.runs.iter().flat_map(move |a| {
+            let first = a.y.saturating_sub(rows);
+            let near = &other.runs[other.runs.partition_point(|r| r.y < first)..];
+            let near = near.iter().take_while(move |b| b.y <= a.y + rows);
+            near.map(move |b| {
                 let across = a.start.max(b.start).saturating_sub(a.end.min(b.end));
                 let down = a.y.abs_diff(b.y).saturating_sub(1);
-                (across as f64).hypot(down as f64) < reach
+                (across as f64).hypot(down as f64)
             })
         })
     }

@@ -104,8 +104,8 @@ pub enum ScanError {
     },
     /// Letters and names differ in number.
     #[error(
-        "{source_name} has {found} letters in rows of {rows}, but {names} names are given; look at the proof \
-         for letters that were joined or torn, correct the names, or write _ for ink to be skipped"
+        "{source_name} has {found} letters in rows of {rows}, and {names} names that do not go with them: {doubts}; correct the \
+         names, write _ for ink to be skipped, draw letters clear of each other, or say where one stands: box under [cells.NAME]"
     )]
     Count {
         /// the file
@@ -116,6 +116,8 @@ pub enum ScanError {
         rows: String,
         /// names given
         names: usize,
+        /// where letters and names part
+        doubts: String,
     },
     /// The size of an em is to be measured in millimetres, and the file does not say its resolution.
     #[error(

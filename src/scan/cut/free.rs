@@ -1,14 +1,21 @@
 //! Letters in rows on a bare page.
 //!
-//! Pieces of ink are joined to letters from the most to the least obvious pair until there are as many
-//! letters as names: a dot and its stem, strokes that the pen left apart, the two bars of an equals sign.
+//! Ink that is surely one makes a piece (`pieces`), pieces are read in rows, and one choice for the whole page says which of them
+//! are letters, parts of letters or dirt, so that letters and names agree (`reading`).
 
+use super::doubts::Unread;
+use super::lines::Lines;
+use super::nearest::{Gathered, gather};
+use super::order::in_rows;
+use super::pieces::{Piece, Usual, pieces, ties, usual_size};
 use super::rows::rows;
 use super::{Layer, Reason, Slot, stroke_width};
 use crate::scan::components::Component;
 use crate::scan::error::ScanError;
+use crate::scan::letters::{Pieces, Shape};
 use crate::scan::options::{Direction, Options};
 use crate::types::Label;
+use glyphs_reader::glyphdata::GlyphData;
 use kurbo::Rect;
 
 /// Thickness of a ruled line or a piece of it at most, as a share of its length.
@@ -22,16 +29,7 @@ const SCRAP: (f64, f64) = (0.2, 0.3);
 const THIN: f64 = 0.4;
 /// Pieces of such thin ink at least, for each name: labels stand beside every letter.
 const MANY: f64 = 0.5;
-/// A part that is joined to something above or below is lower than this share of a usual letter.
-const SMALL: f64 = 0.35;
-/// Two large pieces one above the other are one letter within this share of a stroke's width.
-const TORN: f64 = 0.35;
-/// Joins that cost more are never made: about this share of a usual letter lies between the two.
-const DEAREST: f64 = 0.75;
-/// Two dots of one letter differ in size and height by less than this share of their size, and less than one of
-/// them would fit between them.
-const PAIRED: f64 = 0.4;
-/// Groups of less ink than this share of a usual letter's may be dirt.
+/// Pieces of less ink than this share of a usual letter's may be dirt.
 const DIRT: f64 = 0.06;
 
 /// Gathers the ink of a bare page into letters and names them.
@@ -42,105 +40,188 @@ pub(super) fn place(
     options: &Options,
     source: &str,
 ) -> Result<Layer, ScanError> {
-    let (height, stroke) = (usual_height(all), stroke_width(all));
-    let is_line = |c: &Component| {
-        let (long, thin) = (
-            c.upright.width().max(c.upright.height()),
-            c.upright.width().min(c.upright.height()),
-        );
-        let line = long > LINE_LENGTH * height && thin < LINE_SHAPE * long;
-        line || (long > SCRAP.1 * height && thin < SCRAP.0 * stroke)
+    let page = Bare {
+        all,
+        height: usual_height(all),
+        stroke: stroke_width(all),
+        rtl: options.direction == Direction::Rtl,
     };
     let claimed = |i: &usize| claims.iter().any(|(_, parts)| parts.contains(i));
     let free = (0..all.len()).filter(|i| !claimed(i));
-    let (lines, ink): (Vec<usize>, Vec<usize>) = free.partition(|&i| is_line(&all[i]));
+    let (lines, ink): (Vec<usize>, Vec<usize>) = free.partition(|&i| page.is_line(&all[i]));
     let unclaimed = |index: &usize| claims.iter().all(|(c, _)| c != index);
     let names: Vec<usize> = (0..labels.len()).filter(unclaimed).collect();
-    let lines: Vec<(usize, Reason)> = lines.into_iter().map(|i| (i, Reason::Line)).collect();
-    let Gathered {
-        mut groups, out, ..
-    } = choose(all, &ink, (height, stroke), names.len());
-    let mut rejected = lines;
-    rejected.extend(out);
-    if groups.len() != names.len() {
-        let boxes: Vec<Rect> = groups.iter().map(|g| bounds(all, g)).collect();
-        return Err(count_error(source, &rows(&boxes), names.len()));
-    }
-    let found = groups.len();
-    groups.extend(claims.iter().map(|(_, parts)| parts.clone()));
-    let boxes: Vec<Rect> = groups.iter().map(|g| bounds(all, g)).collect();
-    let mut order = rows(&boxes);
-    if options.direction == Direction::Rtl {
-        order.iter_mut().for_each(|r| r.reverse());
-    }
-    let (mut slots, mut next) = (Vec::new(), names.into_iter());
-    let places = order
-        .iter()
-        .enumerate()
-        .flat_map(|(r, row)| row.iter().map(move |&g| (r, g)));
-    for (row, g) in places {
-        let claim = g.checked_sub(found).and_then(|k| claims.get(k));
-        let index = claim.map(|(index, _)| *index).or_else(|| next.next());
-        let Some((index, label)) = index.and_then(|i| Some((i, labels.get(i)?))) else {
-            continue;
-        };
-        let parts = std::mem::take(&mut groups[g]);
-        if label.0 == "_" {
-            rejected.extend(parts.iter().map(|&i| (i, Reason::Skipped)));
-        } else {
-            let level = level(&boxes, &order[row]);
-            slots.push(Slot {
-                label: label.clone(),
-                index,
-                row,
-                level,
-                parts,
-            });
+    let data = GlyphData::default();
+    let known = |l: &&Label| l.0 != "_";
+    let shape = |&i: &usize| Some(&labels[i]).filter(known).map(|l| Shape::of(l, &data));
+    let shapes: Vec<Option<Shape>> = names.iter().map(shape).collect();
+    let label = |k: usize| names.get(k).map_or("", |&i| labels[i].0.as_str());
+    let read = page
+        .letters(&ink, &shapes)
+        .map_err(|unread| unread.error(source, names.len(), label))?;
+    let mut letters: Vec<(usize, Vec<usize>)> = names.into_iter().zip(read.letters).collect();
+    letters.extend(claims.iter().cloned());
+    let mut layer = layer(all, letters, labels);
+    let lines = lines.into_iter().map(|i| (i, Reason::Line));
+    layer.rejected.extend(lines.chain(read.out));
+    Ok(layer)
+}
+
+/// The slots of letters, each the number of its name and its ink.
+fn layer(all: &[Component], mut letters: Vec<(usize, Vec<usize>)>, labels: &[Label]) -> Layer {
+    let boxes: Vec<Rect> = letters.iter().map(|l| bounds(all, &l.1)).collect();
+    let order = rows(&boxes);
+    let (mut slots, mut rejected) = (Vec::new(), Vec::new());
+    for (row, members) in order.iter().enumerate() {
+        let level = level(&boxes, members);
+        for &g in members {
+            let (index, parts) = (letters[g].0, std::mem::take(&mut letters[g].1));
+            match labels.get(index) {
+                Some(label) if label.0 != "_" => slots.push(Slot {
+                    label: label.clone(),
+                    index,
+                    row,
+                    level,
+                    parts,
+                }),
+                _ => rejected.extend(parts.into_iter().map(|i| (i, Reason::Skipped))),
+            }
         }
     }
     slots.sort_by_key(|s| s.index);
-    Ok(Layer {
+    Layer {
         slots,
         rows: order.len(),
         rejected,
-    })
+    }
 }
 
-/// Letters and what is left out.
-struct Gathered {
-    groups: Vec<Vec<usize>>,
+/// A page as its letters are looked for.
+struct Bare<'a> {
+    all: &'a [Component],
+    /// Of a usual letter, px.
+    height: f64,
+    /// Of a usual stroke, px.
+    stroke: f64,
+    rtl: bool,
+}
+
+/// The ink of each name's letter, what is left out, and how unlikely all of it is.
+struct Read {
+    letters: Vec<Vec<usize>>,
     out: Vec<(usize, Reason)>,
-    /// Cost of the dearest join.
-    dearest: f64,
+    cost: f64,
 }
 
-/// `scale` is a usual letter's height and stroke. Gathers all ink, or without what is drawn with a far thinner pen where that is so much that it must be labels
-/// and guides, and the letters come out with more obvious joins.
-fn choose(all: &[Component], ink: &[usize], scale: (f64, f64), wanted: usize) -> Gathered {
-    let whole = gather(all, ink, scale, wanted);
-    let (thin, thick): (Vec<usize>, Vec<usize>) =
-        ink.iter().partition(|&&i| all[i].stroke() < THIN * scale.1);
-    if (thin.len() as f64) < MANY * wanted as f64 || thick.len() < wanted {
-        return whole;
+impl Bare<'_> {
+    fn is_line(&self, c: &Component) -> bool {
+        let (w, h) = (c.upright.width(), c.upright.height());
+        let (long, thin) = (w.max(h), w.min(h));
+        let line = long > LINE_LENGTH * self.height && thin < LINE_SHAPE * long;
+        line || (long > SCRAP.1 * self.height && thin < SCRAP.0 * self.stroke)
     }
-    let mut part = gather(all, &thick, scale, wanted);
-    part.out.extend(thin.into_iter().map(|i| (i, Reason::Thin)));
-    let better = part.dearest < whole.dearest || whole.groups.len() != wanted;
-    if part.groups.len() == wanted && better {
-        part
-    } else {
-        whole
+
+    /// Gathers by count alone where most names say nothing of their letters, and reads where that fails or names tell.
+    fn letters(&self, ink: &[usize], names: &[Option<Shape>]) -> Result<Read, Unread> {
+        let known = names.iter().flatten();
+        let silent = known.filter(|s| s.pieces == Pieces::Unknown && !s.full);
+        let named = names.iter().flatten().count();
+        let counted = if 2 * silent.count() > named {
+            self.choose(ink, names, |ink| self.count(ink, names.len()).ok_or(()))
+        } else {
+            Err(())
+        };
+        counted.or_else(|()| self.choose(ink, names, |ink| self.read(ink, names)))
+    }
+
+    /// Takes all ink, or leaves out what is drawn with a far thinner pen where that is so much that it must be labels and guides, and the
+    /// letters come out likelier.
+    fn choose<E>(
+        &self,
+        ink: &[usize],
+        names: &[Option<Shape>],
+        take: impl Fn(&[usize]) -> Result<Read, E>,
+    ) -> Result<Read, E> {
+        let whole = take(ink);
+        let (thin, thick): (Vec<usize>, Vec<usize>) = ink
+            .iter()
+            .partition(|&&i| self.all[i].stroke() < THIN * self.stroke);
+        if (thin.len() as f64) < MANY * names.len() as f64 || thick.len() < names.len() {
+            return whole;
+        }
+        match (whole, take(&thick)) {
+            (Ok(whole), Ok(part)) if whole.cost <= part.cost => Ok(whole),
+            (_, Ok(mut part)) => {
+                part.out.extend(thin.into_iter().map(|i| (i, Reason::Thin)));
+                Ok(part)
+            }
+            (whole, Err(_)) => whole,
+        }
+    }
+
+    /// Joins what lies nearest until there are so many letters.
+    fn count(&self, ink: &[usize], letters: usize) -> Option<Read> {
+        let Gathered {
+            groups,
+            out,
+            dearest,
+        } = gather(self.all, ink, (self.height, self.stroke), letters);
+        let boxes: Vec<Rect> = groups.iter().map(|g| bounds(self.all, g)).collect();
+        let mut order = rows(&boxes);
+        if self.rtl {
+            order.iter_mut().for_each(|r| r.reverse());
+        }
+        let letter = |&g: &usize| groups[g].clone();
+        (groups.len() == letters).then(|| Read {
+            letters: order.iter().flatten().map(letter).collect(),
+            out,
+            cost: dearest,
+        })
+    }
+
+    /// Reads some ink: pieces, rows, and what each piece is.
+    fn read(&self, ink: &[usize], names: &[Option<Shape>]) -> Result<Read, Unread> {
+        let usual = Usual {
+            size: usual_size(self.all, ink, names.len()),
+            stroke: self.stroke,
+        };
+        let found = pieces(self.all, ink, usual);
+        let least = DIRT * usual_area(&found, names.len());
+        let is_dirt = |p: &Piece| p.is_mote(usual) || (p.area as f64) < least;
+        let ties = ties(&found, self.all, usual);
+        let mut rows = in_rows(&found, &ties, usual, |i| is_dirt(&found[i]));
+        if self.rtl {
+            rows.iter_mut().for_each(|r| r.reverse());
+        }
+        let lines = Lines::new(&found, &ties, &rows, usual);
+        let dirt: Vec<bool> = lines.pieces.iter().map(|p| is_dirt(p)).collect();
+        let (reading, owners) = lines.read(names, &dirt);
+        if !reading.agrees() {
+            let lengths: Vec<usize> = rows.iter().map(Vec::len).collect();
+            return Err(Unread::new(&reading, &lengths));
+        }
+        let mut letters = vec![Vec::new(); names.len()];
+        for (piece, owner) in lines.pieces.iter().zip(owners) {
+            if let Some(letter) = owner.and_then(|k| letters.get_mut(k)) {
+                letter.extend(piece.parts.iter().copied());
+            }
+        }
+        let mut used = vec![false; self.all.len()];
+        letters.iter().flatten().for_each(|&i| used[i] = true);
+        let out = ink.iter().filter(|&&i| !used[i]);
+        Ok(Read {
+            out: out.map(|&i| (i, Reason::Dirt)).collect(),
+            letters,
+            cost: reading.cost,
+        })
     }
 }
 
-fn gather(all: &[Component], ink: &[usize], scale: (f64, f64), wanted: usize) -> Gathered {
-    let (mut groups, dearest) = letters(all, ink, scale, wanted);
-    let out = drop_dirt(all, &mut groups, wanted);
-    Gathered {
-        groups,
-        out,
-        dearest,
-    }
+/// The median area of the letters among a page's pieces, px², where it has so many of them.
+fn usual_area(pieces: &[Piece], letters: usize) -> f64 {
+    let mut areas: Vec<usize> = pieces.iter().map(|p| p.area).collect();
+    areas.sort_unstable_by(|a, b| b.cmp(a));
+    areas.get(letters / 2).copied().unwrap_or(0) as f64
 }
 
 fn bounds(all: &[Component], group: &[usize]) -> Rect {
@@ -155,70 +236,6 @@ fn level(boxes: &[Rect], row: &[usize]) -> f64 {
     feet.get(feet.len() / 2).copied().unwrap_or(0.0)
 }
 
-fn count_error(source: &str, order: &[Vec<usize>], names: usize) -> ScanError {
-    let rows: Vec<String> = order.iter().map(|r| r.len().to_string()).collect();
-    ScanError::Count {
-        source_name: source.to_owned(),
-        found: order.iter().map(Vec::len).sum(),
-        rows: rows.join(", "),
-        names,
-    }
-}
-
-/// Joins ink, the most obvious pairs first, until `wanted` groups are left or no pair is near; the groups, and the
-/// cost of the last join.
-fn letters(
-    all: &[Component],
-    ink: &[usize],
-    scale: (f64, f64),
-    wanted: usize,
-) -> (Vec<Vec<usize>>, f64) {
-    let mut pairs: Vec<(f64, usize, usize)> = Vec::new();
-    for (i, &a) in ink.iter().enumerate() {
-        for (j, &b) in ink.iter().enumerate().skip(i + 1) {
-            let cost = cost(&all[a], &all[b], scale);
-            if cost < DEAREST {
-                pairs.push((cost, i, j));
-            }
-        }
-    }
-    pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let mut group: Vec<usize> = (0..ink.len()).collect();
-    let mut left = ink.len();
-    let mut dearest: f64 = 0.0;
-    let small: Vec<bool> = ink
-        .iter()
-        .map(|&i| all[i].upright.height() < SMALL * scale.0)
-        .collect();
-    // a dot between two letters belongs to one of them; only if too many pieces are left then, to both
-    let between = pairs.iter().map(|p| (true, p));
-    let joining = pairs.iter().map(|p| (false, p));
-    for (parting, &(cost, i, j)) in between.chain(joining) {
-        if left <= wanted {
-            break;
-        }
-        let (from, to) = (group[i].max(group[j]), group[i].min(group[j]));
-        let full = |id: usize| (0..ink.len()).any(|k| group[k] == id && !small[k]);
-        let dot = parting && (small[i] || small[j]) && cost > 0.0;
-        if from != to && !(dot && full(from) && full(to)) {
-            group
-                .iter_mut()
-                .filter(|g| **g == from)
-                .for_each(|g| *g = to);
-            left -= 1;
-            dearest = dearest.max(cost);
-        }
-    }
-    let of = |id: usize| {
-        (0..ink.len())
-            .filter(|&i| group[i] == id)
-            .map(|i| ink[i])
-            .collect::<Vec<_>>()
-    };
-    let groups = (0..ink.len()).map(of).filter(|g| !g.is_empty()).collect();
-    (groups, dearest)
-}
-
 /// Height of a usual letter, px: the median over the ink, each piece by its area.
 fn usual_height(all: &[Component]) -> f64 {
     let mut sizes: Vec<(f64, usize)> = all.iter().map(|c| (c.upright.height(), c.area)).collect();
@@ -230,56 +247,4 @@ fn usual_height(all: &[Component]) -> f64 {
         sum > half
     });
     middle.map_or(1.0, |s| s.0.max(1.0))
-}
-
-/// How far two pieces are from being one letter: the gap between them as a share of a usual height, more
-/// where they stand beside rather than above each other. Two full letters one above the other never are, unless
-/// hardly anything is between them: a pen that ran dry, a stroke parted by a cut. Two dots beside each other are
-/// likelier one letter's than a dot beside a letter is.
-fn cost(one: &Component, other: &Component, (height, stroke): (f64, f64)) -> f64 {
-    let (a, b) = (one.upright, other.upright);
-    let dx = (a.x0 - b.x1).max(b.x0 - a.x1);
-    let dy = (a.y0 - b.y1).max(b.y0 - a.y1);
-    let low = a.height().min(b.height());
-    let narrow = a.width().min(b.width()).max(1.0);
-    let small = low < SMALL * height;
-    let torn = TORN * stroke;
-    if -dx > narrow / 2.0 && dy < torn && one.is_near(other, torn) {
-        return 0.0;
-    }
-    let alike = |p: f64, q: f64| (p - q).abs() < PAIRED * p.min(q);
-    let size = b.width();
-    let level = (a.center().y - b.center().y).abs() < PAIRED * size;
-    let dots = alike(a.width(), size) && alike(a.height(), b.height()) && alike(a.height(), size);
-    match (dx < 0.0, dy < 0.0) {
-        (false, true) if small && dots && level && dx < size => 0.3 + 0.1 * dx / size,
-        (true, true) => {
-            0.8 * (1.0 - dx * dy / (narrow * low.max(1.0))).max(0.0) + if small { 0.0 } else { 0.2 }
-        }
-        (true, false) if small => dy / height + 0.5 * (1.0 + dx / narrow).max(0.0),
-        (false, true) if a.height().max(b.height()) < SMALL * height => 0.45 + dx / height,
-        (false, _) if small && dx < 0.2 * height => 0.55 + dx.hypot(dy.max(0.0)) / height,
-        _ => f64::INFINITY,
-    }
-}
-
-/// Takes out the least groups while there are too many and they are dirt.
-fn drop_dirt(
-    all: &[Component],
-    groups: &mut Vec<Vec<usize>>,
-    wanted: usize,
-) -> Vec<(usize, Reason)> {
-    let area = |g: &Vec<usize>| g.iter().map(|&i| all[i].area).sum::<usize>();
-    let mut areas: Vec<usize> = groups.iter().map(area).collect();
-    areas.sort_unstable();
-    let usual = areas.get(areas.len() / 2).copied().unwrap_or(0) as f64;
-    let mut out = Vec::new();
-    while groups.len() > wanted {
-        let least = (0..groups.len()).min_by_key(|&g| area(&groups[g]));
-        let Some(least) = least.filter(|&g| (area(&groups[g]) as f64) < DIRT * usual) else {
-            break;
-        };
-        out.extend(groups.remove(least).into_iter().map(|i| (i, Reason::Dirt)));
-    }
-    out
 }

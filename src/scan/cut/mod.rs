@@ -3,15 +3,21 @@
 //! Nothing is lost: every piece of ink above the speckle limit is in a cell or in [`Cut::rejected`].
 
 mod boxes;
+mod doubts;
 mod ends;
 mod free;
 mod furniture;
 mod grid;
 mod guides;
 mod hidden;
+mod lines;
 mod marks;
+mod nearest;
 mod odd;
+mod order;
+mod pieces;
 mod pins;
+mod reading;
 mod rows;
 mod ruling;
 mod stance;

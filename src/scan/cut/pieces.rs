@@ -1,0 +1,198 @@
+//! The ink of a bare page → pieces that are surely one, and how likely each is a part of another.
+
+use super::{Component, gap};
+use kurbo::Rect;
+
+/// Two pieces one above the other are one within this many stroke widths: a pen that ran dry, a stroke parted by a cut.
+const TORN: f64 = 0.35;
+/// The same in px at least: hairlines tear where paper shines through for a pixel.
+const LEAST_TORN: f64 = 1.5;
+/// Sizes of dots and signs end at the first, those of full letters begin at the second, in usual letters' sizes.
+const FULL: (f64, f64) = (0.35, 0.6);
+/// Pieces below this share of a usual letter's size may be dirt.
+const MOTE: f64 = 0.2;
+/// What a piece's width counts beside its height: signs over letters are wide and low.
+const WIDTH: f64 = 0.6;
+/// A part of a letter lies within this share of a usual letter's size over it, under it or in it: the highest signs of Nastaliq
+/// stand off by 0.7.
+const REACH: f64 = 0.9;
+/// A large one beside it lies within this many stroke widths.
+const BESIDE: f64 = 2.0;
+/// A part's middle lies beside its letter by less than this share of a usual letter's size: a stem parted from its bowl, the second
+/// of two ticks. What it lies beside it counts so many times.
+const ASIDE: (f64, f64) = (0.5, 3.0);
+/// A letter's body weighs so many times what its parts weigh; what weighs less is so much farther off, as a share of a usual
+/// letter's size.
+const LARGER: (f64, f64) = (1.5, 0.3);
+
+/// What a page's letters measure.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Usual {
+    /// Size of a letter, px.
+    pub(super) size: f64,
+    /// Width of a stroke, px.
+    pub(super) stroke: f64,
+}
+
+/// Ink that is surely of one letter.
+#[derive(Debug, Clone)]
+pub(super) struct Piece {
+    /// Indices of its components.
+    pub(super) parts: Vec<usize>,
+    /// On the upright page, px.
+    pub(super) bounds: Rect,
+    /// Area of its largest component, px²: three dots are not more than the letter under them.
+    pub(super) area: usize,
+    /// Size of a single dot where it is several, else its own, px.
+    size: f64,
+}
+
+/// A piece that another one may be a part of.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Tie {
+    /// Its number.
+    pub(super) to: usize,
+    /// How unlikely that is by their places, in usual letters' sizes: the paper between them, and how far the part's middle lies
+    /// beside the other.
+    pub(super) off: f64,
+}
+
+impl Piece {
+    fn of(parts: Vec<usize>, all: &[Component], usual: Usual) -> Option<Self> {
+        let boxes = parts.iter().map(|&i| all[i].upright);
+        let bounds = boxes.clone().reduce(|a, b| a.union(b))?;
+        let largest = boxes.map(size).fold(0.0, f64::max);
+        let dots = largest < FULL.0 * usual.size;
+        Some(Self {
+            area: parts.iter().map(|&i| all[i].area).max()?,
+            size: if dots { largest } else { size(bounds) },
+            parts,
+            bounds,
+        })
+    }
+
+    /// How much of a full letter it is by its size: 0 for dots, 1 for letters.
+    pub(super) fn full(&self, usual: Usual) -> f64 {
+        let size = self.size / usual.size;
+        ((size - FULL.0) / (FULL.1 - FULL.0)).clamp(0.0, 1.0)
+    }
+
+    /// Whether it is clearly less than another.
+    pub(super) fn is_smaller(&self, other: &Self) -> bool {
+        other.weight() >= LARGER.0 * self.weight()
+    }
+
+    /// By what it is told which of two pieces is the letter's body, px³: dots can have as much ink as the short tooth that they stand
+    /// over, and a hamza can be as high.
+    pub(super) fn weight(&self) -> f64 {
+        self.area as f64 * self.size
+    }
+
+    /// Whether it is smaller than most dots.
+    pub(super) fn is_mote(&self, usual: Usual) -> bool {
+        self.size < MOTE * usual.size
+    }
+
+    /// How unlikely a part of another piece's letter it is by its place; `None` where it is too far.
+    fn off(&self, other: &Self, all: &[Component], usual: Usual) -> Option<f64> {
+        let middle = self.bounds.center().x;
+        let beside = (other.bounds.x0 - middle).max(middle - other.bounds.x1);
+        let beside = beside.max(0.0);
+        let full = if beside > 0.0 {
+            self.full(usual).min(other.full(usual))
+        } else {
+            0.0
+        };
+        let reach = REACH * usual.size * (1.0 - full) + BESIDE * usual.stroke * full;
+        if beside > ASIDE.0 * usual.size || gap(self.bounds, other.bounds) >= reach {
+            return None;
+        }
+        let ours = self.parts.iter();
+        let pairs = ours.flat_map(|a| other.parts.iter().map(move |b| (a, b)));
+        let paper = pairs.filter_map(|(&a, &b)| all[a].paper_to(&all[b], reach));
+        let paper = paper.min_by(f64::total_cmp)?;
+        let more = if self.is_smaller(other) {
+            0.0
+        } else {
+            LARGER.1
+        };
+        Some((paper + ASIDE.1 * beside) / usual.size + more)
+    }
+}
+
+fn size(r: Rect) -> f64 {
+    r.height().max(WIDTH * r.width())
+}
+
+/// The median size of the letters among a page's ink, px, where it has so many of them.
+pub(super) fn usual_size(all: &[Component], ink: &[usize], letters: usize) -> f64 {
+    let mut sizes: Vec<f64> = ink.iter().map(|&i| size(all[i].upright)).collect();
+    sizes.sort_by(|a, b| b.total_cmp(a));
+    let middle = sizes.get(letters / 2).or(sizes.last());
+    middle.map_or(1.0, |s| s.max(1.0))
+}
+
+/// Joins what is surely one.
+pub(super) fn pieces(all: &[Component], ink: &[usize], usual: Usual) -> Vec<Piece> {
+    let boxes: Vec<Rect> = ink.iter().map(|&i| all[i].upright).collect();
+    let mut of: Vec<usize> = (0..ink.len()).collect();
+    let torn = (TORN * usual.stroke).max(LEAST_TORN);
+    for (i, j) in close(&boxes, torn) {
+        let (a, b) = (root(&of, i), root(&of, j));
+        if a != b && is_one(&all[ink[i]], &all[ink[j]], torn) {
+            of[a.max(b)] = a.min(b);
+        }
+    }
+    let mut members: Vec<Vec<usize>> = vec![Vec::new(); ink.len()];
+    for (i, &c) in ink.iter().enumerate() {
+        members[root(&of, i)].push(c);
+    }
+    let members = members.into_iter().filter(|m| !m.is_empty());
+    members.filter_map(|m| Piece::of(m, all, usual)).collect()
+}
+
+/// The first of the pieces that one belongs to.
+fn root(of: &[usize], mut i: usize) -> usize {
+    while of[i] != i {
+        i = of[i];
+    }
+    i
+}
+
+/// For each piece those that are not clearly less than it and of which it may be a part.
+pub(super) fn ties(pieces: &[Piece], all: &[Component], usual: Usual) -> Vec<Vec<Tie>> {
+    let boxes: Vec<Rect> = pieces.iter().map(|p| p.bounds).collect();
+    let mut ties: Vec<Vec<Tie>> = vec![Vec::new(); pieces.len()];
+    let reach = (REACH * usual.size).max(BESIDE * usual.stroke);
+    for (i, j) in close(&boxes, reach) {
+        for (part, to) in [(i, j), (j, i)] {
+            if !pieces[to].is_smaller(&pieces[part]) {
+                let off = pieces[part].off(&pieces[to], all, usual);
+                ties[part].extend(off.map(|off| Tie { to, off }));
+            }
+        }
+    }
+    ties
+}
+
+/// Pairs of boxes that are less than `reach` px apart, found along the page's width.
+fn close(boxes: &[Rect], reach: f64) -> Vec<(usize, usize)> {
+    let mut order: Vec<usize> = (0..boxes.len()).collect();
+    order.sort_by(|&a, &b| boxes[a].x0.total_cmp(&boxes[b].x0));
+    let mut pairs = Vec::new();
+    for (k, &i) in order.iter().enumerate() {
+        let after = order[k + 1..].iter();
+        let within = after.take_while(|&&j| boxes[j].x0 < boxes[i].x1 + reach);
+        let near = within.filter(|&&j| gap(boxes[i], boxes[j]) < reach);
+        pairs.extend(near.map(|&j| (i.min(j), i.max(j))));
+    }
+    pairs.sort_unstable();
+    pairs
+}
+
+/// Whether two pieces are of one letter, whatever its name: one lies over the other, and less than `torn` px are between them.
+fn is_one(one: &Component, other: &Component, torn: f64) -> bool {
+    let (a, b) = (one.upright, other.upright);
+    let over = a.x1.min(b.x1) - a.x0.max(b.x0);
+    over > a.width().min(b.width()) / 2.0 && one.is_near(other, torn)
+}

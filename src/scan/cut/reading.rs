@@ -1,0 +1,337 @@
+//! Pieces in reading order + names → which pieces are letters, and of which name: one choice for the whole page.
+//!
+//! Every piece is a letter, a part of one beside it, dirt, or a letter without a name; every name has one letter, in order, or none.
+//! What a name says about its letter's size and dots makes some of these likely, and the least sum of costs is taken: the
+//! shortest path through pieces and names, as sequences are aligned. A cost of 1 is strong doubt.
+
+use crate::scan::letters::{Pieces, Shape};
+
+/// Cost of a piece as small as a dot for the name of a letter or a figure, and for any other name: commas are small.
+const SIZE: (f64, f64) = (1.2, 0.5);
+/// Cost of a letter without the dots that its name has, and of one with signs where its name has none.
+const SIGNS: (f64, f64) = (0.6, 0.3);
+/// Cost of a part that lies by a usual letter's size away from its body.
+const OFF: f64 = 0.5;
+/// Cost of a piece as large as a letter that is a part of one.
+const PART: f64 = 0.5;
+/// Cost of a piece of dirt: more than that of a part of a letter.
+const DIRT: f64 = 0.8;
+/// Cost of a letter without a name, and of a name without a letter: more than that of any one letter that looks odd, so that pages whose
+/// names agree are never refused for one, and less than that of a row whose letters all have their neighbours' names.
+const UNMATCHED: f64 = 2.5;
+
+/// What is seen of a piece.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Seen {
+    /// How much of a full letter it is by its size, 0 to 1.
+    pub(super) full: f64,
+    /// Whether smaller pieces lie over it.
+    pub(super) above: bool,
+    /// Whether smaller pieces lie below it.
+    pub(super) below: bool,
+    /// The larger piece that it may be a part of.
+    pub(super) body: Option<Body>,
+    /// Whether it may be dirt.
+    pub(super) dirt: bool,
+}
+
+/// A larger piece beside one.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Body {
+    /// How far it is, in usual sizes.
+    pub(super) off: f64,
+    /// Whether it is read before its part.
+    pub(super) before: bool,
+    /// Whether its part lies over its middle.
+    pub(super) above: bool,
+}
+
+/// What a piece is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Role {
+    /// The letter of a name.
+    Letter(usize),
+    /// A part of a letter beside it.
+    Part,
+    /// No ink of a letter's.
+    Dirt,
+    /// A letter without a name.
+    Nameless,
+}
+
+/// A page as it is read.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Reading {
+    /// What each piece is.
+    pub(super) roles: Vec<Role>,
+    /// Names without a letter, in order, each with the number of pieces read before it.
+    pub(super) missing: Vec<(usize, usize)>,
+    /// The sum of all costs.
+    pub(super) cost: f64,
+}
+
+impl Reading {
+    /// Whether all letters have names and all names letters.
+    pub(super) fn agrees(&self) -> bool {
+        self.missing.is_empty() && !self.roles.contains(&Role::Nameless)
+    }
+}
+
+/// A step of the path: a piece that is taken for something, or a name that is passed over.
+#[derive(Debug, Clone, Copy)]
+enum Step {
+    Take(Role),
+    Pass,
+}
+
+/// Costs of all beginnings: of so many pieces and so many names, and the last step of each.
+struct Table {
+    width: usize,
+    cost: Vec<f64>,
+    by: Vec<Step>,
+}
+
+impl Table {
+    fn new(pieces: usize, names: usize) -> Self {
+        let width = names + 1;
+        let size = (pieces + 1) * width;
+        let mut cost = vec![f64::INFINITY; size];
+        cost[0] = 0.0;
+        Self {
+            width,
+            cost,
+            by: vec![Step::Pass; size],
+        }
+    }
+
+    fn step(&mut self, (i, j): (usize, usize), step: Step, cost: f64) {
+        let at = i * self.width + j;
+        if cost < self.cost[at] {
+            (self.cost[at], self.by[at]) = (cost, step);
+        }
+    }
+
+    /// All steps to the last beginning, which is the whole.
+    fn reading(&self, pieces: usize, names: usize) -> Reading {
+        let (mut i, mut j) = (pieces, names);
+        let (mut roles, mut missing) = (Vec::new(), Vec::new());
+        while i > 0 || j > 0 {
+            match self.by[i * self.width + j] {
+                Step::Pass => {
+                    j -= 1;
+                    missing.push((j, i));
+                }
+                Step::Take(role) => {
+                    i -= 1;
+                    if let Role::Letter(k) = role {
+                        j = k;
+                    }
+                    roles.push(role);
+                }
+            }
+        }
+        roles.reverse();
+        missing.reverse();
+        Reading {
+            roles,
+            missing,
+            cost: self.cost.last().copied().unwrap_or(0.0),
+        }
+    }
+}
+
+/// Reads pieces and names together. A name is `None` where nothing at all is known of its letter.
+pub(super) fn align(pieces: &[Seen], names: &[Option<Shape>]) -> Reading {
+    let mut table = Table::new(pieces.len(), names.len());
+    for i in 0..=pieces.len() {
+        for j in 0..=names.len() {
+            let here = table.cost[i * table.width + j];
+            if j < names.len() {
+                table.step((i, j + 1), Step::Pass, here + UNMATCHED);
+            }
+            let Some(piece) = pieces.get(i) else {
+                continue;
+            };
+            if let Some(name) = names.get(j) {
+                let cost = name.map_or(0.0, |shape| misfit(piece, &shape));
+                let step = Step::Take(Role::Letter(j));
+                table.step((i + 1, j + 1), step, here + cost);
+            }
+            for (role, cost) in nameless(piece, names, j) {
+                table.step((i + 1, j), Step::Take(role), here + cost);
+            }
+        }
+    }
+    table.reading(pieces.len(), names.len())
+}
+
+/// What a piece can be but the letter of a name, where `j` names are read, with the costs.
+fn nameless(piece: &Seen, names: &[Option<Shape>], j: usize) -> impl Iterator<Item = (Role, f64)> {
+    let part = piece.body.map(|body| {
+        let name = if body.before {
+            j.checked_sub(1)
+        } else {
+            Some(j)
+        };
+        let name = name.and_then(|k| names.get(k)).and_then(Option::as_ref);
+        let wish = name.map_or(0.0, |shape| unwanted(shape, body.above));
+        let sign = (1.0 - piece.full) * wish;
+        (Role::Part, OFF * body.off + PART * piece.full + sign)
+    });
+    let dirt = piece.dirt.then_some((Role::Dirt, DIRT));
+    let extra = (Role::Nameless, UNMATCHED);
+    part.into_iter().chain(dirt).chain([extra])
+}
+
+/// How badly a piece stands for a name.
+fn misfit(piece: &Seen, shape: &Shape) -> f64 {
+    let size = if shape.full { SIZE.0 } else { SIZE.1 };
+    let sign = |seen: bool, wanted: bool| match (seen, wanted) {
+        (false, true) => SIGNS.0,
+        (true, false) => SIGNS.1,
+        _ => 0.0,
+    };
+    let signs = match shape.pieces {
+        Pieces::One => sign(piece.above, false) + sign(piece.below, false),
+        Pieces::DotAbove => sign(piece.above, true) + sign(piece.below, false),
+        Pieces::DotBelow => sign(piece.above, false) + sign(piece.below, true),
+        Pieces::Marked => sign(piece.above || piece.below, true),
+        Pieces::Within | Pieces::Bare | Pieces::Unknown => 0.0,
+    };
+    size * (1.0 - piece.full) + signs
+}
+
+/// Cost of one more sign over or under a letter: less where its name has one there.
+pub(super) fn unwanted(shape: &Shape, above: bool) -> f64 {
+    match shape.pieces {
+        Pieces::One | Pieces::Bare => SIGNS.1,
+        Pieces::DotAbove if !above => SIGNS.1,
+        Pieces::DotBelow if above => SIGNS.1,
+        _ => 0.0,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::types::Label;
+    use glyphs_reader::glyphdata::GlyphData;
+
+    fn shapes(names: &str) -> Vec<Option<Shape>> {
+        let data = GlyphData::default();
+        let shape = |n: &str| (n != "_").then(|| Shape::of(&Label(n.to_owned()), &data));
+        names.split(' ').map(shape).collect()
+    }
+
+    fn letter() -> Seen {
+        Seen {
+            full: 1.0,
+            above: false,
+            below: false,
+            body: None,
+            dirt: false,
+        }
+    }
+
+    /// A sign over the letter that is read before it, or after it.
+    fn sign(full: f64, before: bool) -> Seen {
+        let body = Body {
+            off: 0.2,
+            before,
+            above: true,
+        };
+        Seen {
+            full,
+            body: Some(body),
+            ..letter()
+        }
+    }
+
+    fn under_signs() -> Seen {
+        Seen {
+            above: true,
+            ..letter()
+        }
+    }
+
+    #[test]
+    fn a_sign_is_a_part_and_a_small_letter_a_letter() {
+        // alef with hamza, hamza, theh with three dots, one of them read first
+        let pieces = [
+            under_signs(),
+            sign(0.4, true),
+            Seen {
+                full: 0.4,
+                ..letter()
+            },
+            sign(0.0, false),
+            under_signs(),
+            sign(0.0, true),
+            sign(0.0, true),
+        ];
+        let reading = align(&pieces, &shapes("uni0623 uni0621 uni062B"));
+        let part = Role::Part;
+        let want = [
+            Role::Letter(0),
+            part,
+            Role::Letter(1),
+            part,
+            Role::Letter(2),
+            part,
+            part,
+        ];
+        assert_eq!(reading.roles, want);
+        assert!(reading.agrees());
+    }
+
+    #[test]
+    fn dirt_takes_no_name() {
+        let mote = Seen {
+            full: 0.0,
+            dirt: true,
+            ..letter()
+        };
+        let pieces = [mote, letter(), mote, letter(), mote];
+        let reading = align(&pieces, &shapes("uni062F uni0631"));
+        let want = [
+            Role::Dirt,
+            Role::Letter(0),
+            Role::Dirt,
+            Role::Letter(1),
+            Role::Dirt,
+        ];
+        assert_eq!(reading.roles, want);
+    }
+
+    #[test]
+    fn dots_say_where_a_name_was_forgotten() {
+        // dal, noon, dal, noon, dal; the names lack the second dal
+        let noon = under_signs();
+        let pieces = [
+            letter(),
+            noon,
+            sign(0.0, true),
+            letter(),
+            noon,
+            sign(0.0, true),
+            letter(),
+        ];
+        let reading = align(&pieces, &shapes("uni062F uni0646 uni0646 uni062F"));
+        assert_eq!(reading.roles[3], Role::Nameless);
+        assert!(reading.missing.is_empty() && !reading.agrees());
+    }
+
+    #[test]
+    fn a_name_too_many_has_no_letter() {
+        let reading = align(&[letter(); 3], &shapes("uni062F uni0631 uni062F uni0631"));
+        assert_eq!(reading.missing.len(), 1);
+        assert!(!reading.agrees());
+    }
+
+    #[test]
+    fn nothing_is_read_as_nothing() {
+        assert_eq!(align(&[], &[]).roles, []);
+        assert_eq!(align(&[], &shapes("a b")).missing, [(0, 0), (1, 0)]);
+        assert_eq!(align(&[letter()], &[]).roles, [Role::Nameless]);
+    }
+}

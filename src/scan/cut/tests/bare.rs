@@ -1,0 +1,218 @@
+//! Bare pages of Arabic letters: signs, dust, rows and names that do not agree.
+
+use super::*;
+
+/// How far letters stand apart, px.
+const PITCH: (f64, f64) = (80.0, 110.0);
+
+/// Draws the letter of a name with its foot at (x, y), 6 px thick: alef is 45 px high, other letters 20 or less.
+fn draw(paper: &mut Paper, name: &str, x: f64, y: f64) {
+    let (base, form) = name.split_once('.').unwrap_or((name, ""));
+    let tooth = matches!(form, "init" | "medi");
+    match base {
+        "uni0627" | "uni0623" => paper.bar(x + 17.0, y - 45.0, 6.0, 45.0),
+        "uni0621" => hamza(paper, x + 12.0, y - 16.0),
+        "uni0645" => {
+            // hangs below the line
+            paper.bar(x, y - 4.0, 22.0, 12.0);
+            paper.bar(x, y - 4.0, 6.0, 40.0);
+        }
+        _ if tooth => {
+            paper.bar(x + 10.0, y - 16.0, 6.0, 16.0);
+            paper.bar(x + 10.0, y - 6.0, 20.0, 6.0);
+        }
+        _ => {
+            paper.bar(x, y - 20.0, 6.0, 20.0);
+            paper.bar(x, y - 6.0, 40.0, 6.0);
+            paper.bar(x + 34.0, y - 20.0, 6.0, 20.0);
+        }
+    }
+    let top = y - if tooth { 16.0 } else { 20.0 };
+    match base {
+        "uni0623" => hamza(paper, x + 13.0, y - 68.0),
+        "uni0626" => hamza(paper, x + 9.0, top - 24.0),
+        "uni0628" => paper.bar(x + 17.0, y + 7.0, 6.0, 6.0),
+        "uni0646" => paper.bar(x + 17.0, top - 6.0, 6.0, 6.0),
+        "uni062B" => {
+            paper.bar(x + 7.0, top - 14.0, 6.0, 6.0);
+            paper.bar(x + 17.0, top - 14.0, 6.0, 6.0);
+            paper.bar(x + 12.0, top - 23.0, 6.0, 6.0);
+        }
+        _ => {}
+    }
+}
+
+/// A hamza, 16 px high.
+fn hamza(paper: &mut Paper, x: f64, y: f64) {
+    paper.bar(x, y, 6.0, 16.0);
+    paper.bar(x, y + 10.0, 14.0, 6.0);
+    paper.bar(x, y, 14.0, 6.0);
+}
+
+/// A page of rows that are read from the right and drift by so many px a letter.
+fn page(rows: &[&str], skew_deg: f64, drift: f64) -> Paper {
+    let mut paper = Paper::new(760, 120 + 110 * rows.len(), skew_deg);
+    for (row, names) in (0u32..).zip(rows) {
+        for (i, name) in (0u32..).zip(names.split(' ')) {
+            let x = 660.0 - PITCH.0 * f64::from(i);
+            let y = 100.0 + PITCH.1 * f64::from(row) + drift * f64::from(i);
+            draw(&mut paper, name, x, y);
+        }
+    }
+    paper
+}
+
+const ROWS: [&str; 4] = [
+    "uni0627 uni0623 uni0628 uni062B uni0646 uni0621 uni0627 uni0623",
+    "uni0628.init uni062B.init uni0646.init uni0626.init uni062D uni0628.medi uni0626.medi uni062B.medi",
+    "uni0644 uni0627 uni0645 uni0645.fina uni0646 uni062B uni0623 uni0628",
+    "uni0623 uni0646 uni0626 uni0628 uni062D uni0621 uni062B",
+];
+
+fn free() -> Options {
+    Options {
+        direction: Direction::Rtl,
+        ..options(Layout::Free)
+    }
+}
+
+/// That each cell of a page of [`ROWS`] is where its letter was drawn, and has all of its ink.
+fn assert_whole(cut: &Cut, drift: f64, of: &str) {
+    let names = ROWS.iter().flat_map(|row| row.split(' '));
+    assert_eq!(cut.cells.len(), names.clone().count(), "{of}");
+    let places = ROWS
+        .iter()
+        .enumerate()
+        .flat_map(|(r, row)| row.split(' ').enumerate().map(move |(i, _)| (r, i)));
+    for ((cell, name), (row, i)) in cut.cells.iter().zip(names).zip(places) {
+        let (row, i) = (row as f64, i as f64);
+        let mut alone = Paper::new(1, 1, 0.0);
+        draw(
+            &mut alone,
+            name,
+            660.0 - PITCH.0 * i,
+            100.0 + PITCH.1 * row + drift * i,
+        );
+        let want = alone
+            .bars
+            .iter()
+            .map(|b| b.0)
+            .reduce(|a, b| a.union(b))
+            .unwrap();
+        let got = cell.in_sheet;
+        let off = [
+            got.x0 - want.x0,
+            got.y0 - want.y0,
+            got.x1 - want.x1,
+            got.y1 - want.y1,
+        ];
+        assert!(
+            off.iter().all(|d| d.abs() < 2.5),
+            "{of}: {name} of row {row}, letter {i}: {got:?} for {want:?}"
+        );
+    }
+}
+
+#[test]
+fn signs_go_with_their_letters() {
+    for drift in [-3.0, 0.0, 3.0] {
+        let cut = cut_page(&page(&ROWS, 0.0, drift), &ROWS.join(" "), &free()).unwrap();
+        assert_whole(&cut, drift, "clean");
+        assert!(cut.rejected.is_empty(), "{:?}", cut.rejected);
+    }
+}
+
+#[test]
+fn a_turned_page_is_read_alike() {
+    let cut = cut_page(&page(&ROWS, 2.0, 0.0), &ROWS.join(" "), &free()).unwrap();
+    let names: Vec<&str> = cut.cells.iter().map(|c| c.label.0.as_str()).collect();
+    assert_eq!(names.join(" "), ROWS.join(" "));
+    let areas = |name: &str| {
+        let cells = cut.cells.iter().filter(|c| c.label.0 == name);
+        let areas = cells.map(|c| c.gray.samples().iter().sum::<f32>());
+        areas.collect::<Vec<_>>()
+    };
+    for name in ["uni0623", "uni062B", "uni0628", "uni0646"] {
+        let (all, mean) = (areas(name), areas(name).iter().sum::<f32>());
+        let mean = mean / all.len() as f32;
+        let alike = all.iter().all(|a| (a / mean - 1.0).abs() < 0.06);
+        assert!(alike, "{name}: {all:?}");
+    }
+}
+
+#[test]
+fn dust_is_in_no_letter_and_takes_no_name() {
+    let mut paper = page(&ROWS, 0.0, 0.0);
+    // on the margins, between the rows and between the letters
+    for i in 0..24u32 {
+        let (x, y) = (
+            40.0 + f64::from(i * 151 % 690),
+            30.0 + f64::from(i * 97 % 480),
+        );
+        let near = |b: &(Rect, f32)| b.0.inflate(16.0, 16.0).contains(Point::new(x, y));
+        if !paper.bars.iter().any(near) {
+            paper.bar(x, y, 4.0, 4.0);
+        }
+    }
+    let cut = cut_page(&paper, &ROWS.join(" "), &free()).unwrap();
+    assert_whole(&cut, 0.0, "dust");
+}
+
+#[test]
+fn a_torn_stroke_is_one_letter() {
+    let mut paper = page(&ROWS, 0.0, 0.0);
+    // the pen left a gap of 2 px in the first alef
+    let alef = paper.bars.remove(0).0;
+    paper.bar(alef.x0, alef.y0, 6.0, 20.0);
+    paper.bar(alef.x0, alef.y0 + 22.0, 6.0, 23.0);
+    let cut = cut_page(&paper, &ROWS.join(" "), &free()).unwrap();
+    assert_whole(&cut, 0.0, "torn");
+}
+
+#[test]
+fn a_dot_between_two_letters_is_that_ones_whose_name_has_it() {
+    for (names, owner) in [("uni0646 uni062D", 0), ("uni062D uni0646", 1)] {
+        let mut paper = page(&ROWS, 0.0, 0.0);
+        let y = 100.0 + PITCH.1 * 4.0;
+        paper.height += 110;
+        for x in [400.0, 450.0] {
+            draw(&mut paper, "uni062D", x, y);
+        }
+        // over the white between them
+        paper.bar(442.0, y - 30.0, 6.0, 6.0);
+        let all = format!("{} {names}", ROWS.join(" "));
+        let cut = cut_page(&paper, &all, &free()).unwrap();
+        let tall: Vec<bool> = cut
+            .cells
+            .iter()
+            .map(|c| c.in_sheet.height() > 25.0)
+            .collect();
+        let last = &tall[tall.len() - 2..];
+        assert_eq!([last[0], last[1]], [owner == 0, owner == 1], "{names}");
+    }
+}
+
+#[test]
+fn a_forgotten_name_is_told() {
+    let paper = page(&ROWS, 0.0, 0.0);
+    let mut names: Vec<&str> = ROWS.iter().flat_map(|r| r.split(' ')).collect();
+    let forgotten = names.remove(12);
+    assert_eq!(forgotten, "uni062D");
+    let error = cut_page(&paper, &names.join(" "), &free()).unwrap_err();
+    let ScanError::Count {
+        found,
+        rows,
+        names: given,
+        doubts,
+        ..
+    } = &error
+    else {
+        panic!("{error}");
+    };
+    assert_eq!((*found, *given), (31, 30));
+    assert_eq!(rows, "8, 8, 8, 7");
+    assert!(
+        doubts.contains("of row 2 seems to have no name"),
+        "{doubts}"
+    );
+}
