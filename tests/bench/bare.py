@@ -199,12 +199,13 @@ def main():
     parser.add_argument("--fonts", default="/usr/share/fonts", help="folder of the fonts")
     parser.add_argument("--keep", help="folder where pages and cells stay")
     parser.add_argument("--pages", help="file with a page a line")
-    parser.add_argument("--layouts", nargs="+", default=["free", "grid"], choices=["free", "grid"])
+    parser.add_argument("--only", choices=["free", "grid"], help="cut pages with one layout instead of both")
     parser.add_argument("--show", type=int, default=0, help="so many letters that lack pieces or have others' are named")
     parser.add_argument("--forget", type=int, default=0, help="cut each page so often again with one name left out")
     parser.add_argument("--say", type=int, default=160, help="so much of why a page is refused")
     parser.add_argument("page", nargs="*", metavar="PAGE")
     args = parser.parse_args()
+    args.layouts = [args.only] if args.only else ["free", "grid"]
     sys.path.insert(0, os.path.abspath(args.bench))
     listed = open(args.pages).read().splitlines() if args.pages else []
     more = " in order | whole | pieces lost, others' | dusty | s |"
