@@ -22,6 +22,10 @@ const UNMATCHED: f64 = 2.5;
 
 /// What is seen of a piece.
 #[derive(Debug, Clone, Copy)]
+#[expect(
+    clippy::struct_excessive_bools,
+    reason = "three observations, each by itself"
+)]
 pub(super) struct Seen {
     /// How much of a full letter it is by its size, 0 to 1.
     pub(super) full: f64,
@@ -202,6 +206,10 @@ fn misfit(piece: &Seen, shape: &Shape) -> f64 {
 }
 
 /// Cost of one more sign over or under a letter: less where its name has one there.
+#[expect(
+    clippy::fn_params_excessive_bools,
+    reason = "the side of a sign, as seen"
+)]
 pub(super) fn unwanted(shape: &Shape, above: bool) -> f64 {
     match shape.pieces {
         Pieces::One | Pieces::Bare => SIGNS.1,
