@@ -242,6 +242,7 @@ mod tests {
     }
 
     /// A sign over the letter that is read before it, or after it.
+    #[expect(clippy::fn_params_excessive_bools, reason = "as in `Body`")]
     fn sign(full: f64, before: bool) -> Seen {
         let body = Body {
             off: 0.2,
