@@ -160,6 +160,33 @@ fn hairlines_keep_their_width() {
     assert!((width - 1.5).abs() < 0.1, "{width}");
 }
 
+/// Part of a step's height that a lens leaves at distance `d` px inside of it; nearly a Gaussian of 0.95 px, the pixel's box included.
+fn step(d: f64) -> f64 {
+    1.0 / (1.0 + (-1.702 * d / 0.95).exp())
+}
+
+#[test]
+fn a_scanned_line_thinner_than_a_pixel_keeps_its_width() {
+    // beside a disk, which tells what ink is
+    let (a, b) = (Point::new(12.0, 30.0), Point::new(90.0, 71.0));
+    let along = (b - a) / (b - a).hypot();
+    for width in [0.7, 1.0, 1.3] {
+        let gray = Gray::from_fn(120, 96, |x, y| {
+            let p = Point::new(x as f64 + 0.5, y as f64 + 0.5);
+            let (u, v) = ((p - a).dot(along), (p - a).cross(along));
+            let line = (step(v + width / 2.0) - step(v - width / 2.0))
+                * (step(u) - step(u - (b - a).hypot()));
+            let disk = step(14.0 - p.distance(Point::new(96.0, 22.0)));
+            (0.1 + 0.75 * (line + disk)) as f32
+        });
+        let got = outlines(&gray);
+        assert_eq!(got.len(), 2, "{width}");
+        let areas = got.iter().map(|p| p.area().abs());
+        let line = areas.fold(f64::INFINITY, f64::min) / (b - a).hypot();
+        assert!((line - width).abs() < 0.12, "{width}: {line}");
+    }
+}
+
 #[test]
 fn what_almost_touches_stays_apart() {
     let (a, b) = (Point::new(27.1, 48.0), Point::new(68.3, 48.0));

@@ -1,12 +1,21 @@
 //! Local ink and paper levels: the grey of a scan becomes coverage, so that half is half everywhere.
 
+use super::thin;
 use crate::{
-    numeric::levels::{dilated, normalised},
+    numeric::{
+        cast::single,
+        levels::{dilated, normalised},
+    },
     types::Gray,
 };
 
 /// A pixel is sure when all within this distance are of its kind, px: a lens' blur ends there.
 const MARGIN: usize = 2;
+
+/// Ink and paper that differ by less are not looked at for thin lines.
+const CONTRAST: f32 = 0.2;
+/// What tells neither level.
+const UNTOLD: f32 = 0.5;
 
 /// The picture's coverage: at each pixel, where its grey lies between the paper's and the ink's around it.
 ///
@@ -20,10 +29,27 @@ pub fn level(gray: &Gray) -> Gray {
     let (near_ink, near_paper) = (dilated(&ink, w, MARGIN), dilated(&paper, w, MARGIN));
     // what is neither surely ink nor surely paper tells nothing
     let model = |(ink, paper): (&bool, &bool)| match (ink, paper) {
-        (true, true) => 0.5,
+        (true, true) => UNTOLD,
         (true, false) => 1.0,
         _ => 0.0,
     };
-    let model: Vec<f32> = near_ink.iter().zip(&near_paper).map(model).collect();
+    let mut model: Vec<f32> = near_ink.iter().zip(&near_paper).map(model).collect();
+    // thin lines on sure paper would pass for paper, and slits for ink
+    let means = [0.0, 1.0].map(|of| mean(gray, &model, of));
+    if let [Some(paper), Some(ink)] = means
+        && ink - paper >= CONTRAST
+        && let Some(thin) = thin::beside(gray, [paper, ink])
+    {
+        let beside = model.iter_mut().zip(thin).filter(|(_, thin)| *thin);
+        beside.for_each(|(model, _)| *model = UNTOLD);
+    }
     gray.with_samples(normalised(gray.samples(), w, &model))
+}
+
+/// The mean of the samples that a model says are `of` a level.
+fn mean(gray: &Gray, model: &[f32], of: f32) -> Option<f32> {
+    let pairs = gray.samples().iter().zip(model);
+    let own = pairs.filter(|(_, m)| **m == of);
+    let (sum, count) = own.fold((0.0, 0), |(sum, n), (v, _)| (sum + f64::from(*v), n + 1));
+    (count > 0).then(|| single(sum / f64::from(count)))
 }

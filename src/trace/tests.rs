@@ -1,6 +1,6 @@
 use super::*;
-use crate::numeric::cast::single;
-use kurbo::Point;
+use crate::numeric::{cast::single, coverage::blur};
+use kurbo::{Point, Vec2};
 use proptest::prelude::*;
 
 /// A picture of what `inside` says, 16 × 16 samples a pixel.
@@ -115,6 +115,83 @@ fn uneven_grey_becomes_coverage() {
         "paper is paper"
     );
     assert_eq!(level(&Gray::from_fn(0, 3, |_, _| 0.0)).height(), 3);
+}
+
+/// A disk of 40 px, and a bar of 80 × `width` px turned by `degrees`: of ink beside it, or a slit in it. As a lens of 0.9 px sees it
+/// under a scan's grain.
+fn thin(width: f64, degrees: f64, slit: bool) -> Gray {
+    let (sin, cos) = degrees.to_radians().sin_cos();
+    let disk = Point::new(45.0, 45.0);
+    let bar = if slit { disk } else { Point::new(131.3, 62.7) };
+    let inside = |x: f64, y: f64| {
+        let d = Point::new(x, y) - bar;
+        let local = Vec2::new(d.x * cos + d.y * sin, d.y * cos - d.x * sin);
+        let on = local.x.abs() < if slit { 30.0 } else { 40.0 } && local.y.abs() < width / 2.0;
+        on != (disk.distance(Point::new(x, y)) < 40.0)
+    };
+    let sharp = picture(180, 130, inside);
+    let mut samples = sharp.samples().to_vec();
+    blur(&mut samples, sharp.width(), 0.9, 0);
+    let mut dice = 1_u64;
+    for v in &mut samples {
+        let mut sum = -6.0;
+        for _ in 0..12 {
+            dice = dice.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+            sum += (dice >> 40) as f32 / (1_u64 << 24) as f32;
+        }
+        *v = 0.15 + 0.7 * *v + 0.02 * sum;
+    }
+    sharp.with_samples(samples)
+}
+
+#[test]
+fn lines_and_slits_that_no_pixel_shows_half_of_have_whole_contours() {
+    for slit in [false, true] {
+        for (width, degrees) in [0.7, 1.0, 1.3].into_iter().zip([0.0, 33.0, 78.0]) {
+            for degrees in [degrees, degrees + 45.0, degrees + 90.0] {
+                let c = traced(&level(&thin(width, degrees, slit)));
+                let what = format!("{width} px at {degrees}°, slit {slit}");
+                assert_eq!(c.len(), 2, "{what}");
+                let least = c
+                    .iter()
+                    .min_by(|a, b| a.area().abs().total_cmp(&b.area().abs()));
+                let bar = least.expect("two contours");
+                assert_eq!(bar.area() < 0.0, slit, "{what}");
+                let long = if slit { 60.0 } else { 80.0 };
+                let size = bar.bounds().width().hypot(bar.bounds().height());
+                assert!((size - long).abs() < 6.0, "{what}: {size} px long");
+            }
+        }
+    }
+}
+
+#[test]
+fn what_is_thick_is_not_lifted() {
+    // a wedge of 6°, eight lines of 2.4 px, seven slits as wide
+    let wedge = |x: f64, y: f64| (y - 30.2).abs() < (x - 8.0) * 0.0524 && x < 110.0;
+    let within = |x: f64, y: f64| {
+        (5.0..55.0).contains(&y) && (18.0..18.0 + 8.0 * 9.0).contains(&(x + 0.3 * y))
+    };
+    let lines = |x: f64, y: f64| within(x, y) && (x + 0.3 * y).rem_euclid(9.0) < 2.5;
+    let slits = |x: f64, y: f64| within(x, y) && (x + 0.3 * y).rem_euclid(9.0) < 6.5;
+    let all: [&dyn Fn(f64, f64) -> bool; 3] = [&wedge, &lines, &slits];
+    for (i, inside) in all.into_iter().enumerate() {
+        let sharp = picture(120, 60, inside);
+        for lens in [0.0, 0.9] {
+            let mut samples = sharp.samples().to_vec();
+            blur(&mut samples, sharp.width(), lens, 0);
+            let gray = sharp.with_samples(samples);
+            let blur_px = lens.hypot(Contour::PIXEL_BLUR_PX);
+            let lifted = thin::lifted(&gray, 0.5, blur_px).is_some();
+            assert!(!lifted, "{i}, lens {lens}");
+            let beside = thin::beside(&gray, [0.0, 1.0]).is_some();
+            assert!(!beside, "{i}, lens {lens}");
+        }
+    }
+    assert_eq!(
+        thin::lifted(&Gray::from_fn(0, 0, |_, _| 0.0), 0.5, 1.0),
+        None
+    );
 }
 
 proptest! {

@@ -1,0 +1,262 @@
+//! Lines and slits too thin to reach half coverage.
+//!
+//! Under a blur of deviation σ a line of width w is nowhere darker than 2 Φ(w / 2σ) − 1: at σ = 0.95 px one of 1.2 px has no
+//! contour at half coverage, and one of 1.3 px has one in pieces. Its crest stands out all the same. Along crests that are long
+//! enough the coverage is scaled ([`lifted`]), so that the level is passed at their sides; where those really are the comparison
+//! with the picture says (`refine`). Nor do they tell what paper and ink are like ([`beside`]). All else stays as it is.
+
+use crate::{
+    numeric::{
+        cast::{index, single},
+        levels::dilated,
+        median::median,
+    },
+    types::{Contour, Gray},
+};
+use std::{f64::consts::SQRT_2, mem::take};
+
+/// A crest stands out by this much coverage somewhere: a line of 0.5 px under the blur of a usual scan.
+const RELIEF: f32 = 0.2;
+/// And by so many deviations of the grain.
+const GRAIN: f32 = 6.0;
+/// It goes on, towards its ends, as long as it stands out by this part of that.
+const FAINT: f32 = 0.6;
+/// It stands out and stays below [`LOW`] for so many pixels along a row or column.
+const LONG: usize = 6;
+/// As a multiple of the level: grain parts a contour along a crest that is no higher.
+const LOW: f32 = 1.2;
+/// For so many where it grows over [`THICK`] of the level: the tip of a wedge of 5° does not, and its sides tell where it ends.
+const TAPERED: usize = 12;
+/// As high as that no line is thin.
+const THICK: f32 = 1.5;
+/// Its sides are looked for so many deviations of the blur away: hardly anything is left of a thin line there.
+const ASIDE: f64 = 2.0;
+/// And so far at least, px.
+const LEAST_ASIDE_PX: f64 = 2.0;
+/// The contour runs at this part of a crest's height, outside of the line's sides: grain does not part it there.
+const SIDES: f32 = 0.6;
+/// No further from the crest than so many deviations of the blur.
+const HALF_WIDTH: f64 = 1.0;
+/// What is so much higher than a crest nearby is no side of it.
+const HIGHER: f32 = 1.25;
+/// So near to a crest a pixel tells no level, px.
+const UNTOLD: usize = 3;
+/// Directions across a crest, in columns and rows.
+const ACROSS: [(isize, isize); 4] = [(1, 0), (0, 1), (1, 1), (1, -1)];
+
+/// What is thin.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Thin {
+    /// A line of ink.
+    Line,
+    /// A slit of paper.
+    Slit,
+}
+
+impl Thin {
+    const ALL: [Self; 2] = [Self::Line, Self::Slit];
+}
+
+/// A pixel of a crest: its index, and its height.
+type Crest = (usize, f32);
+
+/// The picture with its thin lines and slits lifted over `level`; nothing where it has none. `blur_px` is the deviation of its
+/// edges.
+pub(super) fn lifted(gray: &Gray, level: f64, blur_px: f64) -> Option<Gray> {
+    let mut samples: Option<Vec<f32>> = None;
+    for thin in Thin::ALL {
+        let field = Field::new(gray, [0.0, 1.0], (thin, level), blur_px);
+        let crests = field.crests();
+        if !crests.is_empty() {
+            let to = samples.get_or_insert_with(|| gray.samples().to_vec());
+            field.lift(&crests, blur_px, to);
+        }
+    }
+    samples.map(|s| gray.with_samples(s))
+}
+
+/// Which pixels lie beside crests of thin lines and slits, row by row; nothing where there are none. `levels` are those of paper
+/// and ink, which differ.
+pub(super) fn beside(gray: &Gray, levels: [f32; 2]) -> Option<Vec<bool>> {
+    let blur = Contour::PIXEL_BLUR_PX;
+    let crests = Thin::ALL.map(|thin| Field::new(gray, levels, (thin, 0.5), blur).crests());
+    if crests.iter().all(Vec::is_empty) {
+        return None;
+    }
+    let mut bits = vec![false; gray.samples().len()];
+    crests.iter().flatten().for_each(|c| bits[c.0] = true);
+    Some(dilated(&bits, gray.width(), UNTOLD))
+}
+
+/// Deviation of the grain, from neighbours in a row that are both plainly paper or both plainly ink.
+fn grain(gray: &Gray, [paper, ink]: [f32; 2]) -> f32 {
+    /// So near to a level nothing but grain is expected.
+    const PLAIN: f32 = 0.15;
+    /// Deviation of a normal number by the median of differences of two.
+    const DEVIATION: f64 = 1.4826 / SQRT_2;
+    let plain = |v: f32| !(PLAIN..1.0 - PLAIN).contains(&v);
+    let part = |v: &f32| (v - paper) / (ink - paper);
+    let rows = gray.samples().chunks_exact(gray.width().max(1));
+    let pairs = rows.flat_map(|row| row.iter().map(part).zip(row[1..].iter().map(part)));
+    let alike = pairs.filter(|(a, b)| plain(*a) && plain(*b) && (a - b).abs() < PLAIN);
+    let off = median(alike.map(|(a, b)| f64::from((a - b).abs())));
+    single(off.unwrap_or(0.0) * DEVIATION)
+}
+
+/// A picture seen as ink where lines are looked for, and as paper where slits are.
+struct Field<'a> {
+    gray: &'a Gray,
+    /// Paper and ink.
+    levels: [f32; 2],
+    thin: Thin,
+    /// Where contours run in it.
+    level: f32,
+    /// Steps to the sides of a crest, across it along rows and columns, and along diagonals.
+    aside: [[isize; 2]; 2],
+}
+
+impl<'a> Field<'a> {
+    fn new(gray: &'a Gray, levels: [f32; 2], (thin, level): (Thin, f64), blur_px: f64) -> Self {
+        let steps = |px: f64| isize::try_from(index(px)).unwrap_or(1).max(1);
+        let aside = (ASIDE * blur_px).max(LEAST_ASIDE_PX);
+        let (straight, diagonal) = (aside.round(), aside / SQRT_2);
+        let level = match thin {
+            Thin::Line => level,
+            Thin::Slit => 1.0 - level,
+        };
+        Self {
+            gray,
+            levels,
+            thin,
+            level: single(level),
+            aside: [straight, diagonal].map(|px| [steps(px), steps(px + 1.0)]),
+        }
+    }
+
+    /// A sample as the part of ink that it shows, or of paper.
+    fn seen(&self, v: f32) -> f32 {
+        let [paper, ink] = self.levels;
+        match self.thin {
+            Thin::Line => (v - paper) / (ink - paper),
+            Thin::Slit => (ink - v) / (ink - paper),
+        }
+    }
+
+    /// And back.
+    fn shown(&self, part: f32) -> f32 {
+        let [paper, ink] = self.levels;
+        match self.thin {
+            Thin::Line => paper + part * (ink - paper),
+            Thin::Slit => ink - part * (ink - paper),
+        }
+    }
+
+    /// The height so many columns and rows from a pixel; paper lies around the picture.
+    fn beside(&self, (x, y): (usize, usize), (dx, dy): (isize, isize)) -> f32 {
+        match (x.checked_add_signed(dx), y.checked_add_signed(dy)) {
+            (Some(x), Some(y)) => self.seen(self.gray.at(x, y)),
+            _ => self.seen(self.levels[0]),
+        }
+    }
+
+    /// How far a pixel stands out over what lies on both sides of it, where it is the highest of its neighbours across.
+    fn relief(&self, at: (usize, usize)) -> f32 {
+        let here = self.beside(at, (0, 0));
+        let over = |(dx, dy): (isize, isize)| {
+            let side = |n: isize| self.beside(at, (n * dx, n * dy));
+            if here < side(1).max(side(-1)) {
+                return 0.0;
+            }
+            let steps = self.aside[usize::from(dx != 0 && dy != 0)];
+            let [near, far] = steps.map(|n| here - side(n).max(side(-n)));
+            near.max(far)
+        };
+        ACROSS.map(over).into_iter().fold(0.0, f32::max)
+    }
+
+    /// The pixels of long crests.
+    fn crests(&self) -> Vec<Crest> {
+        let w = self.gray.width();
+        let mut out = self.standing_out(RELIEF);
+        if out.is_empty() {
+            return out;
+        }
+        let relief = RELIEF.max(GRAIN * grain(self.gray, self.levels));
+        let faint = self.standing_out(FAINT * relief);
+        let mut left = vec![0.0; self.gray.samples().len()];
+        let mut parts = left.clone();
+        faint.iter().for_each(|(i, height)| left[*i] = *height);
+        out.clear();
+        for (start, _) in faint {
+            let crest = taken(&mut left, w, start);
+            let low =
+                |c: &&Crest| c.1 < LOW * self.level && self.relief((c.0 % w, c.0 / w)) >= relief;
+            let strong: Vec<usize> = crest.iter().filter(low).map(|c| c.0).collect();
+            strong.iter().for_each(|&i| parts[i] = 1.0);
+            let long = strong.iter().map(|&i| extent(&taken(&mut parts, w, i), w));
+            let long = long.max().unwrap_or(0);
+            let tapered = crest.iter().any(|c| c.1 > THICK * self.level);
+            if long >= if tapered { TAPERED } else { LONG } {
+                out.extend(crest);
+            }
+        }
+        out
+    }
+
+    /// The pixels that stand out by `relief` and do not reach far over the level.
+    fn standing_out(&self, relief: f32) -> Vec<Crest> {
+        let w = self.gray.width();
+        let heights = relief..self.level / SIDES;
+        let pixels = self.gray.samples().iter().enumerate();
+        let pixels = pixels.map(|(i, v)| (i, self.seen(*v)));
+        pixels
+            .filter(|(i, v)| heights.contains(v) && self.relief((i % w, i / w)) >= relief)
+            .collect()
+    }
+
+    /// Scales what lies around crests up to where the level is passed at their sides.
+    fn lift(&self, crests: &[Crest], blur_px: f64, samples: &mut [f32]) {
+        let (w, h) = (self.gray.width(), self.gray.height());
+        let reach = index((HALF_WIDTH * blur_px).round()).max(1);
+        for &(i, height) in crests {
+            let by = self.level / (SIDES * height);
+            for y in (i / w).saturating_sub(reach)..(i / w + reach + 1).min(h) {
+                for x in (i % w).saturating_sub(reach)..(i % w + reach + 1).min(w) {
+                    let here = self.beside((x, y), (0, 0));
+                    if here <= HIGHER * height {
+                        let to = &mut samples[y * w + x];
+                        *to = self.shown(self.seen(*to).max((by * here).min(1.0)));
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// The pixels of the crest that pixel `start` is part of, taken out of a map of heights.
+fn taken(height: &mut [f32], w: usize, start: usize) -> Vec<Crest> {
+    let mut out = Vec::new();
+    let mut open = vec![start];
+    while let Some(i) = open.pop() {
+        if height[i] <= 0.0 {
+            continue;
+        }
+        out.push((i, take(&mut height[i])));
+        let (x, y) = (i % w, i / w);
+        for y in y.saturating_sub(1)..(y + 2).min(height.len() / w) {
+            let row = x.saturating_sub(1)..(x + 2).min(w);
+            open.extend(row.map(|x| y * w + x).filter(|&j| height[j] > 0.0));
+        }
+    }
+    out
+}
+
+/// The larger side of the box around a crest's pixels, in pixels.
+fn extent(crest: &[Crest], w: usize) -> usize {
+    let sides = crest.iter().fold(None, |b: Option<[usize; 4]>, (i, _)| {
+        let (x, y) = (i % w, i / w);
+        let [x0, x1, y0, y1] = b.unwrap_or([x, x, y, y]);
+        Some([x0.min(x), x1.max(x), y0.min(y), y1.max(y)])
+    });
+    sides.map_or(0, |[x0, x1, y0, y1]| (x1 - x0).max(y1 - y0) + 1)
+}
