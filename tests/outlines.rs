@@ -1,5 +1,6 @@
 //! Drawings with a known edge through the whole trace: where their outlines run, and what they never do.
 
+use khatt::numeric::cast::single;
 use khatt::pipeline::picture::{Options, to_picture, trace_picture};
 use khatt::types::Gray;
 use kurbo::{BezPath, ParamCurve, ParamCurveArclen, PathEl, PathSeg, Point, Shape, Vec2};
@@ -177,7 +178,7 @@ fn a_scanned_line_thinner_than_a_pixel_keeps_its_width() {
             let line = (step(v + width / 2.0) - step(v - width / 2.0))
                 * (step(u) - step(u - (b - a).hypot()));
             let disk = step(14.0 - p.distance(Point::new(96.0, 22.0)));
-            (0.1 + 0.75 * (line + disk)) as f32
+            single(0.1 + 0.75 * (line + disk))
         });
         let got = outlines(&gray);
         assert_eq!(got.len(), 2, "{width}");

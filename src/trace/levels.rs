@@ -35,8 +35,9 @@ pub fn level(gray: &Gray) -> Gray {
     };
     let mut model: Vec<f32> = near_ink.iter().zip(&near_paper).map(model).collect();
     // thin lines on sure paper would pass for paper, and slits for ink
-    let means = [0.0, 1.0].map(|of| mean(gray, &model, of));
-    if let [Some(paper), Some(ink)] = means
+    let paper = mean(gray, &model, |m| m < UNTOLD);
+    let ink = mean(gray, &model, |m| m > UNTOLD);
+    if let (Some(paper), Some(ink)) = (paper, ink)
         && ink - paper >= CONTRAST
         && let Some(thin) = thin::beside(gray, [paper, ink])
     {
@@ -46,10 +47,10 @@ pub fn level(gray: &Gray) -> Gray {
     gray.with_samples(normalised(gray.samples(), w, &model))
 }
 
-/// The mean of the samples that a model says are `of` a level.
-fn mean(gray: &Gray, model: &[f32], of: f32) -> Option<f32> {
+/// The mean of the samples whose model is `sure`.
+fn mean(gray: &Gray, model: &[f32], sure: impl Fn(f32) -> bool) -> Option<f32> {
     let pairs = gray.samples().iter().zip(model);
-    let own = pairs.filter(|(_, m)| **m == of);
-    let (sum, count) = own.fold((0.0, 0), |(sum, n), (v, _)| (sum + f64::from(*v), n + 1));
-    (count > 0).then(|| single(sum / f64::from(count)))
+    let own = pairs.filter(|(_, m)| sure(**m)).map(|(v, _)| f64::from(*v));
+    let (sum, count) = own.fold((0.0, 0.0), |(sum, n), v| (sum + v, n + 1.0));
+    (count > 0.0).then(|| single(sum / count))
 }

@@ -17,17 +17,19 @@ use std::{f64::consts::SQRT_2, mem::take};
 
 /// A crest stands out by this much coverage somewhere: a line of 0.5 px under the blur of a usual scan.
 const RELIEF: f32 = 0.2;
-/// And by so many deviations of the grain.
+/// And by so many deviations of the grain, and of the ink in which a slit is: pale streaks of a pen are none.
 const GRAIN: f32 = 6.0;
+/// Ink this far from paper on all sides tells how much it varies, px; so many pixels of it at least.
+const SURE: (usize, usize) = (2, 32);
 /// It goes on, towards its ends, as long as it stands out by this part of that.
 const FAINT: f32 = 0.6;
 /// It stands out and stays below [`LOW`] for so many pixels along a row or column.
 const LONG: usize = 6;
 /// As a multiple of the level: grain parts a contour along a crest that is no higher.
 const LOW: f32 = 1.2;
-/// For so many where it grows over [`THICK`] of the level: the tip of a wedge of 5° does not, and its sides tell where it ends.
+/// For so many where it grows out of what is thick: the tip of a wedge of 5° does not, and its sides tell where it ends.
 const TAPERED: usize = 12;
-/// As high as that no line is thin.
+/// As a multiple of the level: what is higher is thick.
 const THICK: f32 = 1.5;
 /// Its sides are looked for so many deviations of the blur away: hardly anything is left of a thin line there.
 const ASIDE: f64 = 2.0;
@@ -181,7 +183,7 @@ impl<'a> Field<'a> {
         if out.is_empty() {
             return out;
         }
-        let relief = RELIEF.max(GRAIN * grain(self.gray, self.levels));
+        let relief = RELIEF.max(GRAIN * self.deviation());
         let faint = self.standing_out(FAINT * relief);
         let mut left = vec![0.0; self.gray.samples().len()];
         let mut parts = left.clone();
@@ -195,12 +197,46 @@ impl<'a> Field<'a> {
             strong.iter().for_each(|&i| parts[i] = 1.0);
             let long = strong.iter().map(|&i| extent(&taken(&mut parts, w, i), w));
             let long = long.max().unwrap_or(0);
-            let tapered = crest.iter().any(|c| c.1 > THICK * self.level);
+            let tapered = crest.iter().any(|c| self.is_thick((c.0 % w, c.0 / w)));
             if long >= if tapered { TAPERED } else { LONG } {
                 out.extend(crest);
             }
         }
         out
+    }
+
+    /// Whether a crest's pixel lies beside what is no thin line.
+    fn is_thick(&self, at: (usize, usize)) -> bool {
+        let around = ACROSS.iter().flat_map(|&(x, y)| [(x, y), (-x, -y), (0, 0)]);
+        around
+            .map(|step| self.beside(at, step))
+            .any(|v| v > THICK * self.level)
+    }
+
+    /// Deviation of what a crest stands out from.
+    fn deviation(&self) -> f32 {
+        let grain = grain(self.gray, self.levels);
+        if self.thin == Thin::Line {
+            return grain;
+        }
+        let paper: Vec<bool> = self
+            .gray
+            .samples()
+            .iter()
+            .map(|v| self.seen(*v) > 0.5)
+            .collect();
+        let near = dilated(&paper, self.gray.width(), SURE.0);
+        let ink = self
+            .gray
+            .samples()
+            .iter()
+            .zip(near)
+            .filter(|(_, near)| !near);
+        let off: Vec<f64> = ink.map(|(v, _)| f64::from(self.seen(*v)).abs()).collect();
+        if off.len() < SURE.1 {
+            return f32::INFINITY;
+        }
+        grain.max(single(1.4826 * median(off).unwrap_or(0.0)))
     }
 
     /// The pixels that stand out by `relief` and do not reach far over the level.
