@@ -111,6 +111,9 @@ struct Field<'a> {
     /// Paper and ink.
     levels: [f32; 2],
     thin: Thin,
+    /// A sample that shows nothing of it, and how much more each step of a sample shows.
+    none: f32,
+    scale: f32,
     /// Where contours run in it.
     level: f32,
     /// Steps to the sides of a crest, across it along rows and columns, and along diagonals.
@@ -122,14 +125,17 @@ impl<'a> Field<'a> {
         let steps = |px: f64| isize::try_from(index(px)).unwrap_or(1).max(1);
         let aside = (ASIDE * blur_px).max(LEAST_ASIDE_PX);
         let (straight, diagonal) = (aside.round(), aside / SQRT_2);
-        let level = match thin {
-            Thin::Line => level,
-            Thin::Slit => 1.0 - level,
+        let [paper, ink] = levels;
+        let (level, none, scale) = match thin {
+            Thin::Line => (level, paper, (ink - paper).recip()),
+            Thin::Slit => (1.0 - level, ink, (paper - ink).recip()),
         };
         Self {
             gray,
             levels,
             thin,
+            none,
+            scale,
             level: single(level),
             aside: [straight, diagonal].map(|px| [steps(px), steps(px + 1.0)]),
         }
@@ -137,28 +143,21 @@ impl<'a> Field<'a> {
 
     /// A sample as the part of ink that it shows, or of paper.
     fn seen(&self, v: f32) -> f32 {
-        let [paper, ink] = self.levels;
-        match self.thin {
-            Thin::Line => (v - paper) / (ink - paper),
-            Thin::Slit => (ink - v) / (ink - paper),
-        }
+        (v - self.none) * self.scale
     }
 
     /// And back.
     fn shown(&self, part: f32) -> f32 {
-        let [paper, ink] = self.levels;
-        match self.thin {
-            Thin::Line => paper + part * (ink - paper),
-            Thin::Slit => ink - part * (ink - paper),
-        }
+        self.none + part / self.scale
     }
 
     /// The height so many columns and rows from a pixel; paper lies around the picture.
     fn beside(&self, (x, y): (usize, usize), (dx, dy): (isize, isize)) -> f32 {
-        match (x.checked_add_signed(dx), y.checked_add_signed(dy)) {
-            (Some(x), Some(y)) => self.seen(self.gray.at(x, y)),
-            _ => self.seen(self.levels[0]),
-        }
+        let (w, h) = (self.gray.width(), self.gray.height());
+        let place = x.checked_add_signed(dx).filter(|x| *x < w);
+        let place = place.zip(y.checked_add_signed(dy).filter(|y| *y < h));
+        let sample = place.map_or(self.levels[0], |(x, y)| self.gray.samples()[y * w + x]);
+        self.seen(sample)
     }
 
     /// How far a pixel stands out over what lies on both sides of it, where it is the highest of its neighbours across.
@@ -179,26 +178,33 @@ impl<'a> Field<'a> {
     /// The pixels of long crests.
     fn crests(&self) -> Vec<Crest> {
         let w = self.gray.width();
-        let mut out = self.standing_out(RELIEF);
-        if out.is_empty() {
-            return out;
+        let low = |c: &&Crest| c.1 < LOW * self.level;
+        let mut map = vec![0.0; self.gray.samples().len()];
+        let some: Vec<usize> = self
+            .standing_out(RELIEF)
+            .iter()
+            .filter(low)
+            .map(|c| c.0)
+            .collect();
+        // nearly all pictures end here, before anything dear
+        if longest(&some, &mut map, w) < LONG {
+            return Vec::new();
         }
         let relief = RELIEF.max(GRAIN * self.deviation());
         let faint = self.standing_out(FAINT * relief);
-        let mut left = vec![0.0; self.gray.samples().len()];
-        let mut parts = left.clone();
+        let mut left = map.clone();
         faint.iter().for_each(|(i, height)| left[*i] = *height);
-        out.clear();
+        let mut out = Vec::new();
         for (start, _) in faint {
             let crest = taken(&mut left, w, start);
-            let low =
-                |c: &&Crest| c.1 < LOW * self.level && self.relief((c.0 % w, c.0 / w)) >= relief;
-            let strong: Vec<usize> = crest.iter().filter(low).map(|c| c.0).collect();
-            strong.iter().for_each(|&i| parts[i] = 1.0);
-            let long = strong.iter().map(|&i| extent(&taken(&mut parts, w, i), w));
-            let long = long.max().unwrap_or(0);
-            let tapered = crest.iter().any(|c| self.is_thick((c.0 % w, c.0 / w)));
-            if long >= if tapered { TAPERED } else { LONG } {
+            let place = |c: &Crest| (c.0 % w, c.0 / w);
+            let strong = crest
+                .iter()
+                .filter(low)
+                .filter(|c| self.relief(place(c)) >= relief);
+            let strong: Vec<usize> = strong.map(|c| c.0).collect();
+            let tapered = crest.iter().any(|c| self.is_thick(place(c)));
+            if longest(&strong, &mut map, w) >= if tapered { TAPERED } else { LONG } {
                 out.extend(crest);
             }
         }
@@ -242,12 +248,12 @@ impl<'a> Field<'a> {
     /// The pixels that stand out by `relief` and do not reach far over the level.
     fn standing_out(&self, relief: f32) -> Vec<Crest> {
         let w = self.gray.width();
-        let heights = relief..self.level / SIDES;
+        let [low, high] = [relief, self.level / SIDES].map(|part| self.shown(part));
+        let heights = low.min(high)..=low.max(high);
         let pixels = self.gray.samples().iter().enumerate();
-        let pixels = pixels.map(|(i, v)| (i, self.seen(*v)));
-        pixels
-            .filter(|(i, v)| heights.contains(v) && self.relief((i % w, i / w)) >= relief)
-            .collect()
+        let some =
+            pixels.filter(|(i, v)| heights.contains(*v) && self.relief((i % w, i / w)) >= relief);
+        some.map(|(i, v)| (i, self.seen(*v))).collect()
     }
 
     /// Scales what lies around crests up to where the level is passed at their sides.
@@ -285,6 +291,13 @@ fn taken(height: &mut [f32], w: usize, start: usize) -> Vec<Crest> {
         }
     }
     out
+}
+
+/// The largest extent of connected pixels among some, on an empty map.
+fn longest(pixels: &[usize], map: &mut [f32], w: usize) -> usize {
+    pixels.iter().for_each(|&i| map[i] = 1.0);
+    let extents = pixels.iter().map(|&i| extent(&taken(map, w, i), w));
+    extents.max().unwrap_or(0)
 }
 
 /// The larger side of the box around a crest's pixels, in pixels.
