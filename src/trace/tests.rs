@@ -166,6 +166,17 @@ fn lines_and_slits_that_no_pixel_shows_half_of_have_whole_contours() {
 }
 
 #[test]
+fn the_pale_middle_of_a_stroke_is_no_slit() {
+    let across = [0.4, 0.9, 0.95, 0.6, 0.95, 0.9, 0.4];
+    let stroke = Gray::from_fn(90, 40, |x, y| {
+        let on = (10..80).contains(&x) && (17..24).contains(&y);
+        if on { across[y - 17] } else { 0.0 }
+    });
+    assert!(thin::lifted(&stroke, 0.5, 0.9).is_none());
+    assert_eq!(traced(&level(&stroke)).len(), 1);
+}
+
+#[test]
 fn what_is_thick_is_not_lifted() {
     // a wedge of 6°, eight lines of 2.4 px, seven slits as wide
     let wedge = |x: f64, y: f64| (y - 30.2).abs() < (x - 8.0) * 0.0524 && x < 110.0;
