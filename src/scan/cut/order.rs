@@ -4,7 +4,7 @@ use super::pieces::{Piece, Tie, Usual};
 use super::rows::rows;
 use kurbo::Rect;
 
-/// A piece as large as a letter that is so near to a heavier one, in usual sizes, is a part of that for now.
+/// A piece as large as a letter that is so near to a heavier one, in usual sizes, is taken for a part of that while rows are looked for.
 const CLOSE: f64 = 0.2;
 /// A piece that has no heavier one beside it is a letter if it is so much of a full one.
 const LIKELY: f64 = 0.5;
