@@ -4,10 +4,10 @@ use crate::types::Label;
 use glyphs_reader::glyphdata::GlyphData;
 use unicode_normalization::UnicodeNormalization;
 
-/// Letters with a flat foot on the baseline. Figures are in no list: in many hands they hang.
-const FLAT: &str = "ABDEFHIKLMNPRTXYZfhiklmnrxzΑΒΓΔΕΗΙΚΛΜΝΠΡΤΧАБВГЕЖИКЛМНПРТХЧШгикмнптхчш";
-/// Letters whose foot is a bow or a point that dips below the baseline a little.
-const ROUND: &str = "CGOSUVWabcdeostuvwΘΟΩОСЭЮасеов";
+/// Letters with a flat foot on the baseline, and the figures that never hang.
+const FLAT: &str = "12ABDEFHIKLMNPRTXYZfhiklmnrxzΑΒΓΔΕΗΙΚΛΜΝΠΡΤΧАБВГЕЖИКЛМНПРТХЧШгикмнптхчш";
+/// Letters, figures and signs whose foot is a bow, a dot or a point that dips below the baseline a little.
+const ROUND: &str = "068&!?CGOSUVWabcdeostuvwΘΟΩОСЭЮасеов";
 /// Capitals with a flat head.
 const CAP_HEADS: &str = "BDEFHIKLMNPRTXYZ";
 /// Capitals with a bow above.
@@ -41,6 +41,33 @@ const DOTS: [&str; 3] = ["ij!?؟بجخذزضظغفن", "تةقي", "ثشپچژڤ
 
 /// Names of lam-alef, the ligature without a sign.
 const LAM_ALEF: [&str; 3] = ["uni06440627", "lam_alef-ar", "لا"];
+
+/// Letters that differ by their signs alone, and so stand alike.
+const BODIES: [&str; 17] = [
+    "اأإآٱ",
+    "بتثپٹ",
+    "جحخچ",
+    "دذڈ",
+    "رزژڑ",
+    "سش",
+    "صض",
+    "طظ",
+    "عغ",
+    "فڤ",
+    "ق",
+    "كکگ",
+    "ل",
+    "م",
+    "هة",
+    "وؤۆۇۈۋ",
+    "يىئی",
+];
+
+/// Endings of the names of an Arabic letter's forms.
+const FORMS: [&str; 4] = ["", "fina", "init", "medi"];
+
+/// Marks below, as Unicode parts them from their letters.
+const MARKS_BELOW: &str = "\u{655}";
 
 /// Letters that have a sign within their box where nothing follows, in some styles.
 const SIGN_WITHIN: &str = "كک";
@@ -117,6 +144,10 @@ pub(super) struct Shape {
     pub(super) pieces: Pieces,
     /// How many dots it has, where it has no other sign.
     pub(super) dots: usize,
+    /// It has dots or a sign below.
+    pub(super) below: bool,
+    /// The same number for Arabic letters in the same form that differ by their signs alone.
+    pub(super) body: Option<usize>,
     /// It is as large as most letters are.
     pub(super) full: bool,
     /// Where most of its ink is: 1 to the right and 1 down, −1 the other way, 0 where hands differ.
@@ -142,6 +173,8 @@ impl Shape {
         };
         let dots = (1..).zip(DOTS).find(|(_, set)| plain && any(base, set));
         let dots = dots.map_or(0, |d| d.0);
+        let mark = letter.and_then(|c| c.nfd().nth(1));
+        let below = any(mark, MARKS_BELOW) || plain && any(base, DOT_BELOW) || any(base, SIGNS);
         let full = letter.is_some_and(super::is_full);
         let side = |less: &str, more: &str| {
             i8::from(plain && any(base, more)) - i8::from(plain && any(base, less))
@@ -157,7 +190,11 @@ impl Shape {
                 () => Foot::None,
             };
             let alef = letter == Some('ا');
+            let body = BODIES.iter().position(|set| any(letter, set));
+            let place = FORMS.iter().position(|f| *f == form);
             return Self {
+                below,
+                body: body.zip(place).map(|(b, f)| b * FORMS.len() + f),
                 foot,
                 head: if alef { Head::Alef } else { Head::None },
                 kind: Kind::Arabic,
@@ -181,6 +218,8 @@ impl Shape {
         ];
         let head = heads.iter().find(|(set, _)| plain && any(base, set));
         Self {
+            below,
+            body: None,
             foot,
             head: head.map_or(Head::None, |h| h.1),
             kind: if letter.is_some_and(char::is_lowercase) {
@@ -193,6 +232,13 @@ impl Shape {
             full,
             heavy,
         }
+    }
+}
+
+impl Shape {
+    /// The same number for Arabic letters that differ by their signs and forms alone.
+    pub(super) fn skeleton(&self) -> Option<usize> {
+        self.body.map(|b| b / FORMS.len())
     }
 }
 
@@ -219,7 +265,8 @@ mod tests {
         for (label, foot, head) in [
             ("H", Foot::Flat, Head::Cap),
             ("É", Foot::Flat, Head::None),
-            ("one", Foot::None, Head::None),
+            ("one", Foot::Flat, Head::None),
+            ("three", Foot::None, Head::None),
             ("g", Foot::Tail, Head::None),
             ("x", Foot::Flat, Head::X),
             ("uni0041", Foot::Flat, Head::None),

@@ -4,20 +4,24 @@
     python3 tests/bench/bare.py --khatt target/release/khatt --bench ../shared/bench --fonts /usr/share/fonts \\
         'FreeSans.ttf --rows 8 --cols 9 --skew 2' 'KacstBook.ttf --forms --rows 12 --cols 10 --condition rough'
 
-A page is a font's file, found below --fonts, and options of make_sheet.py, as in untried.py; --pages FILE reads one a line, as bare.txt and
-bare-unseen.txt have them. Pages of --forms are read from the right. A piece is a letter's where half of its ink lies in the letter's cell; a letter has its pieces where
+A page is a font's file, found below --fonts, and options of make_sheet.py, as in untried.py; --pages FILE reads one a line, as bare.txt,
+bare-unseen.txt and bare-uneven.txt have them. Pages of --forms are read from the right. A piece is a letter's where half of its ink lies in the letter's cell; a letter has its pieces where
 its cell has all of its own and none of another letter's. Dust is ink of no letter, a dot's worth or more, in a cell. Behind the figures of
-the free page stand those of the same page as a grid. --keep FOLDER keeps pages and cells, and draws none anew that is there. --forget N
-cuts each page so often again with one name left out, and counts how often that is told, and told at its place or the next one.
+the free page stand those of the same page as a grid. Baselines are compared with the page's own, of the letters in order: how far they scatter
+(standard deviation) and how far the worst lies from the median, in 1/1000 em; a page drawn with jitter has that much in it. --keep FOLDER keeps pages and cells, and draws none anew that is there. --forget N
+cuts each page so often again with one name left out, and counts how often that is told, and told at its place or the next one. A page's
+own option --stray MM moves its rows up and down by so much in the mean.
 Needs numpy, scipy, pillow and what make_sheet.py needs.
 """
-import argparse, glob, json, os, re, shlex, subprocess, sys, tempfile, time
+import argparse, glob, json, os, re, shlex, subprocess, sys, tempfile, time, zlib
 import numpy as np
 from PIL import Image
 from scipy.ndimage import binary_dilation, label
 
 # ink this far from a letter is not the letter's own edge, px
 EDGE = 3
+# paper around a letter that goes with it where its row is moved, px
+AROUND = 6
 # area of the least dust that counts, px²
 DUST = 6
 # area of the least piece of a letter that counts, em²: a dot has twice that in the thinnest styles, needles of outlines have less
@@ -28,9 +32,37 @@ def draw(bench, font, options, folder):
     """The truth of a page that is drawn unless it is kept already."""
     picture = os.path.join(folder, "page.png")
     if not os.path.exists(picture + ".json"):
+        own = argparse.ArgumentParser()
+        own.add_argument("--stray", type=float, default=0)
+        own, options = own.parse_known_args(options)
         command = [sys.executable, os.path.join(bench, "make_sheet.py"), "--font-file", font, "--chars", "latin"]
         subprocess.run(command + options + ["--out", picture], check=True, capture_output=True)
+        if own.stray:
+            stray(picture, own.stray)
     return json.load(open(picture + ".json"))
+
+
+def stray(picture, mm):
+    """Moves the rows of a page up and down, as they stand where no line guides a hand, by a standard deviation of so many mm."""
+    truth, page = json.load(open(picture + ".json")), Image.open(picture)
+    old = np.asarray(page).copy()
+    new, rng = old.copy(), np.random.default_rng(zlib.crc32(truth["font"].encode()))
+    moves = np.rint(rng.normal(0, mm * truth["dpi"] / 25.4, truth["rows"])).astype(int)
+    boxes = []
+    for cell in truth["cells"]:
+        (left, top), (right, bottom) = (np.floor(cell["ink_box"])[k : k + 2].astype(int) for k in (0, 2))
+        boxes.append((slice(max(0, top - AROUND), bottom + AROUND + 1), slice(max(0, left - AROUND), right + AROUND + 1)))
+        ring = old[boxes[-1]]
+        new[boxes[-1]] = np.median(np.concatenate([ring[0], ring[-1], ring[:, 0], ring[:, -1]]))
+    for cell, (down, across) in zip(truth["cells"], boxes):
+        move = int(np.clip(moves[cell["row"]], -down.start, len(new) - down.stop))
+        there = new[down.start + move : down.stop + move, across]
+        np.minimum(there, old[down, across], out=there)
+        cell["ink_box"] = [v + move * (k % 2) for k, v in enumerate(cell["ink_box"])]
+        cell["origin_px"][1] += move
+        cell["map"][5] += move
+    Image.fromarray(new).save(picture, dpi=page.info.get("dpi"))
+    json.dump(truth, open(picture + ".json", "w"), ensure_ascii=False, indent=1)
 
 
 def outline(font, cell):
@@ -85,8 +117,8 @@ def names_of(truth, forms):
 
 
 def cut(khatt, truth, layout, forms, folder, without=None):
-    """Of each letter its cell's ink as (column, row) of the page; what was said where there is none; and the seconds taken. `without` is
-    a place in the list of names that lacks its own."""
+    """Of each letter its cell's ink as (column, row) of the page, and how far its baseline lies below the drawn one, 1/1000 em; what was
+    said where there is none; and the seconds taken. `without` is a place in the list of names that lacks its own."""
     named = [n for n in names_of(truth, forms) if layout != '"free"' or n[1] is not None]
     named = [n for k, n in enumerate(named) if k != without]
     kind = "free" if "free" in layout else "grid"
@@ -108,18 +140,23 @@ def cut(khatt, truth, layout, forms, folder, without=None):
         y, x = np.nonzero(ink)
         a, b, c, d, e, f = cell["to_sheet"]
         x, y = x + 0.5, y + 0.5
-        found[named[cell["cell"] - 1][1]] = np.floor([a * x + c * y + e, b * x + d * y + f]).astype(int)
+        place = named[cell["cell"] - 1][1]
+        pixels = np.floor([a * x + c * y + e, b * x + d * y + f]).astype(int)
+        dx, dy = np.array(truth["cells"][place]["origin_px"]) - [c * cell["baseline_px"] + e, d * cell["baseline_px"] + f]
+        drop = (dx * b - dy * a) / np.hypot(a, b) / truth["ppem"] * 1000
+        found[place] = pixels, drop
     return found, "", took
 
 
 def judge(found, truth, page):
-    """Letters in order, letters with just their pieces, pieces lost, pieces of others, dust; and which are wrong."""
+    """Letters in order, letters with just their pieces, pieces lost, pieces of others, dust; which are wrong; scatter and worst of the
+    baselines."""
     of, letters, areas = page
     height, width = of.shape
-    sums, bad = np.zeros(5, int), []
+    sums, bad, drops = np.zeros(5, int), [], []
     for i in range(len(truth["cells"])):
         own = np.flatnonzero(letters == i)
-        x, y = found.get(i, np.zeros((2, 0), int))
+        (x, y), drop = found.get(i, (np.zeros((2, 0), int), 0))
         inside = (x >= 0) & (y >= 0) & (x < width) & (y < height)
         x, y = x[inside], y[inside]
         ids = of[y, x]
@@ -131,15 +168,18 @@ def judge(found, truth, page):
         lost = lost[areas[lost] >= NEEDLE * truth["ppem"] ** 2]
         foreign = foreign[areas[foreign] >= NEEDLE * truth["ppem"] ** 2]
         right = largest > 0 and has[largest]
-        dusty = right and stray(x, y, ids, of, own) >= DUST
+        dusty = right and dust(x, y, ids, of, own) >= DUST
         whole = right and not len(lost) and not len(foreign)
         sums += [right, whole, len(lost), len(foreign), dusty]
+        if right:
+            drops.append(drop)
         if not whole:
             bad.append(f"{i}:{truth['cells'][i]['name']}" + (f"-{len(lost)}" if len(lost) else "") + (f"+{len(foreign)}" if len(foreign) else ""))
-    return sums, bad
+    drops = np.array(drops or [0])
+    return sums, bad, (drops.std(), abs(drops - np.median(drops)).max())
 
 
-def stray(x, y, ids, of, own):
+def dust(x, y, ids, of, own):
     """Pixels of a cell's ink that lie apart from all of the letter's own."""
     if not len(x) or not (ids == 0).any():
         return 0
@@ -182,11 +222,11 @@ def row(args, text, folder):
         layout = f"{{ grid = [{truth['rows']}, {truth['cols']}] }}" if layout == "grid" else '"free"'
         found, said, took = cut(args.khatt, truth, layout, forms, folder)
         if found is None:
-            cells += f" | refused | | | {said[:args.say]} | {took:.1f}"
+            cells += f" | refused | | | {said[:args.say]} | | {took:.1f}"
             continue
-        sums, bad = judge(found, truth, page)
+        sums, bad, drops = judge(found, truth, page)
         shown = f" ({' '.join(bad[:args.show])})" if bad and args.show else ""
-        cells += f" | {sums[0]} | {sums[1]}{shown} | {sums[2]}, {sums[3]} | {sums[4]} | {took:.1f}"
+        cells += f" | {sums[0]} | {sums[1]}{shown} | {sums[2]}, {sums[3]} | {sums[4]} | {drops[0]:.1f}, {drops[1]:.1f} | {took:.1f}"
     if args.forget:
         cells += forgotten(args.khatt, truth, forms, folder, args.forget)
     return cells + " |"
@@ -208,10 +248,10 @@ def main():
     args.layouts = [args.only] if args.only else ["free", "grid"]
     sys.path.insert(0, os.path.abspath(args.bench))
     listed = open(args.pages).read().splitlines() if args.pages else []
-    more = " in order | whole | pieces lost, others' | dusty | s |"
+    more = " in order | whole | pieces lost, others' | dusty | baselines | s |"
     forget = " a name forgotten: told, at its place |" if args.forget else ""
     print("| page | letters |" + "".join(more.replace(" in", f" {name}: in", 1) for name in args.layouts) + forget)
-    print("|---|---|" + "---|" * (5 * len(args.layouts) + bool(forget)))
+    print("|---|---|" + "---|" * (6 * len(args.layouts) + bool(forget)))
     for text in args.page + [line for line in listed if line.strip()]:
         with tempfile.TemporaryDirectory() as spare:
             folder = os.path.join(args.keep, "".join(text.split()).replace("'", "").replace("--", "-").replace("/", "_")) if args.keep else spare

@@ -224,6 +224,7 @@ fn name(
     Ok(Layer {
         slots,
         rows: order.len(),
+        ruled: true,
         rejected,
     })
 }

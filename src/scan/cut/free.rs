@@ -12,7 +12,7 @@ use super::rows::rows;
 use super::{Layer, Reason, Slot, stroke_width};
 use crate::scan::components::Component;
 use crate::scan::error::ScanError;
-use crate::scan::letters::{Foot, Kind, Pieces, Shape};
+use crate::scan::letters::{Pieces, Shape};
 use crate::scan::options::{Direction, Options};
 use crate::types::Label;
 use glyphs_reader::glyphdata::GlyphData;
@@ -71,15 +71,8 @@ pub(super) fn place(
 fn layer(all: &[Component], mut letters: Vec<(usize, Vec<usize>)>, labels: &[Label]) -> Layer {
     let boxes: Vec<Rect> = letters.iter().map(|l| bounds(all, &l.1)).collect();
     let order = rows(&boxes);
-    let data = GlyphData::default();
     let (mut slots, mut rejected) = (Vec::new(), Vec::new());
     for (row, members) in order.iter().enumerate() {
-        let feet: Vec<f64> = members
-            .iter()
-            .filter_map(|&g| foot(all, &letters[g], labels, &data))
-            .collect();
-        let ends = || members.iter().map(|&g| boxes[g].y1).collect();
-        let level = middle(if feet.is_empty() { ends() } else { feet });
         for &g in members {
             let (index, parts) = (letters[g].0, std::mem::take(&mut letters[g].1));
             match labels.get(index) {
@@ -87,7 +80,7 @@ fn layer(all: &[Component], mut letters: Vec<(usize, Vec<usize>)>, labels: &[Lab
                     label: label.clone(),
                     index,
                     row,
-                    level,
+                    level: 0.0,
                     parts,
                 }),
                 _ => rejected.extend(parts.into_iter().map(|i| (i, Reason::Skipped))),
@@ -98,6 +91,7 @@ fn layer(all: &[Component], mut letters: Vec<(usize, Vec<usize>)>, labels: &[Lab
     Layer {
         slots,
         rows: order.len(),
+        ruled: false,
         rejected,
     }
 }
@@ -233,24 +227,6 @@ fn usual_area(pieces: &[Piece], letters: usize) -> f64 {
 fn bounds(all: &[Component], group: &[usize]) -> Rect {
     let boxes = group.iter().map(|&i| all[i].upright);
     boxes.reduce(|a, b| a.union(b)).unwrap_or(Rect::ZERO)
-}
-
-/// Where the body of an Arabic letter that stands flat ends below, px: dots and tails of the others say nothing of their row.
-fn foot(
-    all: &[Component],
-    (index, parts): &(usize, Vec<usize>),
-    labels: &[Label],
-    data: &GlyphData,
-) -> Option<f64> {
-    let shape = Shape::of(labels.get(*index)?, data);
-    let body = parts.iter().map(|&i| &all[i]).max_by_key(|c| c.area)?;
-    (shape.kind == Kind::Arabic && shape.foot == Foot::Flat).then_some(body.upright.y1)
-}
-
-/// The value in the middle, the upper one of two.
-fn middle(mut values: Vec<f64>) -> f64 {
-    values.sort_by(f64::total_cmp);
-    values.get(values.len() / 2).copied().unwrap_or(0.0)
 }
 
 /// Height of a usual letter, px: the median over the ink, each piece by its area.

@@ -135,6 +135,7 @@ pub(super) fn place(
     Ok(Layer {
         slots,
         rows: plan.rows,
+        ruled: true,
         rejected,
     })
 }

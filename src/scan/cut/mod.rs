@@ -2,6 +2,7 @@
 //!
 //! Nothing is lost: every piece of ink above the speckle limit is in a cell or in [`Cut::rejected`].
 
+mod baselines;
 mod boxes;
 mod doubts;
 mod ends;
@@ -21,6 +22,7 @@ mod reading;
 mod rows;
 mod ruling;
 mod stance;
+mod strays;
 mod window;
 
 use super::clean::Page;
@@ -184,7 +186,7 @@ struct Slot {
     index: usize,
     /// Row of letters that share a baseline.
     row: usize,
-    /// A height from which the baseline is equally far in all cells of a row, upright px.
+    /// A height from which the baseline is equally far in all cells of a row, upright px; the page's top where rows are not ruled.
     level: f64,
     /// Indices of its pieces of ink.
     parts: Vec<usize>,
@@ -194,6 +196,8 @@ struct Slot {
 struct Layer {
     slots: Vec<Slot>,
     rows: usize,
+    /// Levels are those of a lattice or of boxes.
+    ruled: bool,
     /// Pieces of ink in no slot.
     rejected: Vec<(usize, Reason)>,
 }

@@ -216,3 +216,29 @@ fn a_forgotten_name_is_told() {
         "{doubts}"
     );
 }
+
+#[test]
+fn rows_stand_on_their_line_whatever_hangs_or_has_dots_below() {
+    const HANGING: &str = "uni0645 uni0645.fina uni0645 uni0645.fina uni0645 uni0646";
+    const STANDING: &str = "uni0627 uni0628.init uni062F uni0645.fina uni0626.medi uni0645";
+    const DOTTED: &str = "uni0628 uni0628.fina uni0628.medi uni0626.init uni0628.init uni0623";
+    let rows = [STANDING, HANGING, DOTTED, STANDING, HANGING, DOTTED];
+    let even = [100.0, 210.0, 320.0, 430.0, 540.0, 650.0];
+    let uneven = [100.0, 236.0, 330.0, 470.0, 552.0, 670.0];
+    for feet in [even, uneven] {
+        let mut paper = Paper::new(600, 740, 0.0);
+        for (names, foot) in rows.iter().zip(feet) {
+            for (i, name) in (0u32..).zip(names.split(' ')) {
+                draw(&mut paper, name, 500.0 - PITCH.0 * f64::from(i), foot);
+            }
+        }
+        let cut = cut_page(&paper, &rows.join(" "), &free()).unwrap();
+        assert_eq!(cut.cells.len(), 36);
+        for (i, cell) in cut.cells.iter().enumerate() {
+            let foot = Point::new(cell.in_sheet.x0, feet[i / 6]);
+            let at = cell.to_sheet.inverse() * foot;
+            let off = cell.guides.baseline_px - at.y;
+            assert!(off.abs() < 1.0, "row {} at {feet:?}: {off} px off", i / 6);
+        }
+    }
+}

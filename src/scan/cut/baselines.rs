@@ -1,0 +1,258 @@
+//! Where rows stand: from the many letters of a page, never from one letter's own ink.
+
+use super::strays::strays;
+use crate::numeric::median::median;
+use crate::scan::letters::{Foot, Kind, Shape};
+use kurbo::Rect;
+use std::iter;
+
+/// How far bows reach past a flat edge, as a share of the letter's height.
+pub(super) const OVERSHOOT: f64 = 0.015;
+/// A row's own letters weigh against the whole page as this many letters of it do.
+const SHRINK: f64 = 2.0;
+/// How far a foot may lie off the page's common line and still be one, as a share of the usual letter's
+/// height: a hand's rows drift by less, a letter that hangs is farther off.
+const ASTRAY: f64 = 0.1;
+/// Pairs of letters in two rows that tell how rows drift: one alone may have a tail.
+const SLOPES: usize = 2;
+
+/// A letter as far as heights go.
+pub(super) struct Letter {
+    pub(super) row: usize,
+    pub(super) level: f64,
+    pub(super) shape: Shape,
+    /// The body's box: the largest part of letters that have dots, else the whole.
+    pub(super) body: Rect,
+    /// The whole ink's box.
+    pub(super) whole: Rect,
+}
+
+impl Letter {
+    /// Upright px.
+    pub(super) fn baseline(&self, drop: &[f64]) -> f64 {
+        self.level + drop[self.row]
+    }
+}
+
+/// How far each row's baseline lies below its slots' levels, px, where these are those of a lattice or of boxes.
+pub(super) fn ruled(letters: &[Letter], rows: usize) -> Vec<f64> {
+    let off = feet_on_line(letters, rows);
+    drops(off, near(letters), &vec![0.0; rows])
+}
+
+/// How far each row's baseline lies below the page's top, px, where no line guided the hand. Slots' levels are 0.
+pub(super) fn unruled(letters: &[Letter], rows: usize) -> Vec<f64> {
+    let (off, near) = (feet_on_line(letters, rows), near(letters));
+    let strays = strays(letters, &off, near, rows);
+    drops(off, near, &strays)
+}
+
+/// How far a foot may lie off its row's line, px.
+fn near(letters: &[Letter]) -> f64 {
+    ASTRAY * median(letters.iter().map(|l| l.body.height())).unwrap_or(0.0)
+}
+
+/// How far each row's baseline lies below the levels, px. But for their strays all rows share it, up to a drift along the page; the letters
+/// of a row move their own baseline as far as their number justifies.
+fn drops(mut off: Vec<(usize, f64)>, near: f64, strays: &[f64]) -> Vec<f64> {
+    off.iter_mut().for_each(|o| o.1 -= strays[o.0]);
+    let (common, steady) = Line::steady(&off, near);
+    let row = |(r, stray): (usize, &f64)| {
+        let own: Vec<f64> = of_row(&steady, r).map(|o| o - common.at(r)).collect();
+        let n = own.len() as f64;
+        stray + common.at(r) + median(own).unwrap_or(0.0) * n / (n + SHRINK)
+    };
+    strays.iter().enumerate().map(row).collect()
+}
+
+/// Row, and distance from the level, of the feet that tell where rows stand: flat ones, else bows, else all there are.
+fn feet_on_line(letters: &[Letter], rows: usize) -> Vec<(usize, f64)> {
+    let mut off = standing(letters);
+    if off.len() < rows || off.len() < 3 {
+        let bows = feet(letters, Foot::Round, |_| true).into_iter();
+        off.extend(bows.map(|(row, off, height)| (row, off - OVERSHOOT * height)));
+    }
+    if off.is_empty() {
+        off = letters
+            .iter()
+            .map(|l| (l.row, l.body.y1 - l.level))
+            .collect();
+    }
+    off
+}
+
+/// The values of one row.
+pub(super) fn of_row(points: &[(usize, f64)], row: usize) -> impl Iterator<Item = f64> {
+    points.iter().filter(move |p| p.0 == row).map(|p| p.1)
+}
+
+/// A straight line through values of rows, by medians.
+#[derive(Clone, Copy)]
+pub(super) struct Line {
+    level: f64,
+    slope: f64,
+}
+
+impl Line {
+    fn through(points: &[(usize, f64)]) -> Self {
+        let slopes = pairs(points);
+        let enough = slopes.len() >= SLOPES;
+        let slope = median(slopes).filter(|_| enough).unwrap_or(0.0);
+        let flat: Vec<f64> = points.iter().map(|p| p.1 - slope * p.0 as f64).collect();
+        Self {
+            level: median(flat).unwrap_or(0.0),
+            slope,
+        }
+    }
+
+    /// A line through the points that lie within `near` of the line through all, and these points.
+    pub(super) fn steady(points: &[(usize, f64)], near: f64) -> (Self, Vec<(usize, f64)>) {
+        let all = Self::through(points);
+        let is_near = |p: &&(usize, f64)| (p.1 - all.at(p.0)).abs() <= near;
+        let steady: Vec<(usize, f64)> = points.iter().filter(is_near).copied().collect();
+        let line = if steady.is_empty() {
+            all
+        } else {
+            Self::through(&steady)
+        };
+        (line, steady)
+    }
+
+    pub(super) fn at(self, row: usize) -> f64 {
+        self.level + self.slope * row as f64
+    }
+}
+
+/// Row, how far the lowest ink lies below the level, and height of the body, of every letter that meets the baseline so.
+fn feet(letters: &[Letter], foot: Foot, of: impl Fn(&Letter) -> bool) -> Vec<(usize, f64, f64)> {
+    let such = letters.iter().filter(|l| l.shape.foot == foot && of(l));
+    such.map(|l| (l.row, l.body.y1 - l.level, l.body.height()))
+        .collect()
+}
+
+/// Row, and distance of the foot from the level, of the letters that stand flat. Where small letters reach as deep as
+/// their own bows do, and capitals do not, they end in an italic's hooks: these are raised to the capitals' line.
+fn standing(letters: &[Letter]) -> Vec<(usize, f64)> {
+    let of = |foot: Foot, small: bool| -> Vec<(usize, f64)> {
+        let all = feet(letters, foot, |l| (l.shape.kind == Kind::Small) == small);
+        all.into_iter().map(|(row, off, _)| (row, off)).collect()
+    };
+    let (capitals, mut small) = (of(Foot::Flat, false), of(Foot::Flat, true));
+    let bows = [false, true].map(|s| of(Foot::Round, s));
+    let (dip, own) = (dip(&bows[0], &capitals), dip(&bows[1], &small));
+    if let Some((dip, _)) = dip
+        .zip(own)
+        .filter(|(dip, own)| *dip > 0.0 && *own < dip / 2.0)
+    {
+        let drift = median([pairs(&capitals), pairs(&small)].concat()).unwrap_or(0.0);
+        let level = |v: &[(usize, f64)]| median(v.iter().map(|o| o.1 - drift * o.0 as f64));
+        let hook = level(&small).unwrap_or(0.0) - level(&capitals).unwrap_or(0.0);
+        small.iter_mut().for_each(|o| o.1 -= hook.clamp(0.0, dip));
+    }
+    capitals.into_iter().chain(small).collect()
+}
+
+/// How far bows reach below flat feet in the rows that have both.
+fn dip(bows: &[(usize, f64)], flat: &[(usize, f64)]) -> Option<f64> {
+    let flat = medians(flat);
+    let beside = medians(bows).into_iter().filter_map(|(row, bow)| {
+        let foot = flat.iter().find(|f| f.0 == row)?;
+        Some(bow - foot.1)
+    });
+    median(beside)
+}
+
+/// Rows and the medians of their values.
+fn medians(points: &[(usize, f64)]) -> Vec<(usize, f64)> {
+    let last = points.iter().map(|p| p.0).max().unwrap_or(0);
+    let rows = (0..=last).filter_map(|r| Some((r, median(of_row(points, r))?)));
+    rows.collect()
+}
+
+/// The slopes through the medians of all pairs of rows, each as many times as the row with fewer letters has letters: one
+/// letter with a tail is no row.
+fn pairs(points: &[(usize, f64)]) -> Vec<f64> {
+    let rows = medians(points);
+    let count = |row: usize| points.iter().filter(|p| p.0 == row).count();
+    let pairs = rows
+        .iter()
+        .enumerate()
+        .flat_map(|(i, a)| rows[i + 1..].iter().map(move |b| (a, b)));
+    let weighed = pairs.flat_map(|(a, b)| {
+        let slope = (b.1 - a.1) / (b.0 - a.0) as f64;
+        iter::repeat_n(slope, count(a.0).min(count(b.0)))
+    });
+    weighed.collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::types::Label;
+    use glyphs_reader::glyphdata::GlyphData;
+
+    /// Letters of rows of a height of 100 px whose lowest ink lies at these depths.
+    fn letters(rows: &[&[(&str, f64)]]) -> Vec<Letter> {
+        let names = GlyphData::default();
+        let of = |row: usize, label: &str, depth: f64| {
+            let body = Rect::new(0.0, depth - 100.0, 50.0, depth);
+            Letter {
+                row,
+                level: 0.0,
+                shape: Shape::of(&Label(label.to_owned()), &names),
+                body,
+                whole: body,
+            }
+        };
+        let all = rows.iter().enumerate();
+        all.flat_map(|(r, row)| row.iter().map(move |&(l, d)| of(r, l, d)))
+            .collect()
+    }
+
+    #[test]
+    fn hooks_of_an_italic_are_no_baseline() {
+        let capitals: &[_] = &[("H", 0.0), ("E", 0.1), ("O", 10.0), ("T", 0.0)];
+        let hooks: &[_] = &[("n", 7.0), ("i", 7.1), ("o", 7.0), ("m", 7.0)];
+        let feet: &[_] = &[("n", 0.0), ("i", 0.1), ("o", 7.0), ("m", 0.0)];
+        let figures: &[_] = &[("1", 0.0), ("2", 0.0)];
+        for small in [hooks, feet] {
+            let rows = [capitals, capitals, capitals, small, small, figures];
+            let drop = ruled(&letters(&rows), rows.len());
+            assert!(drop.iter().all(|d| d.abs() < 0.5), "{drop:?}");
+        }
+    }
+
+    #[test]
+    fn a_letter_with_a_tail_is_no_row() {
+        let capitals: &[_] = &[("H", 0.0), ("E", 0.1), ("T", 0.0), ("O", 2.0)];
+        let both: &[_] = &[("H", 0.0), ("R", 0.0), ("f", 31.0), ("h", 1.5)];
+        let hooks: &[_] = &[("n", 1.7), ("i", 1.7), ("o", 1.7), ("m", 1.7)];
+        let tail: &[_] = &[("z", 12.0), ("0", 2.0), ("1", 0.0)];
+        for rows in [
+            [capitals, capitals, capitals, tail],
+            [capitals, both, hooks, tail],
+        ] {
+            let drop = ruled(&letters(&rows), 4);
+            assert!(drop.iter().all(|d| d.abs() < 0.5), "{drop:?}");
+        }
+    }
+
+    #[test]
+    fn two_rows_have_baselines_of_their_own() {
+        let first: &[_] = &[("A", 0.0), ("B", 0.1), ("C", 2.0), ("D", 0.0), ("E", 0.0)];
+        let second: &[_] = &[("F", 9.0), ("G", 11.0), ("H", 9.0), ("I", 9.1), ("J", 14.0)];
+        let drop = ruled(&letters(&[first, second]), 2);
+        assert!(
+            drop[0].abs() < 0.5 && (drop[1] - 9.0).abs() < 0.5,
+            "{drop:?}"
+        );
+    }
+
+    #[test]
+    fn bowls_of_arabic_letters_are_no_baseline() {
+        let bowls: &[_] = &[("ب", 20.0), ("uni0628.fina", 20.0), ("uni0628.init", 0.0)];
+        let stems: &[_] = &[("ا", 0.0), ("uni0637.medi", 0.0), ("ط", 0.0)];
+        let drop = ruled(&letters(&[stems, bowls, bowls, stems]), 4);
+        assert!(drop.iter().all(|d| d.abs() < 0.5), "{drop:?}");
+    }
+}
