@@ -10,7 +10,8 @@ its cell has all of its own and none of another letter's. Dust is ink of no lett
 the free page stand those of the same page as a grid. Baselines are compared with the page's own, of the letters in order: how far they scatter
 (standard deviation) and how far the worst lies from the median, in 1/1000 em; a page drawn with jitter has that much in it. --keep FOLDER keeps pages and cells, and draws none anew that is there. --forget N
 cuts each page so often again with one name left out, and counts how often that is told, and told at its place or the next one. A page's
-own option --stray MM moves its rows up and down by so much in the mean.
+own option --stray MM moves its rows up and down by so much in the mean. --build appends what font_bench.py says of the font of each bare
+page.
 Needs numpy, scipy, pillow and what make_sheet.py needs.
 """
 import argparse, glob, json, os, re, shlex, subprocess, sys, tempfile, time, zlib
@@ -205,6 +206,21 @@ def forgotten(khatt, truth, forms, folder, times):
     return f" | {told}, {near} of {times}"
 
 
+def font_row(args, original, folder):
+    """The font that khatt builds of a bare page, beside the one it was drawn from: glyphs missing and wrong, mean and worst distance, and
+    the scatter of its baselines."""
+    project, built, result = (os.path.join(folder, name) for name in ("font.toml", "font.ttf", "font.json"))
+    with open(os.path.join(folder, "free.toml")) as cut, open(project, "w") as file:
+        file.write(cut.read() + '[output]\nttf = "font.ttf"\n')
+    run = subprocess.run([args.khatt, "build", "--quiet", project], capture_output=True, text=True)
+    if run.returncode:
+        return f" | {' '.join(run.stderr.split())[:args.say]} | |"
+    referee = [sys.executable, os.path.join(args.bench, "font_bench.py"), "--truth", os.path.join(folder, "page.png.json")]
+    subprocess.run(referee + ["--original", original, "--built", built, "--json", result], capture_output=True)
+    got = json.load(open(result))
+    return f" | {len(got['missing'])}, {len(got['wrong'])} | {got['mean']:.2f}, {got['worst']:.1f} | {got['baseline_scatter']:.2f}"
+
+
 def row(args, text, folder):
     name, *options = shlex.split(text)
     fonts = [name] if os.path.exists(name) else sorted(glob.glob(os.path.join(args.fonts, "**", glob.escape(name)), recursive=True))
@@ -227,6 +243,8 @@ def row(args, text, folder):
         sums, bad, drops = judge(found, truth, page)
         shown = f" ({' '.join(bad[:args.show])})" if bad and args.show else ""
         cells += f" | {sums[0]} | {sums[1]}{shown} | {sums[2]}, {sums[3]} | {sums[4]} | {drops[0]:.1f}, {drops[1]:.1f} | {took:.1f}"
+    if args.build and "free" in args.layouts:
+        cells += font_row(args, fonts[0], folder)
     if args.forget:
         cells += forgotten(args.khatt, truth, forms, folder, args.forget)
     return cells + " |"
@@ -242,6 +260,7 @@ def main():
     parser.add_argument("--only", choices=["free", "grid"], help="cut pages with one layout instead of both")
     parser.add_argument("--show", type=int, default=0, help="so many letters that lack pieces or have others' are named")
     parser.add_argument("--forget", type=int, default=0, help="cut each page so often again with one name left out")
+    parser.add_argument("--build", action="store_true", help="build a font of each bare page and compare it by font_bench.py")
     parser.add_argument("--say", type=int, default=160, help="so much of why a page is refused")
     parser.add_argument("page", nargs="*", metavar="PAGE")
     args = parser.parse_args()
@@ -249,9 +268,10 @@ def main():
     sys.path.insert(0, os.path.abspath(args.bench))
     listed = open(args.pages).read().splitlines() if args.pages else []
     more = " in order | whole | pieces lost, others' | dusty | baselines | s |"
+    build = " font: missing, wrong | mean, worst | baselines |" if args.build else ""
     forget = " a name forgotten: told, at its place |" if args.forget else ""
-    print("| page | letters |" + "".join(more.replace(" in", f" {name}: in", 1) for name in args.layouts) + forget)
-    print("|---|---|" + "---|" * (6 * len(args.layouts) + bool(forget)))
+    print("| page | letters |" + "".join(more.replace(" in", f" {name}: in", 1) for name in args.layouts) + build + forget)
+    print("|---|---|" + "---|" * (6 * len(args.layouts) + 3 * bool(build) + bool(forget)))
     for text in args.page + [line for line in listed if line.strip()]:
         with tempfile.TemporaryDirectory() as spare:
             folder = os.path.join(args.keep, "".join(text.split()).replace("'", "").replace("--", "-").replace("/", "_")) if args.keep else spare

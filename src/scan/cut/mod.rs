@@ -265,6 +265,8 @@ pub fn cut_with(
     let inked: Vec<&Slot> = layer.slots.iter().filter(|s| !s.parts.is_empty()).collect();
     let picture = Rect::new(0.0, 0.0, gray.width() as f64, gray.height() as f64);
     warnings.extend(odd::warnings(&inked, &all, picture, freed));
+    let baseline = |s: &Slot| s.level + guides.drop[s.row];
+    warnings.extend(odd::across(&inked, &all, baseline));
     let empty = layer.slots.iter().filter(|s| s.parts.is_empty());
     warnings
         .extend(empty.map(|s| Warning::of(s, "the cell is empty: draw the letter or name it _")));
@@ -278,7 +280,7 @@ pub fn cut_with(
         shutter.cell(
             slot,
             &parts,
-            (slot.level + guides.drop[slot.row], guides.px_per_em),
+            (baseline(slot), guides.px_per_em),
             pins::stance(slot.index, pins, &upright),
         )
     });

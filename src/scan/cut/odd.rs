@@ -1,6 +1,7 @@
 //! What a user should look at: letters that may be torn, joined or cut off.
 
 use super::{Slot, Warning};
+use crate::numeric::median::median;
 use crate::scan::components::Component;
 use crate::scan::letters::Shape;
 use glyphs_reader::glyphdata::GlyphData;
@@ -15,6 +16,9 @@ pub const SMALL: f64 = 0.3;
 /// What is said of it.
 pub const SMALL_LETTER: &str =
     "it is far smaller than the usual letter: is the rest of it missing, or is this a blot?";
+
+/// Ink that comes so near to the next row's baseline, as a share of the rows' distance, reaches it.
+const REACH: f64 = 0.15;
 
 /// Whether a character is as large as most are: letters and figures; no marks, no hamza, no punctuation.
 #[must_use]
@@ -74,4 +78,31 @@ pub(super) fn warnings(
         }
     }
     out
+}
+
+/// Warns of the letters whose ink reaches the baseline of the row above or below, upright px: they may touch a letter there.
+pub(super) fn across(
+    slots: &[&Slot],
+    all: &[Component],
+    baseline: impl Fn(&Slot) -> f64,
+) -> Vec<Warning> {
+    let row = |r: usize| median(slots.iter().filter(|s| s.row == r).map(|s| baseline(s)));
+    let rows = slots.iter().map(|s| s.row + 1).max().unwrap_or(0);
+    let lines: Vec<Option<f64>> = (0..rows).map(row).collect();
+    let reaches = |slot: &&Slot| {
+        let boxes = slot.parts.iter().map(|&i| all[i].upright);
+        let ink = boxes.reduce(|a, b| a.union(b))?;
+        let line = |r: Option<usize>| lines.get(r?).copied().flatten();
+        let own = line(Some(slot.row))?;
+        let above = line(slot.row.checked_sub(1)).is_some_and(|y| ink.y0 < y);
+        let below = line(Some(slot.row + 1)).is_some_and(|y| ink.y1 > y - REACH * (y - own));
+        let side = match (above, below) {
+            (true, _) => "above",
+            (_, true) => "below",
+            _ => return None,
+        };
+        let message = format!("its ink reaches the row {side}: does it touch a letter there?");
+        Some(Warning::of(slot, message))
+    };
+    slots.iter().filter_map(reaches).collect()
 }

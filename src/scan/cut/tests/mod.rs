@@ -126,6 +126,27 @@ fn grid_page(skew_deg: f64) -> Paper {
 const NAMES: &str = "n i p n l n n p i n i n l n n n p n i n";
 
 #[test]
+fn ink_that_reaches_the_next_row_is_told() {
+    let mut paper = grid_page(0.0);
+    let cut = |paper: &Paper| cut_page(paper, NAMES, &options(Layout::Grid(4, 5))).unwrap();
+    let told = |cut: &Cut| {
+        let reach = cut.warnings.iter().filter(|w| w.message.contains("row"));
+        reach
+            .map(|w| (w.index, w.message.clone()))
+            .collect::<Vec<_>>()
+    };
+    assert_eq!(told(&cut(&paper)), []);
+    // the tail of the p in the second row touches the letter under it
+    paper.bar(210.0, 220.0, 6.0, 80.0);
+    let told = told(&cut(&paper));
+    assert!(!told.is_empty(), "{told:?}");
+    assert!(
+        told.iter().all(|t| t.0 == Some(6) || t.0 == Some(11)),
+        "{told:?}"
+    );
+}
+
+#[test]
 fn a_grid_is_cut_into_its_letters() {
     for skew in [0.0, 2.5, -6.0] {
         let paper = grid_page(skew);
