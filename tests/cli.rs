@@ -140,6 +140,26 @@ fn a_picture_becomes_one_path_in_its_own_pixels() {
 }
 
 #[test]
+fn dust_is_what_the_user_says() {
+    let dir = tempfile::tempdir().expect("a folder");
+    let blotted = |x: u32, y: u32| {
+        let blot = (10..13).contains(&x) && y == 10;
+        if blot { 255 } else { disc(x, y) }
+    };
+    fs::write(dir.path().join("disc.png"), png(80, 60, blotted)).expect("a picture");
+    let contours = |args: &[&str]| {
+        let out = khatt(
+            dir.path(),
+            &[&["trace", "disc.png", "-o", "-"], args].concat(),
+        );
+        String::from_utf8_lossy(&out.stdout).matches('M').count()
+    };
+    assert_eq!(contours(&[]), 1);
+    assert_eq!(contours(&["--speckle", "1"]), 2);
+    assert_eq!(contours(&["--speckle", "5000"]), 0);
+}
+
+#[test]
 fn pictures_that_cannot_be_traced() {
     let dir = tempfile::tempdir().expect("a folder");
     fs::write(dir.path().join("text.png"), "this is no picture").expect("a file");

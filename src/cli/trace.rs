@@ -38,8 +38,11 @@ pub(crate) struct Trace {
     /// Distance between contour and curve to aim at, in pixels
     #[arg(long, value_name = "PX", value_parser = positive)]
     tolerance: Option<f64>,
+    /// Area of ink or paper below which it is dust, in square pixels [default: 4]
+    #[arg(long, value_name = "PX2", value_parser = positive)]
+    speckle: Option<f64>,
     /// Give the middle of the lines that a pen drew, with their width, in place of their outline
-    #[arg(long, conflicts_with_all = ["fit", "corners", "tolerance"])]
+    #[arg(long, conflicts_with_all = ["fit", "corners", "tolerance", "speckle"])]
     centerline: bool,
 }
 
@@ -87,6 +90,9 @@ impl Trace {
         if let Some(px) = self.tolerance {
             options.tolerance_px = px;
         }
+        if let Some(area) = self.speckle {
+            options.trace.speckle_px2 = area;
+        }
         let fit = |m: &fit::Method| self.fit.as_deref() == Some(m.key());
         if let Some(method) = fit::Method::all().into_iter().find(fit) {
             options.fit = method;
@@ -99,7 +105,7 @@ impl Trace {
     }
 }
 
-/// A length: finite and above 0.
+/// A length or an area: finite and above 0.
 pub(super) fn positive(text: &str) -> Result<f64, String> {
     let value = text.parse::<f64>().map_err(|e| e.to_string())?;
     if value.is_finite() && value > 0.0 {
