@@ -34,13 +34,13 @@ impl Letter {
     }
 }
 
-/// How far each row's baseline lies below its slots' levels, px, where these are those of a lattice or of boxes.
+/// How far each row's baseline lies below its slots' levels, px, on a page with printed lines or boxes.
 pub(super) fn ruled(letters: &[Letter], rows: usize) -> Vec<f64> {
     let off = feet_on_line(letters, rows);
     drops(off, near(letters), &vec![0.0; rows])
 }
 
-/// How far each row's baseline lies below the page's top, px, where no line guided the hand. Slots' levels are 0.
+/// The same where no line guided the hand: rows may stand at uneven distances.
 pub(super) fn unruled(letters: &[Letter], rows: usize) -> Vec<f64> {
     let (off, near) = (feet_on_line(letters, rows), near(letters));
     let strays = strays(letters, &off, near, rows);

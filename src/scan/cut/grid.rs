@@ -91,6 +91,7 @@ pub(super) fn place(
 ) -> Result<Layer, ScanError> {
     plan.too_many(labels)?;
     let lines = lines(all, plan);
+    let is_lined = !lines.is_empty();
     let freed = lines
         .iter()
         .flat_map(|&i| ruling::freed(&all[i], &plan.upright));
@@ -135,7 +136,7 @@ pub(super) fn place(
     Ok(Layer {
         slots,
         rows: plan.rows,
-        ruled: true,
+        ruled: is_lined,
         rejected,
     })
 }

@@ -186,7 +186,7 @@ struct Slot {
     index: usize,
     /// Row of letters that share a baseline.
     row: usize,
-    /// A height from which the baseline is equally far in all cells of a row, upright px; the page's top where rows are not ruled.
+    /// A height from which the baseline is equally far in all cells of a row, upright px, where rows are ruled or even.
     level: f64,
     /// Indices of its pieces of ink.
     parts: Vec<usize>,
@@ -196,7 +196,7 @@ struct Slot {
 struct Layer {
     slots: Vec<Slot>,
     rows: usize,
-    /// Levels are those of a lattice or of boxes.
+    /// Lines or boxes that are printed on the page say where its rows are.
     ruled: bool,
     /// Pieces of ink in no slot.
     rejected: Vec<(usize, Reason)>,

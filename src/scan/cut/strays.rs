@@ -1,14 +1,15 @@
 //! Rows of a page without lines: a hand sets them at uneven distances.
 //!
 //! Each letter votes for where its row stands: most those that stand flat or on a bow, and Arabic letters whose depth other rows tell; less
-//! those of which nobody knows. A row stands where most of its votes are, and not without reason far from where even distances or its neighbours would
-//! have it: with `v` votes of weights `w`, homes `h` the votes' reach `r` and the rows' usual stray `s`, at the `y` of the greatest
+//! those of which nobody knows. A row stands where most of its votes are, and not without reason far from where even distances or its
+//! neighbours would have it, its homes: with `v` votes of weights `w`, homes `h`, the votes' reach `r` and the rows' usual stray `s`, at
+//! the `y` of the greatest
 //!
 //! ```text
 //! sum over v of w max(0, 1 - ((v - y)/r)^2)  -  min over h of ln(1 + ((y - h)/s)^2)
 //! ```
 //!
-//! On a page whose rows are even `s` is next to nothing, so that letters of an odd style move no row.
+//! On a page whose rows are even `s` is next to nothing, so that letters of an odd style move no row; nor do few votes anywhere.
 
 use super::baselines::{Letter, Line, OVERSHOOT};
 use crate::numeric::median::median;
@@ -32,37 +33,24 @@ const NORMAL: f64 = 1.4826;
 
 /// How far each of the rows stands from even distances, px: nothing where it is less than `near` of all of them.
 ///
-/// `off` is the row and the height of the feet that tell where rows stand; letters' levels are 0.
+/// `off` is the row and the distance from the level of the feet that tell where rows stand.
 pub(super) fn strays(letters: &[Letter], off: &[(usize, f64)], near: f64, rows: usize) -> Vec<f64> {
     let even = Line::steady(off, near).0;
-    let foot = |l: &Letter| l.body.y1 - even.at(l.row);
+    let foot = |l: &Letter| l.body.y1 - l.level - even.at(l.row);
     let rows: Vec<Vec<&Letter>> = (0..rows)
         .map(|r| letters.iter().filter(|l| l.row == r).collect())
         .collect();
-    let votes = |depths: &BTreeMap<usize, f64>| -> Vec<Vec<Vote>> {
-        let of = |row: &Vec<&Letter>| {
-            let mut votes: Vec<Vote> = row
-                .iter()
-                .map(|l| Vote::of(l, row, foot(l), depths))
-                .collect();
-            let few = (FEW / votes.len().max(1) as f64).max(1.0);
-            votes.iter_mut().for_each(|v| v.weight *= few);
-            votes
-        };
-        rows.iter().map(of).collect()
+    let votes = |depths: &Depths| -> Vec<Vec<Vote>> {
+        rows.iter().map(|row| ballot(row, foot, depths)).collect()
     };
     let alone = |votes: &[Vec<Vote>]| -> Vec<Option<f64>> {
         votes.iter().map(|v| alone(v, near)).collect()
     };
-    let depths = depths(&rows, &alone(&votes(&BTreeMap::new())), foot);
+    let depths = depths(&rows, &alone(&votes(&Depths::new())), foot);
     let votes = votes(&depths);
     let most = alone(&votes);
     let usual = usual(&most, near);
-    let stray = |(r, votes): (usize, &Vec<Vote>)| {
-        let at = likeliest(votes, &homes(&most, r), usual, near);
-        let agree = |v: &&Vote| v.weight >= MAY_STAND && (v.at - at).abs() <= near;
-        median(votes.iter().filter(agree).map(|v| v.at)).unwrap_or(at)
-    };
+    let stray = |(r, v): (usize, &Vec<Vote>)| stand(v, &homes(&most, r), usual, near);
     let strays: Vec<f64> = votes.iter().enumerate().map(stray).collect();
     if strays.iter().all(|s| s.abs() <= near) {
         return vec![0.0; rows.len()];
@@ -70,22 +58,46 @@ pub(super) fn strays(letters: &[Letter], off: &[(usize, f64)], near: f64, rows: 
     strays
 }
 
-/// How far below their rows the feet of each kind of Arabic body lie, px, by the rows that tell where they stand.
-fn depths(
-    rows: &[Vec<&Letter>],
-    told: &[Option<f64>],
-    foot: impl Fn(&Letter) -> f64,
-) -> BTreeMap<usize, f64> {
-    let mut kinds: BTreeMap<usize, Vec<f64>> = BTreeMap::new();
+/// The votes of a row's letters.
+fn ballot(row: &[&Letter], foot: impl Fn(&Letter) -> f64, depths: &Depths) -> Vec<Vote> {
+    let few = (FEW / row.len().max(1) as f64).max(1.0);
+    let vote = |l: &&Letter| {
+        let vote = Vote::of(l, row, foot(l), depths);
+        Vote {
+            weight: few * vote.weight,
+            ..vote
+        }
+    };
+    row.iter().map(vote).collect()
+}
+
+/// Where a row stands, px: in the middle of the votes for the likeliest place, or where it may be expected if these are too few.
+fn stand(votes: &[Vote], homes: &[f64], usual: f64, near: f64) -> f64 {
+    let at = likeliest(votes, homes, usual, near);
+    let heard = |at: &&f64| agreement(votes, **at, near);
+    if heard(&&at) < SURE {
+        let best = homes.iter().max_by(|a, b| heard(a).total_cmp(&heard(b)));
+        return best.copied().unwrap_or(at);
+    }
+    let agree = |v: &&Vote| v.weight >= MAY_STAND && (v.at - at).abs() <= near;
+    median(votes.iter().filter(agree).map(|v| v.at)).unwrap_or(at)
+}
+
+/// How far below their rows the feet of each kind of Arabic body lie, px, with the row that says so.
+type Depths = BTreeMap<usize, Vec<(usize, f64)>>;
+
+/// The depths that rows tell which tell where they stand.
+fn depths(rows: &[Vec<&Letter>], told: &[Option<f64>], foot: impl Fn(&Letter) -> f64) -> Depths {
+    let mut kinds = Depths::new();
     for (row, told) in rows.iter().zip(told) {
         for letter in row {
             if let Some((body, level)) = letter.shape.body.zip(*told) {
-                kinds.entry(body).or_default().push(foot(letter) - level);
+                let depth = (letter.row, foot(letter) - level);
+                kinds.entry(body).or_default().push(depth);
             }
         }
     }
-    let depth = |(kind, all): (usize, Vec<f64>)| Some((kind, median(all)?));
-    kinds.into_iter().filter_map(depth).collect()
+    kinds
 }
 
 /// Where a row stands by its own votes, where they say so with some weight.
@@ -122,9 +134,11 @@ struct Vote {
 }
 
 impl Vote {
-    fn of(letter: &Letter, row: &[&Letter], foot: f64, depths: &BTreeMap<usize, f64>) -> Self {
+    fn of(letter: &Letter, row: &[&Letter], foot: f64, depths: &Depths) -> Self {
         let shape = letter.shape;
-        let depth = shape.body.and_then(|b| depths.get(&b));
+        let known = shape.body.and_then(|b| depths.get(&b));
+        let others = known.into_iter().flatten().filter(|d| d.0 != letter.row);
+        let depth = median(others.map(|d| d.1));
         let overshoot = OVERSHOOT * letter.body.height();
         let (at, weight) = match (depth, shape.foot, shape.kind) {
             (Some(depth), ..) => (foot - depth, 1.0),
@@ -217,6 +231,7 @@ mod tests {
     const HANGING: &[(&str, f64)] = &[
         ("uni062D.fina", 60.0),
         ("uni062E.fina", 60.0),
+        ("uni0686.fina", 60.0),
         ("uni062D", 55.0),
         ("uni062E", 55.0),
     ];

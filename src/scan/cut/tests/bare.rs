@@ -232,13 +232,19 @@ fn rows_stand_on_their_line_whatever_hangs_or_has_dots_below() {
                 draw(&mut paper, name, 500.0 - PITCH.0 * f64::from(i), foot);
             }
         }
-        let cut = cut_page(&paper, &rows.join(" "), &free()).unwrap();
-        assert_eq!(cut.cells.len(), 36);
-        for (i, cell) in cut.cells.iter().enumerate() {
-            let foot = Point::new(cell.in_sheet.x0, feet[i / 6]);
-            let at = cell.to_sheet.inverse() * foot;
-            let off = cell.guides.baseline_px - at.y;
-            assert!(off.abs() < 1.0, "row {} at {feet:?}: {off} px off", i / 6);
+        for layout in [Layout::Free, Layout::Grid(6, 6)] {
+            let options = Options { layout, ..free() };
+            let cut = cut_page(&paper, &rows.join(" "), &options).unwrap();
+            assert_eq!(cut.cells.len(), 36);
+            for (i, cell) in cut.cells.iter().enumerate() {
+                let foot = Point::new(cell.in_sheet.x0, feet[i / 6]);
+                let off = cell.guides.baseline_px - (cell.to_sheet.inverse() * foot).y;
+                let row = i / 6;
+                assert!(
+                    off.abs() < 1.0,
+                    "row {row} at {feet:?}, {layout:?}: {off} px"
+                );
+            }
         }
     }
 }
