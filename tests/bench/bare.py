@@ -212,6 +212,8 @@ def font_row(args, original, folder):
     project, built, result = (os.path.join(folder, name) for name in ("font.toml", "font.ttf", "font.json"))
     with open(os.path.join(folder, "free.toml")) as cut, open(project, "w") as file:
         file.write(cut.read() + '[output]\nttf = "font.ttf"\n')
+    if os.path.exists(result):
+        os.remove(result)
     run = subprocess.run([args.khatt, "build", "--quiet", project], capture_output=True, text=True)
     if run.returncode:
         return f" | {' '.join(run.stderr.split())[:args.say]} | |"

@@ -21,7 +21,7 @@ pub(super) struct Letter {
     pub(super) row: usize,
     pub(super) level: f64,
     pub(super) shape: Shape,
-    /// The body's box: the largest part of letters that have dots, else the whole.
+    /// The box of the largest part of Arabic letters, and of the whole of others; below it ends where all ink but signs below does.
     pub(super) body: Rect,
     /// The whole ink's box.
     pub(super) whole: Rect,
@@ -31,6 +31,22 @@ impl Letter {
     /// Upright px.
     pub(super) fn baseline(&self, drop: &[f64]) -> f64 {
         self.level + drop[self.row]
+    }
+}
+
+#[cfg(test)]
+impl Letter {
+    /// A letter of a row that is 100 px high and ends at `foot`, px from the level.
+    pub(super) fn ending(row: usize, label: &str, foot: f64) -> Self {
+        let names = glyphs_reader::glyphdata::GlyphData::default();
+        let body = Rect::new(0.0, foot - 100.0, 50.0, foot);
+        Self {
+            row,
+            level: 0.0,
+            shape: Shape::of(&crate::types::Label(label.to_owned()), &names),
+            body,
+            whole: body,
+        }
     }
 }
 
@@ -188,24 +204,11 @@ fn pairs(points: &[(usize, f64)]) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::types::Label;
-    use glyphs_reader::glyphdata::GlyphData;
 
     /// Letters of rows of a height of 100 px whose lowest ink lies at these depths.
     fn letters(rows: &[&[(&str, f64)]]) -> Vec<Letter> {
-        let names = GlyphData::default();
-        let of = |row: usize, label: &str, depth: f64| {
-            let body = Rect::new(0.0, depth - 100.0, 50.0, depth);
-            Letter {
-                row,
-                level: 0.0,
-                shape: Shape::of(&Label(label.to_owned()), &names),
-                body,
-                whole: body,
-            }
-        };
         let all = rows.iter().enumerate();
-        all.flat_map(|(r, row)| row.iter().map(move |&(l, d)| of(r, l, d)))
+        all.flat_map(|(r, row)| row.iter().map(move |&(l, d)| Letter::ending(r, l, d)))
             .collect()
     }
 

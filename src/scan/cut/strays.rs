@@ -181,25 +181,10 @@ fn agreement(votes: &[Vote], at: f64, near: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scan::letters::Shape;
-    use crate::types::Label;
-    use glyphs_reader::glyphdata::GlyphData;
-    use kurbo::Rect;
 
     /// The strays of rows of letters, 100 px high, whose line is at `lines` and which end so far below it; and where these rows stand.
     fn of(lines: &[f64], rows: &[&[(&str, f64)]]) -> [Vec<f64>; 2] {
-        let names = GlyphData::default();
-        let letter = |row: usize, label: &str, depth: f64| {
-            let foot = lines[row] + depth;
-            let body = Rect::new(0.0, foot - 100.0, 50.0, foot);
-            Letter {
-                row,
-                level: 0.0,
-                shape: Shape::of(&Label(label.to_owned()), &names),
-                body,
-                whole: body,
-            }
-        };
+        let letter = |row: usize, label, depth: f64| Letter::ending(row, label, lines[row] + depth);
         let all = rows.iter().enumerate();
         let letters: Vec<Letter> = all
             .flat_map(|(r, row)| row.iter().map(move |&(l, d)| letter(r, l, d)))
