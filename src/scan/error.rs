@@ -49,6 +49,12 @@ pub enum ScanError {
         /// the file
         source_name: String,
     },
+    /// All cells are to be skipped.
+    #[error("{source_name} has no names but _ in `glyphs`; name a letter, or leave the sheet out")]
+    NoNames {
+        /// the file
+        source_name: String,
+    },
     /// All ink is of another colour than the letters are said to be.
     #[error(
         "{source_name} has ink, but none of the colour that `ink` asks for ({ink}); correct `ink` or leave it out"

@@ -34,22 +34,6 @@ impl Letter {
     }
 }
 
-#[cfg(test)]
-impl Letter {
-    /// A letter of a row that is 100 px high and ends at `foot`, px from the level.
-    pub(super) fn ending(row: usize, label: &str, foot: f64) -> Self {
-        let names = glyphs_reader::glyphdata::GlyphData::default();
-        let body = Rect::new(0.0, foot - 100.0, 50.0, foot);
-        Self {
-            row,
-            level: 0.0,
-            shape: Shape::of(&crate::types::Label(label.to_owned()), &names),
-            body,
-            whole: body,
-        }
-    }
-}
-
 /// How far each row's baseline lies below its slots' levels, px, on a page with printed lines or boxes.
 pub(super) fn ruled(letters: &[Letter], rows: usize) -> Vec<f64> {
     let off = feet_on_line(letters, rows);
@@ -204,6 +188,22 @@ fn pairs(points: &[(usize, f64)]) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::types::Label;
+    use glyphs_reader::glyphdata::GlyphData;
+
+    impl Letter {
+        /// A letter of a row that is 100 px high and ends at `foot`, px from the level.
+        pub(in crate::scan::cut) fn ending(row: usize, label: &str, foot: f64) -> Self {
+            let body = Rect::new(0.0, foot - 100.0, 50.0, foot);
+            Self {
+                row,
+                level: 0.0,
+                shape: Shape::of(&Label(label.to_owned()), &GlyphData::default()),
+                body,
+                whole: body,
+            }
+        }
+    }
 
     /// Letters of rows of a height of 100 px whose lowest ink lies at these depths.
     fn letters(rows: &[&[(&str, f64)]]) -> Vec<Letter> {

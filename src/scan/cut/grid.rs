@@ -28,6 +28,8 @@ const HOME: f64 = 0.6;
 pub(super) const SMALL: f64 = 0.4;
 /// Ink in a cell without a name, and where cells are looked for, counts from this share of a usual cell's ink.
 const COUNTS: f64 = 0.1;
+/// Letters without names at least that tell of a row or a column whose names are missing.
+const NAMELESS: usize = 2;
 
 /// A cell is at least this large, px.
 const LEAST_CELL: usize = 4;
@@ -214,7 +216,8 @@ fn lines(all: &[Component], plan: &Plan<'_>) -> Vec<usize> {
     (0..all.len()).filter(|&i| is_line(&all[i])).collect()
 }
 
-/// Columns and rows: those of all ink, unless more of the named cells have a letter in those of the ink that is no dust.
+/// Columns and rows: of the cells that have names those of all ink, unless more of these cells have a letter in those of the ink that is no
+/// dust; of all cells where as many have one then and about as many others do, whose names are missing.
 fn axes(
     all: &[Component],
     letters: &[usize],
@@ -223,7 +226,7 @@ fn axes(
 ) -> Option<(Axis, Axis)> {
     let named = labels.iter().enumerate().filter(|(_, l)| l.0 != "_");
     let places: Vec<(usize, usize)> = named.map(|(i, _)| plan.place(i)).collect();
-    let fit = |pieces: &[usize]| {
+    let fit = |pieces: &[usize], whole: bool| {
         let boxes = || pieces.iter().map(|&i| all[i].upright);
         let across: Vec<_> = boxes().map(|b| (b.x0, b.x1)).collect();
         let down: Vec<_> = boxes().map(|b| (b.y0, b.y1)).collect();
@@ -231,23 +234,35 @@ fn axes(
             let all = || places.iter().map(of);
             Some(all().min()?..all().max()? + 1)
         };
-        let x = Axis::fit(&across, plan.columns, range(|p| p.1)?)?;
-        let y = Axis::fit(&down, plan.rows, range(|p| p.0)?)?;
+        let (columns, rows) = if whole {
+            (0..plan.columns, 0..plan.rows)
+        } else {
+            (range(|p| p.1)?, range(|p| p.0)?)
+        };
+        let x = Axis::fit(&across, plan.columns, columns)?;
+        let y = Axis::fit(&down, plan.rows, rows)?;
         Some((x, y))
     };
     let ink: usize = letters.iter().map(|&i| all[i].area).sum();
     let least = COUNTS * ink as f64 / places.len().max(1) as f64;
     let large = letters.iter().copied();
     let large: Vec<usize> = large.filter(|&i| all[i].area as f64 >= least).collect();
+    // cells with a letter: those that have names, and others
     let held = |(x, y): &(Axis, Axis)| {
         let cells = large.iter().map(|&i| all[i].centre);
         let cells = cells.filter_map(|p| Some((y.cell(p.y)?, x.cell(p.x)?)));
         let cells: BTreeSet<(usize, usize)> = cells.collect();
-        places.iter().filter(|p| cells.contains(p)).count()
+        let named = places.iter().filter(|p| cells.contains(p)).count();
+        (named, cells.len() - named)
     };
-    let whole = fit(letters)?;
-    let better = fit(&large).filter(|axes| held(axes) > held(&whole));
-    Some(better.unwrap_or(whole))
+    let ours = fit(letters, false)?;
+    let clean = fit(&large, false).filter(|axes| held(axes).0 > held(&ours).0);
+    let ours = clean.unwrap_or(ours);
+    let whole = fit(letters, true).filter(|axes| {
+        let (named, others) = held(axes);
+        named >= held(&ours).0 && others >= NAMELESS.max(named / 2)
+    });
+    Some(whole.unwrap_or(ours))
 }
 
 /// Dots and accents near a border of cells go to the letter that is nearer.

@@ -312,6 +312,11 @@ fn placed(
     claims: &[(usize, Vec<usize>)],
 ) -> Result<Layer, ScanError> {
     let source = page.sheet.source.as_str();
+    if !labels.is_empty() && labels.iter().all(|l| l.0 == "_") {
+        return Err(ScanError::NoNames {
+            source_name: source.to_owned(),
+        });
+    }
     match options.layout {
         Layout::Grid(rows, columns) => {
             let plan = grid::Plan::new(page, options, (rows, columns), upright)?;

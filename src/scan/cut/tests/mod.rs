@@ -126,6 +126,19 @@ fn grid_page(skew_deg: f64) -> Paper {
 const NAMES: &str = "n i p n l n n p i n i n l n n n p n i n";
 
 #[test]
+fn rows_without_names_are_told() {
+    let cut = |names: &str| cut_page(&grid_page(0.0), names, &options(Layout::Grid(4, 5)));
+    for (names, place) in [("n i p n l", (2, 1)), ("n i p n l n n p i n", (3, 1))] {
+        let error = cut(names).unwrap_err();
+        let ScanError::TooFewNames { row, column, .. } = error else {
+            panic!("{error}");
+        };
+        assert_eq!((row, column), place, "{names}");
+    }
+    assert!(matches!(cut("_ _ _"), Err(ScanError::NoNames { .. })));
+}
+
+#[test]
 fn ink_that_reaches_the_next_row_is_told() {
     let mut paper = grid_page(0.0);
     let cut = |paper: &Paper| cut_page(paper, NAMES, &options(Layout::Grid(4, 5))).unwrap();
