@@ -1,6 +1,5 @@
 //! Where rows stand: from the many letters of a page, never from one letter's own ink.
 
-use super::strays::strays;
 use crate::numeric::median::median;
 use crate::scan::letters::{Foot, Kind, Shape};
 use kurbo::Rect;
@@ -40,21 +39,14 @@ pub(super) fn ruled(letters: &[Letter], rows: usize) -> Vec<f64> {
     drops(off, near(letters), &vec![0.0; rows])
 }
 
-/// The same where no line guided the hand: rows may stand at uneven distances.
-pub(super) fn unruled(letters: &[Letter], rows: usize) -> Vec<f64> {
-    let (off, near) = (feet_on_line(letters, rows), near(letters));
-    let strays = strays(letters, &off, near, rows);
-    drops(off, near, &strays)
-}
-
 /// How far a foot may lie off its row's line, px.
-fn near(letters: &[Letter]) -> f64 {
+pub(super) fn near(letters: &[Letter]) -> f64 {
     ASTRAY * median(letters.iter().map(|l| l.body.height())).unwrap_or(0.0)
 }
 
 /// How far each row's baseline lies below the levels, px. But for their strays all rows share it, up to a drift along the page; the letters
 /// of a row move their own baseline as far as their number justifies.
-fn drops(mut off: Vec<(usize, f64)>, near: f64, strays: &[f64]) -> Vec<f64> {
+pub(super) fn drops(mut off: Vec<(usize, f64)>, near: f64, strays: &[f64]) -> Vec<f64> {
     off.iter_mut().for_each(|o| o.1 -= strays[o.0]);
     let (common, steady) = Line::steady(&off, near);
     let row = |(r, stray): (usize, &f64)| {
@@ -66,7 +58,7 @@ fn drops(mut off: Vec<(usize, f64)>, near: f64, strays: &[f64]) -> Vec<f64> {
 }
 
 /// Row, and distance from the level, of the feet that tell where rows stand: flat ones, else bows, else all there are.
-fn feet_on_line(letters: &[Letter], rows: usize) -> Vec<(usize, f64)> {
+pub(super) fn feet_on_line(letters: &[Letter], rows: usize) -> Vec<(usize, f64)> {
     let mut off = standing(letters);
     if off.len() < rows || off.len() < 3 {
         let bows = feet(letters, Foot::Round, |_| true).into_iter();

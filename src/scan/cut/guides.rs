@@ -1,7 +1,8 @@
 //! Baselines and scale of a page.
 
-use super::baselines::{self, Letter, OVERSHOOT};
+use super::baselines::{Letter, OVERSHOOT, ruled};
 use super::ends::ends;
+use super::strays::unruled;
 use super::{Layer, Slot, Warning};
 use crate::numeric::median::median;
 use crate::numeric::view::View;
@@ -48,9 +49,9 @@ pub(super) fn measure(
     };
     let letters: Vec<Letter> = layer.slots.iter().filter_map(letter).collect();
     let drop = if layer.ruled {
-        baselines::ruled(&letters, layer.rows)
+        ruled(&letters, layer.rows)
     } else {
-        baselines::unruled(&letters, layer.rows)
+        unruled(&letters, layer.rows)
     };
     let (px_per_em, warning) = scale(&letters, &drop, page, options)?;
     Ok(Guides {

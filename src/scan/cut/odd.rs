@@ -17,7 +17,8 @@ pub const SMALL: f64 = 0.3;
 pub const SMALL_LETTER: &str =
     "it is far smaller than the usual letter: is the rest of it missing, or is this a blot?";
 
-/// Ink that comes so near to the next row's baseline, as a share of the rows' distance, reaches it.
+/// Ink that comes so near to the baseline of the row below, as a share of the rows' distance, reaches it: letters there stand on it. What
+/// touches one above passes that row's baseline.
 const REACH: f64 = 0.15;
 
 /// Whether a character is as large as most are: letters and figures; no marks, no hamza, no punctuation.

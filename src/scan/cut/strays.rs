@@ -11,7 +11,7 @@
 //!
 //! On a page whose rows are even `s` is next to nothing, so that letters of an odd style move no row; nor do few votes anywhere.
 
-use super::baselines::{Letter, Line, OVERSHOOT};
+use super::baselines::{Letter, Line, OVERSHOOT, drops, feet_on_line, near};
 use crate::numeric::median::median;
 use crate::scan::letters::{Foot, Kind};
 use std::collections::BTreeMap;
@@ -31,10 +31,17 @@ const FEW: f64 = 3.0;
 /// A standard deviation in medians of the distance, where it is a normal one.
 const NORMAL: f64 = 1.4826;
 
+/// How far each row's baseline lies below its slots' levels, px, on a page where no line guided the hand.
+pub(super) fn unruled(letters: &[Letter], rows: usize) -> Vec<f64> {
+    let (off, near) = (feet_on_line(letters, rows), near(letters));
+    let strays = strays(letters, &off, near, rows);
+    drops(off, near, &strays)
+}
+
 /// How far each of the rows stands from even distances, px: nothing where it is less than `near` of all of them.
 ///
 /// `off` is the row and the distance from the level of the feet that tell where rows stand.
-pub(super) fn strays(letters: &[Letter], off: &[(usize, f64)], near: f64, rows: usize) -> Vec<f64> {
+fn strays(letters: &[Letter], off: &[(usize, f64)], near: f64, rows: usize) -> Vec<f64> {
     let even = Line::steady(off, near).0;
     let foot = |l: &Letter| l.body.y1 - l.level - even.at(l.row);
     let rows: Vec<Vec<&Letter>> = (0..rows)

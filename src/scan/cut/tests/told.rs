@@ -1,0 +1,99 @@
+//! What users are told: names and cells that do not agree, and ink where it should not be.
+
+use super::*;
+
+#[test]
+fn rows_without_names_are_told() {
+    let cut = |names: &str| cut_page(&grid_page(0.0), names, &options(Layout::Grid(4, 5)));
+    for (names, place) in [("n i p n l", (2, 1)), ("n i p n l n n p i n", (3, 1))] {
+        let error = cut(names).unwrap_err();
+        let ScanError::TooFewNames { row, column, .. } = error else {
+            panic!("{error}");
+        };
+        assert_eq!((row, column), place, "{names}");
+    }
+    assert!(matches!(cut("_ _ _"), Err(ScanError::NoNames { .. })));
+}
+
+#[test]
+fn ink_that_reaches_the_next_row_is_told() {
+    let mut paper = grid_page(0.0);
+    let cut = |paper: &Paper| cut_page(paper, NAMES, &options(Layout::Grid(4, 5))).unwrap();
+    let told = |cut: &Cut| {
+        let reach = cut.warnings.iter().filter(|w| w.message.contains("row"));
+        reach
+            .map(|w| (w.index, w.message.clone()))
+            .collect::<Vec<_>>()
+    };
+    assert_eq!(told(&cut(&paper)), []);
+    // the tail of the p in the second row touches the letter under it
+    paper.bar(210.0, 220.0, 6.0, 80.0);
+    let told = told(&cut(&paper));
+    assert!(!told.is_empty(), "{told:?}");
+    assert!(
+        told.iter().all(|t| t.0 == Some(6) || t.0 == Some(11)),
+        "{told:?}"
+    );
+}
+
+#[test]
+fn names_and_cells_must_agree() {
+    let paper = grid_page(0.0);
+    let grid = options(Layout::Grid(4, 5));
+    let many = cut_page(&paper, &format!("{NAMES} x"), &grid).unwrap_err();
+    assert!(
+        matches!(
+            many,
+            ScanError::TooManyNames {
+                cells: 20,
+                names: 21,
+                ..
+            }
+        ),
+        "{many}"
+    );
+    let few = cut_page(&paper, &NAMES[..NAMES.len() - 2], &grid).unwrap_err();
+    assert!(
+        matches!(
+            few,
+            ScanError::TooFewNames {
+                row: 4,
+                column: 5,
+                ..
+            }
+        ),
+        "{few}"
+    );
+    let blank = cut_page(&Paper::new(300, 300, 0.0), "a", &grid).unwrap_err();
+    assert!(matches!(blank, ScanError::Blank { .. }), "{blank}");
+    for (rows, columns) in [(0, 5), (4, 99_999_999_999), (usize::MAX, usize::MAX)] {
+        let none = cut_page(&paper, NAMES, &options(Layout::Grid(rows, columns))).unwrap_err();
+        assert!(matches!(none, ScanError::NoGrid { .. }), "{none}");
+    }
+    let mut holed = grid_page(0.0);
+    holed
+        .bars
+        .retain(|b| !(b.0.x0 > 190.0 && b.0.x0 < 300.0 && b.0.y0 < 130.0));
+    let cut = cut_page(&holed, NAMES, &grid).unwrap();
+    assert_eq!(cut.cells.len(), 19);
+    assert_eq!(cut.warnings.len(), 1, "the empty cell is warned of");
+    assert_eq!(cut.warnings[0].index, Some(1));
+}
+
+#[test]
+fn names_that_have_slipped_are_told() {
+    let names: Vec<&str> = NAMES.split(' ').collect();
+    let told = |names: String| {
+        let cut = cut_page(&grid_page(0.0), &names, &options(Layout::Grid(4, 5))).unwrap();
+        let messages = cut.warnings.into_iter().map(|w| w.message);
+        messages.collect::<Vec<_>>()
+    };
+    assert!(told(NAMES.to_owned()).is_empty());
+    let lacking = [&names[..2], &names[3..], &["_"]].concat();
+    let told_of = told(lacking.join(" "));
+    assert_eq!(told_of.len(), 1, "{told_of:?}");
+    assert!(
+        told_of[0].contains("had the name before its own: is a name missing"),
+        "{told_of:?}"
+    );
+}
