@@ -246,6 +246,23 @@ mod tests {
     }
 
     #[test]
+    fn letters_of_one_kind_do_not_bear_out_each_other() {
+        let alefs: &[_] = &[
+            ("uni0627", 20.0),
+            ("uni0627.fina", 20.0),
+            ("uni0623", 20.0),
+            ("uni0623.fina", 20.0),
+            ("uni0622", 20.0),
+            ("uni0622.fina", 20.0),
+            ("uni0625", 20.0),
+            ("uni0625.fina", 20.0),
+        ];
+        let others = &JOINED[1..];
+        let rows = [alefs, others, others, others, others, others];
+        assert_eq!(of(&EVEN, &rows)[0], [0.0; 6]);
+    }
+
+    #[test]
     fn uneven_rows_stand_where_their_letters_do() {
         let lines = [100.0, 330.0, 540.0, 640.0, 860.0, 1170.0];
         for rows in [
