@@ -8,7 +8,7 @@ use super::lines::Lines;
 use super::nearest::{Gathered, gather};
 use super::order::in_rows;
 use super::pieces::{Piece, Usual, pieces, ties, usual_size};
-use super::rows::rows;
+use super::rows::{nearest, rows};
 use super::{Layer, Reason, Slot, stroke_width};
 use crate::scan::components::Component;
 use crate::scan::error::ScanError;
@@ -59,22 +59,43 @@ pub(super) fn place(
     let read = page
         .letters(&ink, &shapes)
         .map_err(|unread| unread.error(source, names.len(), label))?;
-    let mut letters: Vec<(usize, Vec<usize>)> = names.into_iter().zip(read.letters).collect();
-    letters.extend(claims.iter().cloned());
-    let mut layer = layer(all, letters, labels);
+    let mut names = names.into_iter();
+    let rows = read.rows.into_iter();
+    let mut rows: Vec<Row> = rows.map(|row| names.by_ref().zip(row).collect()).collect();
+    claims.iter().for_each(|c| seat(all, &mut rows, c));
+    rows.sort_by_key(|row| row.iter().map(|l| l.0).min());
+    let mut layer = layer(rows, labels);
     let lines = lines.into_iter().map(|i| (i, Reason::Line));
     layer.rejected.extend(lines.chain(read.out));
     Ok(layer)
 }
 
-/// The slots of letters, each the number of its name and its ink.
-fn layer(all: &[Component], mut letters: Vec<(usize, Vec<usize>)>, labels: &[Label]) -> Layer {
-    let boxes: Vec<Rect> = letters.iter().map(|l| bounds(all, &l.1)).collect();
-    let order = rows(&boxes);
+/// The letters of a row, each the number of its name and its ink.
+type Row = Vec<(usize, Vec<usize>)>;
+
+/// Puts a letter whose place a user says into a row: that of the names before and after it, or the nearest in height, or its own.
+fn seat(all: &[Component], rows: &mut Vec<Row>, letter: &(usize, Vec<usize>)) {
+    let holds = |row: &Row| {
+        let beyond = |of: fn(&usize, &usize) -> bool| row.iter().any(|l| of(&l.0, &letter.0));
+        beyond(usize::lt) && beyond(usize::gt)
+    };
+    let boxes = |row: &Row| row.iter().map(|l| bounds(all, &l.1)).collect();
+    let among = rows.iter().position(holds).or_else(|| {
+        let rows: Vec<Vec<Rect>> = rows.iter().map(boxes).collect();
+        nearest(&rows, bounds(all, &letter.1))
+    });
+    match among {
+        Some(row) => rows[row].push(letter.clone()),
+        None => rows.push(vec![letter.clone()]),
+    }
+}
+
+/// The slots of rows from the top.
+fn layer(rows: Vec<Row>, labels: &[Label]) -> Layer {
+    let count = rows.len();
     let (mut slots, mut rejected) = (Vec::new(), Vec::new());
-    for (row, members) in order.iter().enumerate() {
-        for &g in members {
-            let (index, parts) = (letters[g].0, std::mem::take(&mut letters[g].1));
+    for (row, letters) in rows.into_iter().enumerate() {
+        for (index, parts) in letters {
             match labels.get(index) {
                 Some(label) if label.0 != "_" => slots.push(Slot {
                     label: label.clone(),
@@ -90,7 +111,7 @@ fn layer(all: &[Component], mut letters: Vec<(usize, Vec<usize>)>, labels: &[Lab
     slots.sort_by_key(|s| s.index);
     Layer {
         slots,
-        rows: order.len(),
+        rows: count,
         ruled: false,
         rejected,
     }
@@ -106,9 +127,9 @@ struct Bare<'a> {
     rtl: bool,
 }
 
-/// The ink of each name's letter, what is left out, and how unlikely all of it is.
+/// The ink of each name's letter in rows from the top, what is left out, and how unlikely all of it is.
 struct Read {
-    letters: Vec<Vec<usize>>,
+    rows: Vec<Vec<Vec<usize>>>,
     out: Vec<(usize, Reason)>,
     cost: f64,
 }
@@ -172,8 +193,9 @@ impl Bare<'_> {
             order.iter_mut().for_each(|r| r.reverse());
         }
         let letter = |&g: &usize| groups[g].clone();
+        let row = |row: &Vec<usize>| row.iter().map(letter).collect();
         (groups.len() == letters).then(|| Read {
-            letters: order.iter().flatten().map(letter).collect(),
+            rows: order.iter().map(row).collect(),
             out,
             cost: dearest,
         })
@@ -200,18 +222,14 @@ impl Bare<'_> {
             let lengths: Vec<usize> = rows.iter().map(Vec::len).collect();
             return Err(Unread::new(&reading, &lengths));
         }
-        let mut letters = vec![Vec::new(); names.len()];
-        for (piece, owner) in lines.pieces.iter().zip(owners) {
-            if let Some(letter) = owner.and_then(|k| letters.get_mut(k)) {
-                letter.extend(piece.parts.iter().copied());
-            }
-        }
+        let letters = lines.letters(&reading, &owners);
         let mut used = vec![false; self.all.len()];
-        letters.iter().flatten().for_each(|&i| used[i] = true);
+        let taken = letters.iter().flatten().flatten();
+        taken.for_each(|&i| used[i] = true);
         let out = ink.iter().filter(|&&i| !used[i]);
         Ok(Read {
             out: out.map(|&i| (i, Reason::Dirt)).collect(),
-            letters,
+            rows: letters,
             cost: reading.cost,
         })
     }

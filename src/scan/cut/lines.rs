@@ -3,10 +3,13 @@
 use super::pieces::{Piece, Tie, Usual};
 use super::reading::{Body, Reading, Role, Seen, align, unwanted};
 use crate::scan::letters::Shape;
+use std::iter;
 
 /// The pieces of a page in reading order.
 pub(super) struct Lines<'a> {
     pub(super) pieces: Vec<&'a Piece>,
+    /// The row of each of them.
+    row: Vec<usize>,
     /// What each of them may be a part of, by places in reading order.
     ties: Vec<Vec<Tie>>,
     usual: Usual,
@@ -29,6 +32,11 @@ impl<'a> Lines<'a> {
         let own = |&i: &usize| ties[i].iter().filter_map(placed).collect();
         Self {
             ties: order.iter().map(own).collect(),
+            row: rows
+                .iter()
+                .enumerate()
+                .flat_map(|(r, row)| iter::repeat_n(r, row.len()))
+                .collect(),
             pieces: order.iter().map(|&i| &pieces[i]).collect(),
             usual,
         }
@@ -40,41 +48,82 @@ impl<'a> Lines<'a> {
         names: &[Option<Shape>],
         dirt: &[bool],
     ) -> (Reading, Vec<Option<usize>>) {
-        let mut seen = self.seen(dirt);
+        let mut bodies: Vec<Option<Tie>> = (0..self.pieces.len()).map(|i| self.body(i)).collect();
+        let mut seen = self.seen(&bodies, dirt);
         loop {
             let reading = align(&seen, names);
             let owners = self.share(&reading.roles, names);
-            let is_lost = |i: &usize| reading.roles[*i] == Role::Part && owners[*i].is_none();
-            let lost: Vec<usize> = (0..seen.len()).filter(is_lost).collect();
-            if lost.is_empty() || !reading.agrees() {
+            let mut wrong = self.lost(&reading.roles, &owners, dirt);
+            let twins = self.twins(&reading.roles, &bodies);
+            if !reading.agrees() || (wrong.is_empty() && twins.is_empty()) {
                 return (reading, owners);
             }
-            // parts of each other: dust is dust, and of others the heaviest must be something else
-            let weight = |i: usize| self.pieces[i].weight();
-            let heaviest = lost.iter().copied().filter(|&i| !dirt[i]);
-            let heaviest = heaviest.max_by(|&a, &b| weight(a).total_cmp(&weight(b)));
-            let dust = lost.iter().copied().filter(|&i| dirt[i]);
-            dust.chain(heaviest).for_each(|i| seen[i].body = None);
+            wrong.iter().for_each(|&i| bodies[i] = None);
+            for i in twins {
+                bodies[i] = bodies[i].and_then(|b| self.next_body(i, Some(b)));
+                wrong.push(i);
+            }
+            for i in wrong {
+                seen[i].body = bodies[i].map(|b| self.as_body(i, b));
+            }
         }
     }
 
+    /// Parts that are in no letter, since they are parts of each other: dust is dust, and of others the heaviest must be something else.
+    fn lost(&self, roles: &[Role], owners: &[Option<usize>], dirt: &[bool]) -> Vec<usize> {
+        let is_lost = |i: &usize| roles[*i] == Role::Part && owners[*i].is_none();
+        let lost = (0..roles.len()).filter(is_lost);
+        let (mut wrong, others): (Vec<usize>, Vec<usize>) = lost.partition(|&i| dirt[i]);
+        let weight = |i: usize| self.pieces[i].weight();
+        let heaviest = others.into_iter();
+        wrong.extend(heaviest.max_by(|&a, &b| weight(a).total_cmp(&weight(b))));
+        wrong
+    }
+
+    /// Of each two pieces larger than signs that were taken for parts of each other the heavier one: it is no part of that.
+    fn twins(&self, roles: &[Role], bodies: &[Option<Tie>]) -> Vec<usize> {
+        let rank = |i: usize| (self.pieces[i].weight(), i);
+        let body = |i: usize| Some(bodies[i]?.to).filter(|_| roles[i] == Role::Part);
+        let is_twin = |i: &usize| {
+            let other = body(*i).filter(|&j| body(j) == Some(*i) && rank(j) < rank(*i));
+            other.is_some() && self.pieces[*i].full(self.usual) > 0.0
+        };
+        (0..roles.len()).filter(is_twin).collect()
+    }
+
+    /// The ink of each name's letter, by rows; `owners` says of which letter each piece is.
+    pub(super) fn letters(
+        &self,
+        reading: &Reading,
+        owners: &[Option<usize>],
+    ) -> Vec<Vec<Vec<usize>>> {
+        let named = reading.roles.iter().zip(&self.row);
+        let named = named.filter_map(|(role, &row)| match role {
+            Role::Letter(k) => Some((row, *k)),
+            _ => None,
+        });
+        let named: Vec<(usize, usize)> = named.collect();
+        let ink = |&(_, k): &(usize, usize)| {
+            let own = owners.iter().zip(&self.pieces);
+            let own = own.filter(|(owner, _)| **owner == Some(k));
+            own.flat_map(|(_, piece)| &piece.parts).copied().collect()
+        };
+        let rows = named.chunk_by(|a, b| a.0 == b.0);
+        rows.map(|row| row.iter().map(ink).collect()).collect()
+    }
+
     /// What is seen of each piece.
-    fn seen(&self, dirt: &[bool]) -> Vec<Seen> {
-        let body: Vec<Option<Tie>> = (0..self.pieces.len()).map(|i| self.body(i)).collect();
+    fn seen(&self, bodies: &[Option<Tie>], dirt: &[bool]) -> Vec<Seen> {
         let seen = |(i, piece): (usize, &&Piece)| Seen {
             full: piece.full(self.usual),
             above: false,
             below: false,
-            body: body[i].map(|b| Body {
-                off: b.off,
-                before: b.to < i,
-                above: self.is_above(i, b.to),
-            }),
+            body: bodies[i].map(|b| self.as_body(i, b)),
             dirt: dirt[i],
         };
         let mut seen: Vec<Seen> = self.pieces.iter().enumerate().map(seen).collect();
         for i in 0..seen.len() {
-            if let Some(to) = body[i].filter(|_| seen[i].full < 1.0).map(|b| b.to) {
+            if let Some(to) = bodies[i].filter(|_| seen[i].full < 1.0).map(|b| b.to) {
                 let above = self.is_above(i, to);
                 seen[to].above |= above;
                 seen[to].below |= !above;
@@ -83,10 +132,25 @@ impl<'a> Lines<'a> {
         seen
     }
 
+    fn as_body(&self, i: usize, body: Tie) -> Body {
+        Body {
+            off: body.off,
+            before: body.to < i,
+            above: self.is_above(i, body.to),
+        }
+    }
+
     /// The nearest piece, no smaller than it, that one may be a part of.
     fn body(&self, i: usize) -> Option<Tie> {
-        let ties = self.ties[i].iter();
-        ties.min_by(|a, b| a.off.total_cmp(&b.off)).copied()
+        self.next_body(i, None)
+    }
+
+    /// The next one after `last`.
+    fn next_body(&self, i: usize, last: Option<Tie>) -> Option<Tie> {
+        let order = |a: &Tie, b: &Tie| a.off.total_cmp(&b.off).then(a.to.cmp(&b.to));
+        let beyond = |t: &&Tie| last.is_none_or(|last| order(t, &last).is_gt());
+        let ties = self.ties[i].iter().filter(beyond);
+        ties.min_by(|a, b| order(a, b)).copied()
     }
 
     /// Whether the middle of a piece lies over another's.

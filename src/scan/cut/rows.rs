@@ -6,8 +6,10 @@ use kurbo::Rect;
 const BESIDE: f64 = 0.4;
 
 /// Two parts of a row lie less than this share of the rows' usual distance apart in height: letters that hang and letters that stand
-/// can link among themselves alone.
-const ASUNDER: f64 = 0.4;
+/// can link among themselves alone. Where letters of the one fill gaps of the other they may lie farther apart than where they do not.
+const ASUNDER: (f64, f64) = (0.7, 0.4);
+/// Share of the letters of such a part that lie over or under the other's at most: tails reach below the next letter.
+const STACKED: f64 = 0.25;
 
 /// Pixels that each pixel of height in which two boxes do not stand beside each other counts for.
 const PARTLY: f64 = 4.0;
@@ -46,7 +48,11 @@ pub(super) fn rows(boxes: &[Rect]) -> Vec<Vec<usize>> {
     merge(boxes, &mut rows);
     weave(boxes, &mut rows);
     for one in alone.into_iter().flatten() {
-        adopt(boxes, &mut rows, one);
+        let all: Vec<Vec<Rect>> = rows.iter().map(|r| of_row(boxes, r)).collect();
+        match nearest(&all, boxes[one]) {
+            Some(row) => rows[row].push(one),
+            None => rows.push(vec![one]),
+        }
     }
     rows.iter_mut()
         .for_each(|r| r.sort_by(|&a, &b| boxes[a].center().x.total_cmp(&boxes[b].center().x)));
@@ -72,10 +78,14 @@ fn middle(boxes: &[Rect], row: &[usize]) -> f64 {
     all.get(all.len() / 2).copied().unwrap_or(0.0)
 }
 
+fn of_row(boxes: &[Rect], row: &[usize]) -> Vec<Rect> {
+    row.iter().map(|&i| boxes[i]).collect()
+}
+
 /// A row's usual extent: medians of tops and of bottoms.
-fn band(boxes: &[Rect], row: &[usize]) -> Rect {
+fn band(row: &[Rect]) -> Rect {
     let median = |of: fn(&Rect) -> f64| {
-        let mut all: Vec<f64> = row.iter().map(|&i| of(&boxes[i])).collect();
+        let mut all: Vec<f64> = row.iter().map(of).collect();
         all.sort_by(f64::total_cmp);
         all.get(all.len() / 2).copied().unwrap_or(0.0)
     };
@@ -86,8 +96,9 @@ fn band(boxes: &[Rect], row: &[usize]) -> Rect {
 fn merge(boxes: &[Rect], rows: &mut Vec<Vec<usize>>) {
     let mut i = 0;
     while i < rows.len() {
-        let here = band(boxes, &rows[i]);
-        let twin = (i + 1..rows.len()).find(|&j| beside(&here, &band(boxes, &rows[j])));
+        let here = band(&of_row(boxes, &rows[i]));
+        let is_twin = |j: &usize| beside(&here, &band(&of_row(boxes, &rows[*j])));
+        let twin = (i + 1..rows.len()).find(is_twin);
         match twin {
             Some(j) => {
                 let more = rows.remove(j);
@@ -106,7 +117,11 @@ fn weave(boxes: &[Rect], rows: &mut Vec<Vec<usize>>) {
     loop {
         let pairs = (0..rows.len()).flat_map(|i| (i + 1..rows.len()).map(move |j| (i, j)));
         let away = pairs.filter_map(|(i, j)| Some((apart(boxes, &rows[i], &rows[j])?, i, j)));
-        let near = away.filter(|a| a.0 < ASUNDER * pitch);
+        let near = away.filter(|&(away, i, j)| {
+            let stacked = stacked(boxes, &rows[i], &rows[j]);
+            let limit = if stacked { ASUNDER.1 } else { ASUNDER.0 };
+            away < limit * pitch
+        });
         let Some((_, i, j)) = near.min_by(|a, b| a.0.total_cmp(&b.0)) else {
             return;
         };
@@ -115,13 +130,32 @@ fn weave(boxes: &[Rect], rows: &mut Vec<Vec<usize>>) {
     }
 }
 
+/// Whether letters of one part lie over or under those of the other.
+fn stacked(boxes: &[Rect], one: &[usize], other: &[usize]) -> bool {
+    let (few, many) = by_count(one, other);
+    let meets = |i: &&usize| many.iter().any(|&j| lies_over(&boxes[**i], &boxes[j]));
+    few.iter().filter(meets).count() as f64 > STACKED * few.len() as f64
+}
+
+/// Whether two boxes share half of the narrower one's width.
+fn lies_over(a: &Rect, b: &Rect) -> bool {
+    a.x1.min(b.x1) - a.x0.max(b.x0) > a.width().min(b.width()) / 2.0
+}
+
+fn by_count<'a>(one: &'a [usize], other: &'a [usize]) -> (&'a [usize], &'a [usize]) {
+    if one.len() < other.len() {
+        (one, other)
+    } else {
+        (other, one)
+    }
+}
+
 /// The usual distance of rows, px: the median from a box's middle to that of the next one that lies clear below it.
 fn pitch(boxes: &[Rect], rows: &[Vec<usize>]) -> Option<f64> {
     let some: Vec<Rect> = rows.iter().flatten().map(|&i| boxes[i]).collect();
-    let over = |a: &Rect, b: &Rect| a.x1.min(b.x1) - a.x0.max(b.x0);
     let below = |a: &Rect| {
         let clear = some.iter().filter(|b| b.y0 >= a.y1);
-        let under = clear.filter(|b| over(a, b) > a.width().min(b.width()) / 2.0);
+        let under = clear.filter(|b| lies_over(a, b));
         let down = under.map(|b| b.center().y - a.center().y);
         down.min_by(f64::total_cmp)
     };
@@ -133,11 +167,7 @@ fn pitch(boxes: &[Rect], rows: &[Vec<usize>]) -> Option<f64> {
 /// How far two parts of rows lie from each other in height, px: the median over the smaller part's boxes, each against the other's next
 /// ones on both sides.
 fn apart(boxes: &[Rect], one: &[usize], other: &[usize]) -> Option<f64> {
-    let (few, many) = if one.len() < other.len() {
-        (one, other)
-    } else {
-        (other, one)
-    };
+    let (few, many) = by_count(one, other);
     let off = |&i: &usize| Some((boxes[i].center().y - height(boxes, many, boxes[i])?).abs());
     let mut all: Vec<f64> = few.iter().filter_map(off).collect();
     all.sort_by(f64::total_cmp);
@@ -158,15 +188,13 @@ fn height(boxes: &[Rect], row: &[usize], at: Rect) -> Option<f64> {
     }
 }
 
-/// Puts a single box into the row nearest in height, or into a row of its own where none is near.
-fn adopt(boxes: &[Rect], rows: &mut Vec<Vec<usize>>, one: usize) {
-    let y = boxes[one].center().y;
+/// The row whose usual extent is nearest in height to a box, unless none is near.
+pub(super) fn nearest(rows: &[Vec<Rect>], one: Rect) -> Option<usize> {
+    let y = one.center().y;
     let away = |b: Rect| (b.y0 - y).max(y - b.y1).max(0.0) / b.height().max(1.0);
-    let near = rows.iter_mut().map(|r| (away(band(boxes, r)), r));
-    match near.min_by(|a, b| a.0.total_cmp(&b.0)) {
-        Some((distance, row)) if distance < BESIDE => row.push(one),
-        _ => rows.push(vec![one]),
-    }
+    let all = rows.iter().map(|r| away(band(r))).enumerate();
+    let nearest = all.min_by(|a, b| a.1.total_cmp(&b.1));
+    nearest.filter(|n| n.1 < BESIDE).map(|n| n.0)
 }
 
 #[cfg(test)]
@@ -191,7 +219,8 @@ mod tests {
 
     #[test]
     fn letters_that_hang_stand_in_the_row_of_those_that_do_not() {
-        for drift in [-3.0, 0.0, 3.0] {
+        // the second hang a whole letter's height lower
+        for (drift, hang) in [(-3.0, 34.0), (0.0, 34.0), (3.0, 34.0), (0.0, 60.0)] {
             let mut boxes = Vec::new();
             for row in 0..3 {
                 for i in 0..8 {
@@ -201,7 +230,7 @@ mod tests {
                     );
                     // two of the last row begin where the others end
                     let low = if row == 2 && (i == 3 || i == 4) {
-                        34.0
+                        hang
                     } else {
                         0.0
                     };
@@ -209,7 +238,7 @@ mod tests {
                 }
             }
             let rows = rows(&boxes);
-            assert_eq!(rows.len(), 3, "drift {drift}");
+            assert_eq!(rows.len(), 3, "drift {drift}, {hang} px");
             assert_eq!(rows[2], [16, 17, 18, 19, 20, 21, 22, 23]);
         }
     }

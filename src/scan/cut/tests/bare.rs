@@ -78,27 +78,28 @@ fn free() -> Options {
 
 /// That each cell of a page of [`ROWS`] is where its letter was drawn, and has all of its ink.
 fn assert_whole(cut: &Cut, drift: f64, of: &str) {
-    let names = ROWS.iter().flat_map(|row| row.split(' '));
-    assert_eq!(cut.cells.len(), names.clone().count(), "{of}");
-    let places = ROWS
-        .iter()
-        .enumerate()
-        .flat_map(|(r, row)| row.split(' ').enumerate().map(move |(i, _)| (r, i)));
-    for ((cell, name), (row, i)) in cut.cells.iter().zip(names).zip(places) {
-        let (row, i) = (row as f64, i as f64);
+    let row = |row: usize| 100.0 + PITCH.1 * row as f64;
+    assert_drawn(
+        cut,
+        &ROWS,
+        |r, i| (660.0 - PITCH.0 * i, row(r) + drift * i),
+        of,
+    );
+}
+
+/// That each cell is where its letter was drawn, with its foot `at` the row and place in it, and has all of its ink.
+fn assert_drawn(cut: &Cut, rows: &[&str], at: impl Fn(usize, f64) -> (f64, f64), of: &str) {
+    let places = rows.iter().enumerate().flat_map(|(r, row)| {
+        let names = row.split(' ').enumerate();
+        names.map(move |(i, name)| (r, i, name))
+    });
+    assert_eq!(cut.cells.len(), places.clone().count(), "{of}");
+    for (cell, (row, i, name)) in cut.cells.iter().zip(places) {
         let mut alone = Paper::new(1, 1, 0.0);
-        draw(
-            &mut alone,
-            name,
-            660.0 - PITCH.0 * i,
-            100.0 + PITCH.1 * row + drift * i,
-        );
-        let want = alone
-            .bars
-            .iter()
-            .map(|b| b.0)
-            .reduce(|a, b| a.union(b))
-            .unwrap();
+        let (x, y) = at(row, i as f64);
+        draw(&mut alone, name, x, y);
+        let bars = alone.bars.iter().map(|b| b.0);
+        let want = bars.reduce(|a, b| a.union(b)).unwrap();
         let got = cell.in_sheet;
         let off = [
             got.x0 - want.x0,
@@ -218,6 +219,41 @@ fn a_forgotten_name_is_told() {
 }
 
 #[test]
+fn letters_whose_place_is_said_stand_in_the_rows_of_their_neighbours() {
+    let all: Vec<&str> = ROWS.iter().flat_map(|r| r.split(' ')).collect();
+    // one within a row, a row's first and last, and a whole row
+    for pinned in [vec![17], vec![16, 23], (8..16).collect()] {
+        let paper = page(&ROWS, 0.0, 0.0);
+        let pin = |&index: &usize| {
+            let mut alone = Paper::new(1, 1, 0.0);
+            let (row, i) = ((index / 8) as f64, (index % 8) as f64);
+            draw(
+                &mut alone,
+                all[index],
+                660.0 - PITCH.0 * i,
+                100.0 + PITCH.1 * row,
+            );
+            let bars = alone.bars.iter().map(|b| b.0);
+            let bounds = bars.reduce(|a, b| a.union(b)).unwrap();
+            Pin {
+                index,
+                region: Some(Region::Box(bounds.inflate(2.0, 2.0))),
+                rotation_deg: 0.0,
+            }
+        };
+        let pins: Vec<Pin> = pinned.iter().map(pin).collect();
+        let page = clean(paper.scan()).unwrap();
+        let cut = cut_with(&page, &labels(&ROWS.join(" ")), &free(), &pins).unwrap();
+        assert_whole(&cut, 0.0, "pinned");
+        for cell in &cut.cells {
+            let foot = 100.0 + PITCH.1 * (cell.index / 8) as f64;
+            let at = cell.to_sheet * Point::new(0.0, cell.guides.baseline_px);
+            assert!((at.y - foot).abs() < 1.5, "{pinned:?}: {at:?} for {foot}");
+        }
+    }
+}
+
+#[test]
 fn rows_stand_on_their_line_whatever_hangs_or_has_dots_below() {
     const HANGING: &str = "uni0645 uni0645.fina uni0645 uni0645.fina uni0645 uni0646";
     const STANDING: &str = "uni0627 uni0628.init uni062F uni0645.fina uni0626.medi uni0645";
@@ -228,7 +264,9 @@ fn rows_stand_on_their_line_whatever_hangs_or_has_dots_below() {
     let rows = [STANDING, HANGING, SIGNS, STANDING, HANGING, DOTTED];
     let even = [100.0, 210.0, 320.0, 430.0, 540.0, 650.0];
     let uneven = [100.0, 226.0, 366.0, 496.0, 578.0, 696.0];
-    for feet in [even, uneven] {
+    // letters that hang, and signs that rise from a row 94 px below: their middles are 58 px apart
+    let close = [100.0, 236.0, 330.0, 470.0, 552.0, 670.0];
+    for feet in [even, uneven, close] {
         let mut paper = Paper::new(600, 740, 0.0);
         for (names, foot) in rows.iter().zip(feet) {
             for (i, name) in (0u32..).zip(names.split(' ')) {
@@ -238,6 +276,10 @@ fn rows_stand_on_their_line_whatever_hangs_or_has_dots_below() {
         for layout in [Layout::Free, Layout::Grid(6, 6)] {
             let options = Options { layout, ..free() };
             let cut = cut_page(&paper, &rows.join(" "), &options).unwrap();
+            let drawn = |r: usize, i| (500.0 - PITCH.0 * i, feet[r]);
+            if layout == Layout::Free {
+                assert_drawn(&cut, &rows, drawn, "rows");
+            }
             assert_eq!(cut.cells.len(), 36);
             for (i, cell) in cut.cells.iter().enumerate() {
                 let foot = Point::new(cell.in_sheet.x0, feet[i / 6]);
