@@ -148,6 +148,8 @@ pub(super) struct Shape {
     pub(super) below: bool,
     /// The same number for Arabic letters in the same form that differ by their signs alone.
     pub(super) body: Option<usize>,
+    /// Whether a stroke joins it to a letter on its left, and on its right.
+    pub(super) joined: [bool; 2],
     /// It is as large as most letters are.
     pub(super) full: bool,
     /// Where most of its ink is: 1 to the right and 1 down, −1 the other way, 0 where hands differ.
@@ -180,13 +182,14 @@ impl Shape {
             i8::from(plain && any(base, more)) - i8::from(plain && any(base, less))
         };
         let heavy = [side(LEFT, RIGHT), side(TOP, BOTTOM)];
+        let forms = [["init", "medi"], ["medi", "fina"]];
         let arabic = letter.is_some_and(|c| ('\u{600}'..'\u{700}').contains(&c));
+        let joined = forms.map(|f| (arabic || ligature) && f.contains(&form));
         if arabic {
-            let joined = matches!(form, "init" | "medi");
             let foot = match () {
-                () if joined && !any(letter, ARABIC_HANGING) => Foot::Flat,
-                () if !joined && any(letter, ARABIC_STANDING) => Foot::Flat,
-                () if !joined && any(letter, ARABIC_BOWLS) => Foot::Round,
+                () if joined[0] && !any(letter, ARABIC_HANGING) => Foot::Flat,
+                () if !joined[0] && any(letter, ARABIC_STANDING) => Foot::Flat,
+                () if !joined[0] && any(letter, ARABIC_BOWLS) => Foot::Round,
                 () => Foot::None,
             };
             let alef = letter == Some('ا');
@@ -200,6 +203,7 @@ impl Shape {
                 kind: Kind::Arabic,
                 pieces,
                 dots,
+                joined,
                 full,
                 heavy,
             };
@@ -229,6 +233,7 @@ impl Shape {
             },
             pieces,
             dots,
+            joined,
             full,
             heavy,
         }
@@ -287,5 +292,11 @@ mod tests {
         let dots = ["uni0646.fina", "uni062A", "ñ"].map(|s| of(s).dots);
         assert_eq!(dots, [1, 2, 0]);
         assert_eq!(of("uni06440627.fina").pieces, Pieces::One);
+        let joined = ["beh-ar.init", "uni0628.medi", "uni06440627.fina", "a.fina"];
+        let sides = joined.map(|s| of(s).joined);
+        assert_eq!(
+            sides,
+            [[true, false], [true, true], [false, true], [false, false]]
+        );
     }
 }

@@ -24,6 +24,8 @@ pub(super) struct Letter {
     pub(super) body: Rect,
     /// The whole ink's box.
     pub(super) whole: Rect,
+    /// Where strokes that join it to its neighbours end.
+    pub(super) joins: Vec<f64>,
 }
 
 impl Letter {
@@ -193,6 +195,7 @@ mod tests {
                 shape: Shape::of(&Label(label.to_owned()), &GlyphData::default()),
                 body,
                 whole: body,
+                joins: Vec::new(),
             }
         }
     }

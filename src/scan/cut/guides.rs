@@ -2,6 +2,7 @@
 
 use super::baselines::{Letter, OVERSHOOT, ruled};
 use super::ends::ends;
+use super::joins::joins;
 use super::strays::unruled;
 use super::{Layer, Slot, Warning};
 use crate::numeric::median::median;
@@ -45,7 +46,10 @@ pub(super) fn measure(
             let rough = all[*i].upright;
             (all[*i].area, Rect::new(rough.x0, top, rough.x1, bottom))
         };
-        letter(s, &s.parts.iter().map(exact).collect::<Vec<_>>(), &names)
+        let mut letter = letter(s, &s.parts.iter().map(exact).collect::<Vec<_>>(), &names)?;
+        let largest = s.parts.iter().max_by_key(|&&i| all[i].area)?;
+        letter.joins = joins(&all[*largest], letter.shape.joined, &view);
+        Some(letter)
     };
     let letters: Vec<Letter> = layer.slots.iter().filter_map(letter).collect();
     let drop = if layer.ruled {
@@ -78,6 +82,7 @@ fn letter(slot: &Slot, parts: &[(usize, Rect)], names: &GlyphData) -> Option<Let
         shape,
         body,
         whole,
+        joins: Vec::new(),
     })
 }
 

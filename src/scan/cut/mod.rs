@@ -11,6 +11,7 @@ mod furniture;
 mod grid;
 mod guides;
 mod hidden;
+mod joins;
 mod lines;
 mod marks;
 mod nearest;
@@ -23,6 +24,7 @@ mod rows;
 mod ruling;
 mod stance;
 mod strays;
+mod votes;
 mod window;
 
 use super::clean::Page;

@@ -1,8 +1,7 @@
 //! Rows of a page without lines: a hand sets them at uneven distances.
 //!
-//! Each letter votes for where its row stands: most those that stand flat or on a bow, and Arabic letters whose depth other rows tell; less
-//! those of which nobody knows. A row stands where most of its votes are, and not without reason far from where even distances or its
-//! neighbours would have it, its homes: with `v` votes of weights `w`, homes `h`, the votes' reach `r` and the rows' usual stray `s`, at
+//! Each letter votes for where its row stands (`votes`). A row stands where most of its votes are, and not without reason far from where
+//! even distances or its neighbours would have it, its homes: with `v` votes of weights `w`, homes `h`, the votes' reach `r` and the rows' usual stray `s`, at
 //! the `y` of the greatest
 //!
 //! ```text
@@ -11,23 +10,25 @@
 //!
 //! On a page whose rows are even `s` is next to nothing, so that letters of an odd style move no row; nor do few votes anywhere.
 
-use super::baselines::{Letter, Line, OVERSHOOT, drops, feet_on_line, near};
+use super::baselines::{Letter, Line, drops, feet_on_line, near};
+use super::votes::{MAY_STAND, Poll, Vote};
 use crate::numeric::median::median;
-use crate::scan::letters::{Foot, Kind};
-use std::collections::BTreeMap;
 
 /// Weight of a row's votes from which on it tells where it stands, and rows that tell how far rows stray, at least.
 const SURE: f64 = 2.2;
 const ROWS: usize = 3;
-/// Votes count for places within so many times `near`.
-const REACH: f64 = 1.5;
+/// Votes count for places within so many times `near`, at least and at most, and within so many times what letters stray from their rows.
+const REACH: (f64, f64) = (0.5, 1.5);
+const SCATTER: f64 = 6.0;
+/// Those that agree with a place lie within this share of that.
+const AGREE: f64 = 0.67;
+/// Most of a row's letters float and hang by these shares of a usual letter's height at most.
+const FLOAT: f64 = 0.5;
+const HANG: f64 = 1.5;
 /// Rows stray by this share of `near` at least.
 const LEAST: f64 = 0.05;
-/// How much the vote of a letter counts of which nobody knows whether it stands, and of an Arabic one that often hangs.
-const MAY_STAND: f64 = 0.5;
-const MAY_HANG: f64 = 0.2;
-/// The letters of a row with fewer count as much as so many.
-const FEW: f64 = 3.0;
+/// Times that votes are counted: what the rows tell first tells depths and joins, by which they vote again.
+const ROUNDS: usize = 3;
 /// A standard deviation in medians of the distance, where it is a normal one.
 const NORMAL: f64 = 1.4826;
 
@@ -42,75 +43,68 @@ pub(super) fn unruled(letters: &[Letter], rows: usize) -> Vec<f64> {
 ///
 /// `off` is the row and the distance from the level of the feet that tell where rows stand.
 fn strays(letters: &[Letter], off: &[(usize, f64)], near: f64, rows: usize) -> Vec<f64> {
-    let even = Line::steady(off, near).0;
-    let foot = |l: &Letter| l.body.y1 - l.level - even.at(l.row);
-    let rows: Vec<Vec<&Letter>> = (0..rows)
-        .map(|r| letters.iter().filter(|l| l.row == r).collect())
-        .collect();
-    let votes = |depths: &Depths| -> Vec<Vec<Vote>> {
-        rows.iter().map(|row| ballot(row, foot, depths)).collect()
+    let poll = Poll::new(letters, rows, Line::steady(off, near).0, near);
+    let (mut votes, mut told) = (Vec::new(), vec![None; rows]);
+    for _ in 0..ROUNDS {
+        votes = poll.votes(&told);
+        told = votes.iter().map(|v| alone(v, REACH.1 * near)).collect();
+    }
+    let height = median(letters.iter().map(|l| l.whole.height())).unwrap_or(0.0);
+    let reach = reach(&votes, &told, near);
+    let usual = usual(&told, near);
+    let stray = |(r, v): (usize, &Vec<Vote>)| {
+        let homes = homes(&told, r).into_iter();
+        let homes: Vec<f64> = homes.filter(|h| may_stand(v, *h, height)).collect();
+        stand(v, &homes, usual, reach)
     };
-    let alone = |votes: &[Vec<Vote>]| -> Vec<Option<f64>> {
-        votes.iter().map(|v| alone(v, near)).collect()
-    };
-    let depths = depths(&rows, &alone(&votes(&Depths::new())), foot);
-    let votes = votes(&depths);
-    let most = alone(&votes);
-    let usual = usual(&most, near);
-    let stray = |(r, v): (usize, &Vec<Vote>)| stand(v, &homes(&most, r), usual, near);
     let strays: Vec<f64> = votes.iter().enumerate().map(stray).collect();
     if strays.iter().all(|s| s.abs() <= near) {
-        return vec![0.0; rows.len()];
+        return vec![0.0; rows];
     }
     strays
 }
 
-/// The votes of a row's letters.
-fn ballot(row: &[&Letter], foot: impl Fn(&Letter) -> f64, depths: &Depths) -> Vec<Vote> {
-    let few = (FEW / row.len().max(1) as f64).max(1.0);
-    let vote = |l: &&Letter| {
-        let vote = Vote::of(l, row, foot(l), depths);
-        Vote {
-            weight: few * vote.weight,
-            ..vote
-        }
-    };
-    row.iter().map(vote).collect()
-}
-
 /// Where a row stands, px: in the middle of the votes for the likeliest place, or where it may be expected if these are too few.
-fn stand(votes: &[Vote], homes: &[f64], usual: f64, near: f64) -> f64 {
-    let at = likeliest(votes, homes, usual, near);
-    let heard = |at: &&f64| agreement(votes, **at, near);
+fn stand(votes: &[Vote], homes: &[f64], usual: f64, reach: f64) -> f64 {
+    let at = likeliest(votes, homes, usual, reach);
+    let heard = |at: &&f64| agreement(votes, **at, reach);
     if heard(&&at) < SURE {
         let best = homes.iter().max_by(|a, b| heard(a).total_cmp(&heard(b)));
         return best.copied().unwrap_or(at);
     }
-    let agree = |v: &&Vote| v.weight >= MAY_STAND && (v.at - at).abs() <= near;
+    middle(votes, at, reach)
+}
+
+/// Whether a row of such votes may stand at a place: few letters float, and none hangs by more than its height.
+fn may_stand(votes: &[Vote], at: f64, height: f64) -> bool {
+    let heard = votes.iter().filter(|v| v.weight > 0.0);
+    let depth = median(heard.map(|v| v.at - at)).unwrap_or(0.0);
+    (-FLOAT * height..HANG * height).contains(&depth)
+}
+
+/// Within how many px votes count for a place: by how far letters stray from the rows that are told.
+fn reach(votes: &[Vec<Vote>], told: &[Option<f64>], near: f64) -> f64 {
+    let rows = votes.iter().zip(told);
+    let rows = rows.filter_map(|(row, told)| Some((row, (*told)?)));
+    let off = rows.flat_map(|(row, told)| {
+        let some = row.iter().filter(|v| v.weight >= MAY_STAND);
+        some.map(move |v| (v.at - told).abs())
+    });
+    let scatter = median(off.filter(|d| *d <= near)).unwrap_or(near);
+    (SCATTER * NORMAL * scatter).clamp(REACH.0 * near, REACH.1 * near)
+}
+
+/// The median of the votes that agree with a place.
+fn middle(votes: &[Vote], at: f64, reach: f64) -> f64 {
+    let agree = |v: &&Vote| v.weight >= MAY_STAND && (v.at - at).abs() <= AGREE * reach;
     median(votes.iter().filter(agree).map(|v| v.at)).unwrap_or(at)
 }
 
-/// How far below their rows the feet of each kind of Arabic body lie, px, with the row that says so.
-type Depths = BTreeMap<usize, Vec<(usize, f64)>>;
-
-/// The depths that rows tell which tell where they stand.
-fn depths(rows: &[Vec<&Letter>], told: &[Option<f64>], foot: impl Fn(&Letter) -> f64) -> Depths {
-    let mut kinds = Depths::new();
-    for (row, told) in rows.iter().zip(told) {
-        for letter in row {
-            if let Some((body, level)) = letter.shape.body.zip(*told) {
-                let depth = (letter.row, foot(letter) - level);
-                kinds.entry(body).or_default().push(depth);
-            }
-        }
-    }
-    kinds
-}
-
 /// Where a row stands by its own votes, where they say so with some weight.
-fn alone(votes: &[Vote], near: f64) -> Option<f64> {
-    let at = likeliest(votes, &[], f64::INFINITY, near);
-    (agreement(votes, at, near) >= SURE).then_some(at)
+fn alone(votes: &[Vote], reach: f64) -> Option<f64> {
+    let at = likeliest(votes, &[], f64::INFINITY, reach);
+    let told = agreement(votes, at, reach) >= SURE;
+    told.then(|| middle(votes, at, reach))
 }
 
 /// How far rows usually stray from their likeliest home, px; without bounds where too few rows tell.
@@ -134,44 +128,12 @@ fn homes(alone: &[Option<f64>], row: usize) -> Vec<f64> {
     beside.chain([0.0]).collect()
 }
 
-/// Where a letter's row stands if its foot does as it should, px, and how much that counts.
-struct Vote {
-    at: f64,
-    weight: f64,
-}
-
-impl Vote {
-    fn of(letter: &Letter, row: &[&Letter], foot: f64, depths: &Depths) -> Self {
-        let shape = letter.shape;
-        let known = shape.body.and_then(|b| depths.get(&b));
-        let others = known.into_iter().flatten().filter(|d| d.0 != letter.row);
-        let depth = median(others.map(|d| d.1));
-        let overshoot = OVERSHOOT * letter.body.height();
-        let (at, weight) = match (depth, shape.foot, shape.kind) {
-            (Some(depth), ..) => (foot - depth, 1.0),
-            (None, Foot::Flat, Kind::Arabic) => {
-                // letters of one kind are right or wrong together
-                let alike = |l: &&&Letter| {
-                    l.shape.foot == Foot::Flat && l.shape.skeleton() == shape.skeleton()
-                };
-                (foot, 1.0 / (row.iter().filter(alike).count() as f64).sqrt())
-            }
-            (None, Foot::Flat, _) => (foot, 1.0),
-            (None, _, Kind::Arabic) => (foot, MAY_HANG),
-            (None, Foot::Round, _) => (foot - overshoot, 1.0),
-            (None, Foot::Tail, _) => (foot, 0.0),
-            (None, Foot::None, _) => (foot, MAY_STAND),
-        };
-        Self { at, weight }
-    }
-}
-
 /// The place with most votes within reach, less what speaks against one that is far from all homes.
-fn likeliest(votes: &[Vote], homes: &[f64], usual: f64, near: f64) -> f64 {
+fn likeliest(votes: &[Vote], homes: &[f64], usual: f64, reach: f64) -> f64 {
     let score = |at: f64| {
         let against = |h: &f64| (((at - h) / usual).powi(2)).ln_1p();
         let least = homes.iter().map(against).reduce(f64::min);
-        agreement(votes, at, near) - least.unwrap_or(0.0)
+        agreement(votes, at, reach) - least.unwrap_or(0.0)
     };
     let places = votes.iter().filter(|v| v.weight > 0.0).map(|v| v.at);
     let places = places.chain(homes.iter().copied());
@@ -180,18 +142,34 @@ fn likeliest(votes: &[Vote], homes: &[f64], usual: f64, near: f64) -> f64 {
 }
 
 /// The weight of the votes for a place, less the farther from it.
-fn agreement(votes: &[Vote], at: f64, near: f64) -> f64 {
-    let agree = |v: &Vote| v.weight * (1.0 - ((v.at - at) / (REACH * near)).powi(2)).max(0.0);
+fn agreement(votes: &[Vote], at: f64, reach: f64) -> f64 {
+    let agree = |v: &Vote| v.weight * (1.0 - ((v.at - at) / reach).powi(2)).max(0.0);
     votes.iter().map(agree).sum()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scan::letters::{Foot, Shape};
 
     /// The strays of rows of letters, 100 px high, whose line is at `lines` and which end so far below it; and where these rows stand.
     fn of(lines: &[f64], rows: &[&[(&str, f64)]]) -> [Vec<f64>; 2] {
-        let letter = |row: usize, label, depth: f64| Letter::ending(row, label, lines[row] + depth);
+        of_joined(lines, rows, |_, _| Vec::new())
+    }
+
+    /// The same where joining strokes of a letter end at heights that are told by its row's line and its shape.
+    fn of_joined(
+        lines: &[f64],
+        rows: &[&[(&str, f64)]],
+        joins: impl Fn(f64, &Shape) -> Vec<f64>,
+    ) -> [Vec<f64>; 2] {
+        let letter = |row: usize, label, depth: f64| {
+            let letter = Letter::ending(row, label, lines[row] + depth);
+            Letter {
+                joins: joins(lines[row], &letter.shape),
+                ..letter
+            }
+        };
         let all = rows.iter().enumerate();
         let letters: Vec<Letter> = all
             .flat_map(|(r, row)| row.iter().map(move |&(l, d)| letter(r, l, d)))
@@ -290,5 +268,56 @@ mod tests {
         // nothing tells even distances here, so that heights are the rows' own
         let off = strays.iter().zip(lines).map(|(s, l)| (s - l).abs());
         assert!(off.reduce(f64::max).unwrap() < 1.5, "{strays:?}");
+    }
+
+    #[test]
+    fn joining_strokes_tell_where_letters_hang_that_no_other_row_has() {
+        let lines = [100.0, 330.0, 540.0, 640.0, 860.0, 1170.0];
+        let hanging: &[_] = &[
+            ("uni0639.fina", 70.0),
+            ("uni063A.fina", 70.0),
+            ("uni0635.fina", 60.0),
+            ("uni0636.fina", 60.0),
+        ];
+        let rows = [JOINED, HANGING, JOINED, JOINED, hanging, JOINED];
+        let ends = |line: f64, shape: &Shape| {
+            let ends = shape.joined.iter().filter(|j| **j);
+            ends.map(|_| line - 20.0).collect()
+        };
+        let off = |stand: &[f64]| (stand[4] - lines[4]).abs();
+        assert!(off(&of(&lines, &rows)[1]) > 30.0, "nothing else tells");
+        let [_, stand] = of_joined(&lines, &rows, ends);
+        assert!(off(&stand) < 1.5, "{stand:?}");
+        // strokes that end anywhere tell nothing
+        let turn = [0.0, 90.0, -60.0, 40.0, -90.0];
+        let count = std::cell::Cell::new(0);
+        let anywhere = |line: f64, shape: &Shape| {
+            count.set(count.get() + 1);
+            let ends = ends(line, shape).into_iter();
+            ends.map(|y| y + turn[count.get() % 5]).collect()
+        };
+        let [_, stand] = of_joined(&lines, &rows, anywhere);
+        assert!(
+            (stand[3] - lines[3]).abs() < 1.5 && (stand[5] - lines[5]).abs() < 1.5,
+            "{stand:?}"
+        );
+    }
+
+    #[test]
+    fn two_letters_of_a_steady_hand_tell_where_their_row_stands() {
+        let lines = [100.0, 303.0, 497.0, 697.0, 903.0, 1115.0];
+        let last: &[_] = &[("?", 1.5), ("!", 1.5)];
+        let rows = [CAPITALS, CAPITALS, CAPITALS, CAPITALS, CAPITALS, last];
+        let [_, stand] = of(&lines, &rows);
+        assert!((stand[5] - lines[5]).abs() < 2.0, "{stand:?}");
+    }
+
+    #[test]
+    fn a_row_does_not_stand_where_all_of_its_letters_would_float() {
+        let lines = [100.0, 303.0, 497.0, 702.0, 899.0, 1010.0];
+        let last: &[_] = &[("6", 1.5), ("7", 3.0), ("8", 1.5), ("9", 0.0), ("0", 1.5)];
+        let rows = [CAPITALS, CAPITALS, CAPITALS, CAPITALS, CAPITALS, last];
+        let [_, stand] = of(&lines, &rows);
+        assert!((stand[5] - lines[5]).abs() < 2.0, "{stand:?}");
     }
 }
