@@ -6,6 +6,8 @@ use kurbo::Point;
 
 /// The outermost ink that counts as a stroke's end, in widths of the letter's stroke.
 const END: f64 = 0.5;
+/// Height of a joining stroke's end at most, in the same: what reaches higher is a stem, and leans over the stroke where letters slant.
+const THICK: f64 = 1.6;
 
 /// Heights of the ends of a letter's strokes on its left and on its right where these are `joined` to others, upright px.
 pub(super) fn joins(letter: &Component, joined: [bool; 2], upright: &View) -> Vec<f64> {
@@ -22,12 +24,16 @@ fn end(letter: &Component, side: f64, upright: &View) -> Option<f64> {
         let (a, b) = (inward(r.start, r.y), inward(r.end - 1, r.y));
         a.min(b)
     });
-    let limit = outer.clone().reduce(f64::min)? + END * letter.stroke();
+    let stroke = letter.stroke();
+    let limit = outer.clone().reduce(f64::min)? + END * stroke;
     let near = letter.runs.iter().zip(outer).filter(|r| r.1 < limit);
     let pixels = near.flat_map(|(r, _)| (r.start..r.end).map(move |x| (x, r.y)));
-    let ink = pixels.filter(|&(x, y)| inward(x, y) < limit);
-    let (sum, n) = ink.fold((0.0, 0.0), |(s, n), (x, y)| (s + at(x, y).y, n + 1.0));
-    (n > 0.0).then(|| sum / n)
+    let heights = pixels.filter(|&(x, y)| inward(x, y) < limit);
+    let heights: Vec<f64> = heights.map(|(x, y)| at(x, y).y).collect();
+    let top = heights.iter().copied().reduce(f64::min)?;
+    let foot = heights.iter().copied().reduce(f64::max)?;
+    let is_end = foot - top + 1.0 <= THICK * stroke;
+    is_end.then(|| heights.iter().sum::<f64>() / heights.len() as f64)
 }
 
 #[cfg(test)]
@@ -56,5 +62,19 @@ mod tests {
         assert!(at([false, false]).is_empty());
         let lower = View::from(Affine::translate((0.0, 100.0)));
         assert_eq!(joins(letter, [true, false], &lower), [133.0]);
+    }
+
+    #[test]
+    fn a_stem_that_leans_over_its_stroke_is_no_end() {
+        // a stem that leans to the right by a fifth, and a stroke to the right that it hides
+        let ink = |x: usize, y: usize| {
+            let lean = (70 - y) / 5;
+            (20 + lean..27 + lean).contains(&x) && y > 8 || (20..34).contains(&x) && y > 62
+        };
+        let pixels = (0..70 * 70).map(|i| f32::from(u8::from(ink(i % 70, i / 70))));
+        let gray = Gray::new(70, 70, pixels.collect()).unwrap();
+        let letter = &components(&gray, 0.33, 0.5)[0];
+        let view = View::from(Affine::IDENTITY);
+        assert!(joins(letter, [false, true], &view).is_empty());
     }
 }
