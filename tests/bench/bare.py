@@ -5,7 +5,7 @@
         'FreeSans.ttf --rows 8 --cols 9 --skew 2' 'KacstBook.ttf --forms --rows 12 --cols 10 --condition rough'
 
 A page is a font's file, found below --fonts, and options of make_sheet.py, as in untried.py; --pages FILE reads one a line, as bare.txt,
-bare-unseen.txt and bare-uneven.txt have them. Pages of --forms are read from the right. A piece is a letter's where half of its ink lies in the letter's cell; a letter has its pieces where
+bare-unseen.txt, bare-uneven.txt, bare-later.txt and bare-last.txt have them. Pages of --forms are read from the right. A piece is a letter's where half of its ink lies in the letter's cell; a letter has its pieces where
 its cell has all of its own and none of another letter's. Dust is ink of no letter, a dot's worth or more, in a cell. Behind the figures of
 the free page stand those of the same page as a grid. Baselines are compared with the page's own, of the letters in order: how far they scatter
 (standard deviation) and how far the worst lies from the median, in 1/1000 em; a page drawn with jitter has that much in it. --keep FOLDER keeps pages and cells, and draws none anew that is there. --forget N
