@@ -1,8 +1,8 @@
 //! Rows of a page without lines: a hand sets them at uneven distances.
 //!
 //! Each letter votes for where its row stands (`votes`). A row stands where most of its votes are, and not without reason far from where
-//! even distances or its neighbours would have it, its homes: with `v` votes of weights `w`, homes `h`, the votes' reach `r` and the rows' usual stray `s`, at
-//! the `y` of the greatest
+//! even distances or its neighbours would have it, its homes: with `v` votes of weights `w`, homes `h`, the votes' reach `r` and the rows'
+//! usual stray `s`, at the `y` of the greatest
 //!
 //! ```text
 //! sum over v of w max(0, 1 - ((v - y)/r)^2)  -  min over h of ln(1 + ((y - h)/s)^2)
@@ -313,11 +313,14 @@ mod tests {
     }
 
     #[test]
-    fn a_row_does_not_stand_where_all_of_its_letters_would_float() {
-        let lines = [100.0, 303.0, 497.0, 702.0, 899.0, 1010.0];
+    fn a_row_does_not_stand_where_all_of_its_letters_would_float_or_hang_by_their_height() {
         let last: &[_] = &[("6", 1.5), ("7", 3.0), ("8", 1.5), ("9", 0.0), ("0", 1.5)];
-        let rows = [CAPITALS, CAPITALS, CAPITALS, CAPITALS, CAPITALS, last];
-        let [_, stand] = of(&lines, &rows);
-        assert!((stand[5] - lines[5]).abs() < 2.0, "{stand:?}");
+        // closer to the row above, and farther from it, than the others are
+        for foot in [1010.0, 1290.0] {
+            let lines = [100.0, 303.0, 497.0, 702.0, 899.0, foot];
+            let rows = [CAPITALS, CAPITALS, CAPITALS, CAPITALS, CAPITALS, last];
+            let [_, stand] = of(&lines, &rows);
+            assert!((stand[5] - foot).abs() < 2.0, "{stand:?}");
+        }
     }
 }
