@@ -398,6 +398,7 @@ fn pages_and_names_that_do_not_match_name_the_cells_and_write_nothing() {
         ("empty-cells", LETTERS, page(&[1, 3, 5])),
         ("too-few-names", "H o l E e I N", page(&[])),
         ("too-many-names", "H o l E e I N c L x y", page(&[])),
+        ("line-too-short", r"H o l\nE e\nI N c", page(&[])),
         ("unknown-name", "H o l E e I N c beh-ra.init", page(&[])),
         ("blank", LETTERS, png(600, 600, |_, _| 0)),
         ("text", LETTERS, b"no picture".to_vec()),

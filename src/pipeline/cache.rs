@@ -6,6 +6,7 @@
 
 use super::batch::Batch;
 use super::build::{Traced, World};
+use super::labels;
 use super::page::Source;
 use super::project::Project;
 use super::record;
@@ -87,8 +88,9 @@ fn key(
     earlier.matching = <_>::default();
     earlier.output = <_>::default();
     let labels: Vec<&str> = source.labels.iter().map(|l| l.0.as_str()).collect();
+    let lines = labels::lines(source.table, world).map_err(|p| p.to_string())?;
     let picture = world.inputs.digest(image)?;
-    let all = json!([env!("CARGO_PKG_VERSION"), earlier, labels, picture]);
+    let all = json!([env!("CARGO_PKG_VERSION"), earlier, labels, lines, picture]);
     Ok(digest(all.to_string().as_bytes()))
 }
 

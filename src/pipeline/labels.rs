@@ -49,9 +49,20 @@ pub(super) fn of(project: &Project, world: World<'_>) -> Result<Vec<Vec<Label>>,
 
 /// The labels as written.
 pub(super) fn of_sheet(sheet: &SheetTable, world: World<'_>) -> Result<Vec<Label>, Problem> {
+    Ok(labels(&text(sheet, world)?))
+}
+
+/// How many of them stand in each line that has any.
+pub(super) fn lines(sheet: &SheetTable, world: World<'_>) -> Result<Vec<usize>, Problem> {
+    let text = text(sheet, world)?;
+    let lines = text.lines().map(|line| labels(line).len());
+    Ok(lines.filter(|&n| n > 0).collect())
+}
+
+fn text(sheet: &SheetTable, world: World<'_>) -> Result<String, Problem> {
     match &sheet.glyphs {
-        Labels::Text(text) => Ok(labels(text)),
-        Labels::File { file } => Ok(labels(&String::from_utf8_lossy(&world.file(file)?))),
+        Labels::Text(text) => Ok(text.clone()),
+        Labels::File { file } => Ok(String::from_utf8_lossy(&world.file(file)?).into_owned()),
     }
 }
 

@@ -3,14 +3,14 @@
 use super::batch::{self, Batch};
 use super::build::World;
 use super::corrections::Corrections;
-use super::labels::skips;
+use super::labels::{self, skips};
 use super::picture;
 use super::printing::Printing;
 use super::problem::{Place, Problem};
 use super::project::{Cells, Layout, Project, SheetTable};
 use super::watch::Stage;
 use crate::assemble::names;
-use crate::scan::{self, Cut, Grain, Pin, Turn, Warning};
+use crate::scan::{self, Cut, Grain, Options, Pin, Turn, Warning};
 use crate::template::Gain;
 use crate::types::{Cell, Label, Sheet};
 use std::collections::BTreeSet;
@@ -261,7 +261,10 @@ fn read_turned(
         let sheet = table.name();
         Problem::Sheet { sheet, why }
     };
-    let options = table.cut_options(units_per_em).map_err(wrong)?;
+    let options = Options {
+        lines: labels::lines(table, world)?,
+        ..table.cut_options(units_per_em).map_err(wrong)?
+    };
     let cut = |page: scan::Page| {
         let _time = world.watch.enter(Stage::Cut);
         let cut = scan::cut_with(&page, labels, &options, pins).map_err(Problem::from)?;

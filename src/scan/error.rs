@@ -108,6 +108,21 @@ pub enum ScanError {
         /// names given
         names: usize,
     },
+    /// A line of names is longer or shorter than its row of cells, and lines after it are as long as theirs.
+    #[error(
+        "{source_name} has {cells} cells in row {line}, and line {line} of `glyphs` has {names} names, so that the names after it stand in wrong \
+         cells; correct the line, write _ for a cell without a letter, or write all names in one line if lines are no rows"
+    )]
+    Line {
+        /// the file
+        source_name: String,
+        /// from 1
+        line: usize,
+        /// names in it
+        names: usize,
+        /// cells of its row
+        cells: usize,
+    },
     /// Letters and names differ in number.
     #[error(
         "{source_name} has {found} letters in rows of {rows}, and {names} names that do not go with them: {doubts}; correct the \

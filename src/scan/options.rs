@@ -68,4 +68,6 @@ pub struct Options {
     pub ink: Inks,
     /// The size of an em; measured from the letters' usual heights where it is not given.
     pub scale: Option<Scale>,
+    /// How many names stand in each line of their list; nothing where they were not written in lines.
+    pub lines: Vec<usize>,
 }

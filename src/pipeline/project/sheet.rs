@@ -137,7 +137,7 @@ impl SheetTable {
         name == self.name() || (self.layout == Layout::Template && self.image.iter().any(page_of))
     }
 
-    /// How the page is cut, for a font of so many units an em.
+    /// How the page is cut, for a font of so many units an em, the lines of `glyphs` left open.
     ///
     /// # Errors
     /// More than one key says how large the letters are, or the page is a template's, which says so itself.
@@ -173,6 +173,7 @@ impl SheetTable {
             order: self.order,
             ink: self.ink.clone(),
             scale: given.first().map(|(_, scale)| *scale),
+            lines: Vec::new(),
         })
     }
 }

@@ -4,7 +4,7 @@
 //! paper all the same; gaps in a line close at the reduced size at which they are looked for.
 
 use super::rows::rows;
-use super::{Layer, Reason, Slot};
+use super::{Layer, Reason, Slot, listed};
 use crate::numeric::view::View;
 use crate::scan::components::{Component, Run, enclosed};
 use crate::scan::error::ScanError;
@@ -49,6 +49,8 @@ pub(super) fn place(
     if plan.options.direction == Direction::Rtl {
         order.iter_mut().for_each(|r| r.reverse());
     }
+    let rows: Vec<usize> = order.iter().map(Vec::len).collect();
+    listed::check(&plan.options.lines, &rows, plan.source)?;
     let mut rejected = Vec::new();
     let mut inside: Vec<Vec<usize>> = vec![Vec::new(); frames.len()];
     let mut freed = Vec::new();

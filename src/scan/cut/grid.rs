@@ -1,13 +1,13 @@
 //! Equal cells in rows and columns.
 
-use super::{Layer, Reason, Slot, furniture, gap, marks, position, ruling};
+use super::{Layer, Reason, Slot, furniture, gap, listed, marks, position, ruling};
 use crate::numeric::view::View;
 use crate::scan::clean::Page;
 use crate::scan::components::Component;
 use crate::scan::error::ScanError;
 use crate::scan::grid::Axis;
 use crate::scan::letters::{Pieces, Shape};
-use crate::scan::options::Options;
+use crate::scan::options::{Options, Order};
 use crate::types::Label;
 use glyphs_reader::glyphdata::GlyphData;
 use kurbo::Point;
@@ -72,6 +72,14 @@ impl<'a> Plan<'a> {
         (0..self.rows * self.columns).find(|&i| self.place(i) == cell)
     }
 
+    /// How many cells follow each other in a row, or in a column where columns come first.
+    fn lines(&self) -> Vec<usize> {
+        match self.options.order {
+            Order::Rows => vec![self.columns; self.rows],
+            Order::Columns => vec![self.rows; self.columns],
+        }
+    }
+
     fn too_many(&self, labels: &[Label]) -> Result<(), ScanError> {
         let cells = self.rows * self.columns;
         labels.get(cells).map_or(Ok(()), |extra| {
@@ -91,6 +99,7 @@ pub(super) fn place(
     labels: &[Label],
     plan: &Plan<'_>,
 ) -> Result<Layer, ScanError> {
+    listed::check(&plan.options.lines, &plan.lines(), plan.source)?;
     plan.too_many(labels)?;
     let lines = lines(all, plan);
     let is_lined = !lines.is_empty();

@@ -13,6 +13,7 @@ mod guides;
 mod hidden;
 mod joins;
 mod lines;
+mod listed;
 mod marks;
 mod nearest;
 mod odd;
