@@ -2,7 +2,7 @@ use super::{
     SMOOTH,
     bends::tight_bends,
     part::open_part,
-    tips::{ONE_PX, trim},
+    tips::{ONE_PX, is_needle, trim},
     variants::variants,
 };
 use crate::{
@@ -245,6 +245,17 @@ fn sides_that_cross_or_run_on_as_one_end_where_they_part() {
         }
         let longest = ring.nodes.iter().map(|n| n.point.y).fold(0.0, f64::max);
         assert!(!trimmed || longest < 25.4, "{name}: {longest}");
+    }
+}
+
+#[test]
+fn sides_that_run_on_as_one_are_a_needle_also_where_they_bend() {
+    // one side bends over 7 px, the other one over 60
+    let bent = "M0 -20L0 21C0 23.4 1.5 26.1 3.7 27.4C-3.2 24.3 -2 -2.6 -46.9 -2.6L-46.9 -20Z";
+    let tip = "M0 -20L0 21C0 23.4 0.5 26.1 1.7 28.4C-3.2 24.3 -7 -2.6 -46.9 -2.6L-46.9 -20Z";
+    for (path, needle) in [(bent, true), (tip, false)] {
+        let chain = Chain::from_path(&BezPath::from_svg(path).unwrap(), 0.0175).unwrap();
+        assert_eq!(is_needle(&chain, 2), needle, "{path}");
     }
 }
 

@@ -62,9 +62,11 @@ pub(super) fn is_needle(chain: &Chain, i: usize) -> bool {
         return false;
     };
     let at = chain.nodes[i].point;
-    let back = |c: CubicBez| unit(c.eval(1.0 - behind(&c, BEHIND_PX)) - at);
-    let u = back(chain.cubic(before));
-    let v = back(reversed(&chain.cubic(after)));
+    let sides = [chain.cubic(before), reversed(&chain.cubic(after))];
+    let back = |c: &CubicBez, px: f64| c.eval(1.0 - behind(c, px)) - at;
+    // as far back on both: a needle may bend
+    let px = sides.each_ref().map(|c| back(c, BEHIND_PX).hypot());
+    let [u, v] = sides.each_ref().map(|c| unit(back(c, px[0].min(px[1]))));
     u.dot(v) > 0.0 && u.cross(v).abs() < NEEDLE
 }
 
