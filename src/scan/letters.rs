@@ -241,6 +241,14 @@ impl Shape {
 }
 
 impl Shape {
+    /// How many pieces its letter has, as far as its name tells.
+    pub(super) fn parts(&self) -> usize {
+        match self.pieces {
+            Pieces::One | Pieces::Bare | Pieces::Unknown => 1,
+            _ => 1 + self.dots.max(1),
+        }
+    }
+
     /// The same number for Arabic letters that differ by their signs and forms alone.
     pub(super) fn skeleton(&self) -> Option<usize> {
         self.body.map(|b| b / FORMS.len())

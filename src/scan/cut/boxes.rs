@@ -228,5 +228,7 @@ fn name(
         rows: order.len(),
         ruled: true,
         rejected,
+        parted: Vec::new(),
+        doubtful: Vec::new(),
     })
 }

@@ -1,18 +1,22 @@
 //! What is said of a bare page whose letters and names do not agree: how many letters each row has, and where in doubt.
 
 use super::reading::{Reading, Role};
+use super::touching::Touch;
+use super::{Layer, Slot, Warning, touching};
 use crate::scan::error::ScanError;
 
 /// So many places are told; where more are in doubt, it is not one name that was forgotten.
 const TOLD: usize = 3;
 
 /// A page that cannot be read.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub(super) struct Unread {
     /// How many letters each row has.
     rows: Vec<usize>,
     /// Where names and letters part, in reading order.
     doubts: Vec<Doubt>,
+    /// Letters that touch each other: the page can be read when they are parted.
+    pub(super) touching: Vec<Touch>,
 }
 
 /// A place where names and letters part, from 1.
@@ -26,12 +30,17 @@ enum Doubt {
         row: usize,
         letter: usize,
     },
+    /// Letters of so many names that touch.
+    Touching { name: usize, letters: usize },
+    /// All of the page.
+    Unlike,
 }
 
 impl Unread {
-    /// From what a page's pieces were read as, and how many of them each row has.
-    pub(super) fn new(reading: &Reading, lengths: &[usize]) -> Self {
-        let (mut rows, mut doubts) = (vec![0; lengths.len()], Vec::new());
+    /// From what a page's pieces were read as, how many of them each row has, and which are letters that touch.
+    pub(super) fn new(reading: &Reading, lengths: &[usize], touching: Vec<Touch>) -> Self {
+        let unlike = reading.is_unlike().then_some(Doubt::Unlike);
+        let (mut rows, mut doubts) = (vec![0; lengths.len()], Vec::from_iter(unlike));
         let row_of = lengths.iter().enumerate();
         let row_of: Vec<usize> = row_of.flat_map(|(row, &n)| vec![row; n]).collect();
         let mut missing = reading.missing.iter().peekable();
@@ -48,9 +57,17 @@ impl Unread {
             let (Some(role), Some(&row)) = (reading.roles.get(i), row_of.get(i)) else {
                 continue;
             };
-            if matches!(role, Role::Letter(_) | Role::Nameless) {
-                rows[row] += 1;
+            let letters = match role {
+                Role::Letter(_) | Role::Nameless => 1,
+                Role::Touching(_, letters) => *letters,
+                Role::Part | Role::Dirt => 0,
+            };
+            if letters > 0 {
+                rows[row] += letters;
                 last = row;
+            }
+            if let Role::Touching(name, letters) = *role {
+                doubts.push(Doubt::Touching { name, letters });
             }
             if *role == Role::Nameless {
                 doubts.push(Doubt::Nameless {
@@ -59,7 +76,11 @@ impl Unread {
                 });
             }
         }
-        Self { rows, doubts }
+        Self {
+            rows,
+            doubts,
+            touching,
+        }
     }
 
     /// The error of a page that has so many names; `label` says the text of one.
@@ -87,6 +108,16 @@ impl Unread {
                 label(name),
                 place(row)
             ),
+            Doubt::Touching { name, letters } => format!(
+                "“{}” and “{}” seem to touch",
+                label(name),
+                label(name + letters - 1)
+            ),
+            Doubt::Unlike => {
+                "few letters look like their names, as where each is drawn in many pieces; layout = { grid = [rows, columns] } goes by \
+                 places alone"
+                    .to_owned()
+            }
         });
         let mut doubts: Vec<String> = told.collect();
         let more = self.doubts.len() - doubts.len();
@@ -102,4 +133,15 @@ impl Unread {
             doubts: doubts.join(", "),
         }
     }
+}
+
+/// Warns of the letters that were cut off others, and of those whose names are hardly likelier than the ones beside them.
+pub(super) fn warnings(slots: &[&Slot], layer: &Layer) -> Vec<Warning> {
+    let doubtful = slots.iter().filter(|s| layer.doubtful.contains(&s.index));
+    let message =
+        "is this its letter, or one beside it? Its size and dots fit their names nearly as well";
+    let doubtful = doubtful.map(|s| Warning::of(s, message));
+    doubtful
+        .chain(touching::warnings(slots, &layer.parted))
+        .collect()
 }

@@ -6,10 +6,12 @@
 use super::doubts::Unread;
 use super::lines::Lines;
 use super::nearest::{Gathered, gather};
-use super::order::in_rows;
-use super::pieces::{Piece, Usual, pieces, ties, usual_size};
+use super::order::{across, in_rows};
+use super::pieces::{Piece, Tie, Usual, pieces, ties};
 use super::rows::{nearest, rows};
+use super::touching::Touch;
 use super::{Layer, Reason, Slot, stroke_width};
+use crate::numeric::view::View;
 use crate::scan::components::Component;
 use crate::scan::error::ScanError;
 use crate::scan::letters::{Pieces, Shape};
@@ -32,23 +34,22 @@ const MANY: f64 = 0.5;
 /// Pieces of less ink than this share of a usual letter's may be dirt.
 const DIRT: f64 = 0.06;
 
-/// Gathers the ink of a bare page into letters and names them.
+/// What a bare page is read by.
+pub(super) struct Plan<'a> {
+    pub(super) upright: View,
+    /// Ink whose letters a user says.
+    pub(super) claims: &'a [(usize, Vec<usize>)],
+    pub(super) options: &'a Options,
+    pub(super) source: &'a str,
+}
+
+/// Gathers the ink of a bare page into letters and names them. Letters that touch are cut apart in `all`.
 pub(super) fn place(
-    all: &[Component],
+    all: &mut Vec<Component>,
     labels: &[Label],
-    claims: &[(usize, Vec<usize>)],
-    options: &Options,
-    source: &str,
+    plan: &Plan<'_>,
 ) -> Result<Layer, ScanError> {
-    let page = Bare {
-        all,
-        height: usual_height(all),
-        stroke: stroke_width(all),
-        rtl: options.direction == Direction::Rtl,
-    };
-    let claimed = |i: &usize| claims.iter().any(|(_, parts)| parts.contains(i));
-    let free = (0..all.len()).filter(|i| !claimed(i));
-    let (lines, ink): (Vec<usize>, Vec<usize>) = free.partition(|&i| page.is_line(&all[i]));
+    let claims = plan.claims;
     let unclaimed = |index: &usize| claims.iter().all(|(c, _)| c != index);
     let names: Vec<usize> = (0..labels.len()).filter(unclaimed).collect();
     let data = GlyphData::default();
@@ -56,18 +57,70 @@ pub(super) fn place(
     let shape = |&i: &usize| Some(&labels[i]).filter(known).map(|l| Shape::of(l, &data));
     let shapes: Vec<Option<Shape>> = names.iter().map(shape).collect();
     let label = |k: usize| names.get(k).map_or("", |&i| labels[i].0.as_str());
-    let read = page
-        .letters(&ink, &shapes)
-        .map_err(|unread| unread.error(source, names.len(), label))?;
+    let (read, parted) =
+        read(all, &shapes, plan).map_err(|unread| unread.error(plan.source, names.len(), label))?;
+    let doubtful = read.doubtful.iter().map(|&k| names[k]).collect();
     let mut names = names.into_iter();
     let rows = read.rows.into_iter();
     let mut rows: Vec<Row> = rows.map(|row| names.by_ref().zip(row).collect()).collect();
     claims.iter().for_each(|c| seat(all, &mut rows, c));
     rows.sort_by_key(|row| row.iter().map(|l| l.0).min());
     let mut layer = layer(rows, labels);
-    let lines = lines.into_iter().map(|i| (i, Reason::Line));
-    layer.rejected.extend(lines.chain(read.out));
+    layer.rejected.extend(read.out);
+    layer.parted = parted;
+    layer.doubtful = doubtful;
     Ok(layer)
+}
+
+/// A page that was read, and which of its ink was cut off letters that it touched.
+type Parted = (Read, Vec<usize>);
+
+/// Reads a page as it is, or with letters of two rows that seem to touch cut apart, whichever is likelier.
+fn read(
+    all: &mut Vec<Component>,
+    names: &[Option<Shape>],
+    plan: &Plan<'_>,
+) -> Result<Parted, Unread> {
+    let across = Bare::new(all, &[], plan).across(names);
+    if across.is_empty() {
+        return read_beside(all, Vec::new(), names, plan);
+    }
+    let mut other = all.clone();
+    let cut = across
+        .iter()
+        .flat_map(|t| t.part(&mut other, &plan.upright));
+    let cut: Vec<usize> = cut.collect();
+    let whole = read_beside(all, Vec::new(), names, plan);
+    match (whole, read_beside(&mut other, cut, names, plan)) {
+        (Ok(whole), Ok(parted)) if whole.0.cost <= parted.0.cost => Ok(whole),
+        (_, Ok(parted)) => {
+            *all = other;
+            Ok(parted)
+        }
+        (whole, Err(_)) => whole,
+    }
+}
+
+/// Reads a page, and again as long as there are letters of one row that touch and can be cut apart. `parted` is what was cut apart before.
+fn read_beside(
+    all: &mut Vec<Component>,
+    mut parted: Vec<usize>,
+    names: &[Option<Shape>],
+    plan: &Plan<'_>,
+) -> Result<Parted, Unread> {
+    loop {
+        let unread = match Bare::new(all, &parted, plan).letters(names) {
+            Ok(read) => return Ok((read, parted)),
+            Err(unread) => unread,
+        };
+        let before = parted.len();
+        for touch in &unread.touching {
+            parted.extend(touch.part(all, &plan.upright));
+        }
+        if parted.len() == before {
+            return Err(unread);
+        }
+    }
 }
 
 /// The letters of a row, each the number of its name and its ink.
@@ -114,12 +167,20 @@ fn layer(rows: Vec<Row>, labels: &[Label]) -> Layer {
         rows: count,
         ruled: false,
         rejected,
+        parted: Vec::new(),
+        doubtful: Vec::new(),
     }
 }
 
 /// A page as its letters are looked for.
 struct Bare<'a> {
     all: &'a [Component],
+    /// What may be letters.
+    ink: Vec<usize>,
+    /// What is printed lines.
+    lines: Vec<usize>,
+    /// What was cut off letters that it touched.
+    parted: &'a [usize],
     /// Of a usual letter, px.
     height: f64,
     /// Of a usual stroke, px.
@@ -131,40 +192,64 @@ struct Bare<'a> {
 struct Read {
     rows: Vec<Vec<Vec<usize>>>,
     out: Vec<(usize, Reason)>,
+    /// Names that may be other letters'.
+    doubtful: Vec<usize>,
     cost: f64,
 }
 
-impl Bare<'_> {
-    fn is_line(&self, c: &Component) -> bool {
-        let (w, h) = (c.upright.width(), c.upright.height());
-        let (long, thin) = (w.max(h), w.min(h));
-        let line = long > LINE_LENGTH * self.height && thin < LINE_SHAPE * long;
-        line || (long > SCRAP.1 * self.height && thin < SCRAP.0 * self.stroke)
+/// What a page's ink is made of.
+struct Found {
+    pieces: Vec<Piece>,
+    ties: Vec<Vec<Tie>>,
+    rows: Vec<Vec<usize>>,
+    /// Whether each piece may be dirt.
+    dirt: Vec<bool>,
+    usual: Usual,
+}
+
+impl<'a> Bare<'a> {
+    fn new(all: &'a [Component], parted: &'a [usize], plan: &Plan<'_>) -> Self {
+        let (height, stroke) = (usual_height(all), stroke_width(all));
+        let claimed = |i: &usize| plan.claims.iter().any(|(_, parts)| parts.contains(i));
+        let free = (0..all.len()).filter(|i| !claimed(i));
+        let (lines, ink) = free.partition(|&i| is_line(&all[i], height, stroke));
+        Self {
+            all,
+            ink,
+            lines,
+            parted,
+            height,
+            stroke,
+            rtl: plan.options.direction == Direction::Rtl,
+        }
     }
 
     /// Gathers by count alone where most names say nothing of their letters, and reads where that fails or names tell.
-    fn letters(&self, ink: &[usize], names: &[Option<Shape>]) -> Result<Read, Unread> {
+    fn letters(&self, names: &[Option<Shape>]) -> Result<Read, Unread> {
         let known = names.iter().flatten();
         let silent = known.filter(|s| s.pieces == Pieces::Unknown && !s.full);
         let named = names.iter().flatten().count();
         let counted = if 2 * silent.count() > named {
-            self.choose(ink, names, |ink| self.count(ink, names.len()).ok_or(()))
+            self.choose(names, |ink| self.count(ink, names.len()).ok_or(()))
         } else {
             Err(())
         };
-        counted.or_else(|()| self.choose(ink, names, |ink| self.read(ink, names)))
+        let mut read = counted.or_else(|()| self.choose(names, |ink| self.read(ink, names)))?;
+        let lines = self.lines.iter().map(|&i| (i, Reason::Line));
+        read.out.extend(lines);
+        Ok(read)
     }
 
     /// Takes all ink, or leaves out what is drawn with a far thinner pen where that is so much that it must be labels and guides, and the
     /// letters come out likelier.
     fn choose<E>(
         &self,
-        ink: &[usize],
         names: &[Option<Shape>],
         take: impl Fn(&[usize]) -> Result<Read, E>,
     ) -> Result<Read, E> {
-        let whole = take(ink);
-        let (thin, thick): (Vec<usize>, Vec<usize>) = ink
+        let whole = take(&self.ink);
+        let (thin, thick): (Vec<usize>, Vec<usize>) = self
+            .ink
             .iter()
             .partition(|&&i| self.all[i].stroke() < THIN * self.stroke);
         if (thin.len() as f64) < MANY * names.len() as f64 || thick.len() < names.len() {
@@ -197,30 +282,52 @@ impl Bare<'_> {
         (groups.len() == letters).then(|| Read {
             rows: order.iter().map(row).collect(),
             out,
+            doubtful: Vec::new(),
             cost: dearest,
         })
     }
 
-    /// Reads some ink: pieces, rows, and what each piece is.
-    fn read(&self, ink: &[usize], names: &[Option<Shape>]) -> Result<Read, Unread> {
-        let usual = Usual {
-            size: usual_size(self.all, ink, names.len()),
-            stroke: self.stroke,
-        };
-        let found = pieces(self.all, ink, usual);
-        let least = DIRT * usual_area(&found, names.len());
+    /// Letters of two rows that seem to touch.
+    fn across(&self, names: &[Option<Shape>]) -> Vec<Touch> {
+        let found = self.found(&self.ink, names);
+        let across = across(&found.pieces, found.usual).into_iter();
+        let touch = |(i, rows): (usize, _)| Touch::below(found.pieces[i].parts.clone(), rows);
+        across.map(touch).collect()
+    }
+
+    /// What some ink is made of.
+    fn found(&self, ink: &[usize], names: &[Option<Shape>]) -> Found {
+        let letters = names.len();
+        let parts = names.iter().map(|n| n.map_or(1, |shape| shape.parts()));
+        let usual = Usual::of(self.all, ink, letters, self.stroke);
+        let pieces = pieces(self.all, (ink, self.parted), usual, parts.sum());
+        let least = DIRT * usual_area(&pieces, letters);
         let is_dirt = |p: &Piece| p.is_mote(usual) || (p.area as f64) < least;
-        let ties = ties(&found, self.all, usual);
-        let mut rows = in_rows(&found, &ties, usual, |i| is_dirt(&found[i]));
+        let ties = ties(&pieces, self.all, usual);
+        let dirt: Vec<bool> = pieces.iter().map(is_dirt).collect();
+        let mut rows = in_rows(&pieces, &ties, usual, |i| dirt[i]);
         if self.rtl {
             rows.iter_mut().for_each(|r| r.reverse());
         }
-        let lines = Lines::new(&found, &ties, &rows, usual);
-        let dirt: Vec<bool> = lines.pieces.iter().map(|p| is_dirt(p)).collect();
-        let (reading, owners) = lines.read(names, &dirt);
-        if !reading.agrees() {
-            let lengths: Vec<usize> = rows.iter().map(Vec::len).collect();
-            return Err(Unread::new(&reading, &lengths));
+        Found {
+            pieces,
+            ties,
+            rows,
+            dirt,
+            usual,
+        }
+    }
+
+    /// Reads some ink: pieces, rows, and what each piece is.
+    fn read(&self, ink: &[usize], names: &[Option<Shape>]) -> Result<Read, Unread> {
+        let found = self.found(ink, names);
+        let lines = Lines::new(&found.pieces, &found.ties, &found.rows, found.usual);
+        let dirt = found.rows.iter().flatten().map(|&i| found.dirt[i]);
+        let (reading, owners) = lines.read(names, &dirt.collect::<Vec<_>>());
+        let touching = lines.touching(&reading);
+        if !reading.agrees() || !touching.is_empty() {
+            let lengths: Vec<usize> = found.rows.iter().map(Vec::len).collect();
+            return Err(Unread::new(&reading, &lengths, touching));
         }
         let letters = lines.letters(&reading, &owners);
         let mut used = vec![false; self.all.len()];
@@ -230,9 +337,17 @@ impl Bare<'_> {
         Ok(Read {
             out: out.map(|&i| (i, Reason::Dirt)).collect(),
             rows: letters,
+            doubtful: reading.doubtful(),
             cost: reading.cost,
         })
     }
+}
+
+fn is_line(c: &Component, height: f64, stroke: f64) -> bool {
+    let (w, h) = (c.upright.width(), c.upright.height());
+    let (long, thin) = (w.max(h), w.min(h));
+    let line = long > LINE_LENGTH * height && thin < LINE_SHAPE * long;
+    line || (long > SCRAP.1 * height && thin < SCRAP.0 * stroke)
 }
 
 /// The median area of the letters among a page's pieces, px², where it has so many of them.

@@ -149,6 +149,8 @@ pub(super) fn place(
         rows: plan.rows,
         ruled: is_lined,
         rejected,
+        parted: Vec::new(),
+        doubtful: Vec::new(),
     })
 }
 

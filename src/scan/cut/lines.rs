@@ -2,6 +2,7 @@
 
 use super::pieces::{Piece, Tie, Usual};
 use super::reading::{Body, Reading, Role, Seen, align, unwanted};
+use super::touching::Touch;
 use crate::scan::letters::Shape;
 use std::iter;
 
@@ -91,6 +92,16 @@ impl<'a> Lines<'a> {
         (0..roles.len()).filter(is_twin).collect()
     }
 
+    /// The ink of letters that touch.
+    pub(super) fn touching(&self, reading: &Reading) -> Vec<Touch> {
+        let roles = reading.roles.iter().zip(&self.pieces);
+        let several = roles.filter_map(|(role, piece)| match role {
+            Role::Touching(_, n) => Some(Touch::beside(piece.parts.clone(), piece.bounds, *n)),
+            _ => None,
+        });
+        several.collect()
+    }
+
     /// The ink of each name's letter, by rows; `owners` says of which letter each piece is.
     pub(super) fn letters(
         &self,
@@ -119,7 +130,9 @@ impl<'a> Lines<'a> {
             above: false,
             below: false,
             body: bodies[i].map(|b| self.as_body(i, b)),
+            within: bodies[i].is_some_and(|b| self.pieces[b.to].holds(piece)),
             dirt: dirt[i],
+            letters: piece.letters(self.usual),
         };
         let mut seen: Vec<Seen> = self.pieces.iter().enumerate().map(seen).collect();
         for i in 0..seen.len() {
@@ -162,7 +175,7 @@ impl<'a> Lines<'a> {
     /// first, and with the part of which they are parts.
     fn share(&self, roles: &[Role], names: &[Option<Shape>]) -> Vec<Option<usize>> {
         let letter = |role: &Role| match role {
-            Role::Letter(k) => Some(*k),
+            Role::Letter(k) | Role::Touching(k, _) => Some(*k),
             _ => None,
         };
         let mut owners: Vec<Option<usize>> = roles.iter().map(letter).collect();

@@ -25,6 +25,7 @@ mod rows;
 mod ruling;
 mod stance;
 mod strays;
+mod touching;
 mod votes;
 mod window;
 
@@ -203,6 +204,10 @@ struct Layer {
     ruled: bool,
     /// Pieces of ink in no slot.
     rejected: Vec<(usize, Reason)>,
+    /// Pieces of ink that were cut off letters beside them.
+    parted: Vec<usize>,
+    /// Positions in reading order of letters that may be others.
+    doubtful: Vec<usize>,
 }
 
 /// Cuts a clean page into cells: `labels` in reading order, `_` for a cell to be skipped.
@@ -267,7 +272,9 @@ pub fn cut_with(
     warnings.extend(stance.shifted(labels));
     let inked: Vec<&Slot> = layer.slots.iter().filter(|s| !s.parts.is_empty()).collect();
     let picture = Rect::new(0.0, 0.0, gray.width() as f64, gray.height() as f64);
-    warnings.extend(odd::warnings(&inked, &all, picture, freed));
+    let is_freed = |i: usize| freed.contains(&i) && !layer.parted.contains(&i);
+    warnings.extend(odd::warnings(&inked, &all, picture, is_freed));
+    warnings.extend(doubts::warnings(&inked, &layer));
     let baseline = |s: &Slot| s.level + guides.drop[s.row];
     warnings.extend(odd::across(&inked, &all, baseline));
     let empty = layer.slots.iter().filter(|s| s.parts.is_empty());
@@ -288,10 +295,8 @@ pub fn cut_with(
         )
     });
     let cells: Vec<Cell> = cells.collect();
-    let rest = layer
-        .rejected
-        .iter()
-        .map(|&(i, reason)| rejected(&all[i], reason));
+    let rest = layer.rejected.iter();
+    let rest = rest.map(|&(i, reason)| rejected(&all[i], reason));
     let rejected = rest.chain(beside).collect();
     warnings.sort_by_key(|w| w.index);
     Ok(Cut {
@@ -325,7 +330,15 @@ fn placed(
             let plan = grid::Plan::new(page, options, (rows, columns), upright)?;
             grid::place(all, labels, &plan)
         }
-        Layout::Free => free::place(all, labels, claims, options, source),
+        Layout::Free => {
+            let plan = free::Plan {
+                upright,
+                claims,
+                options,
+                source,
+            };
+            free::place(all, labels, &plan)
+        }
         Layout::Boxes => {
             let plan = boxes::Plan {
                 gray: &page.sheet.gray,

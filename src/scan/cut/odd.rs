@@ -6,7 +6,6 @@ use crate::scan::components::Component;
 use crate::scan::letters::Shape;
 use glyphs_reader::glyphdata::GlyphData;
 use kurbo::Rect;
-use std::ops::Range;
 
 /// A letter larger than this many usual letters may be two, or hold a line.
 const LARGE: f64 = 2.5;
@@ -27,12 +26,12 @@ pub fn is_full(c: char) -> bool {
     c.is_alphanumeric() && c != 'ء'
 }
 
-/// Warns of the cells whose ink is odd; the pieces in `freed` were cut off a printed box.
+/// Warns of the cells whose ink is odd; `is_freed` says which pieces were cut off a printed box.
 pub(super) fn warnings(
     slots: &[&Slot],
     all: &[Component],
     picture: Rect,
-    freed: Range<usize>,
+    is_freed: impl Fn(usize) -> bool,
 ) -> Vec<Warning> {
     let bounds = |s: &Slot, of: fn(&Component) -> Rect| {
         let boxes = s.parts.iter().map(|&i| of(&all[i]));
@@ -59,7 +58,7 @@ pub(super) fn warnings(
                 "its ink reaches the picture's edge: scan the whole page",
             ));
         }
-        if slot.parts.iter().any(|i| freed.contains(i)) {
+        if slot.parts.iter().any(|&i| is_freed(i)) {
             out.push(Warning::of(
                 slot,
                 "its ink touches a printed line: what lies along it is left out",

@@ -2,7 +2,9 @@
 
 use super::pieces::{Piece, Tie, Usual};
 use super::rows::rows;
+use crate::numeric::median::median;
 use kurbo::Rect;
+use std::ops::Range;
 
 /// A piece as large as a letter that is so near to a heavier one, in usual sizes, is taken for a part of that while rows are looked for.
 const CLOSE: f64 = 0.2;
@@ -48,6 +50,24 @@ pub(super) fn in_rows(
     }
     order.extend(among(&boxes, &left));
     sorted(order, pieces)
+}
+
+/// Pieces that reach from the middle of one row to that of the next, each with these, upright px: letters of both that touch. On 156 pages no
+/// single letter reached farther than two thirds of the way.
+pub(super) fn across(pieces: &[Piece], usual: Usual) -> Vec<(usize, Range<f64>)> {
+    let boxes: Vec<Rect> = pieces.iter().map(|p| p.bounds).collect();
+    let full = (0..pieces.len()).filter(|&i| pieces[i].full(usual) >= 1.0);
+    // such a piece would make one row of both
+    let (high, some): (Vec<usize>, Vec<usize>) = full.partition(|&i| pieces[i].is_high(usual));
+    let rows = among(&boxes, &some);
+    let middle = |row: &Vec<usize>| median(row.iter().map(|&i| boxes[i].center().y));
+    let middles: Vec<f64> = rows.iter().filter_map(middle).collect();
+    let reach = |i: usize| {
+        let mut two = middles.windows(2);
+        let two = two.find(|m| boxes[i].y0 <= m[0] && boxes[i].y1 >= m[1])?;
+        Some((i, two[0]..two[1]))
+    };
+    high.into_iter().filter_map(reach).collect()
 }
 
 /// Which pieces are letters by their size and place alone.

@@ -293,3 +293,51 @@ fn rows_stand_on_their_line_whatever_hangs_or_has_dots_below() {
         }
     }
 }
+
+/// The cells that are warned of with some words.
+fn warned(cut: &Cut, words: &str) -> Vec<usize> {
+    let about = cut.warnings.iter().filter(|w| w.message.contains(words));
+    about.filter_map(|w| w.index).collect()
+}
+
+#[test]
+fn letters_that_touch_are_cut_apart_and_told() {
+    let rows = [
+        "uni0627 uni062F uni062F uni0644 uni0627 uni062F uni0627 uni062F",
+        "uni062D uni0627 uni0644 uni062D uni0627 uni062D",
+        "uni0644 uni0627 uni062D uni0645.fina uni0644 uni062D uni0627 uni062D",
+        "uni0627 uni062D uni062D uni0627 uni062D uni0644 uni0627",
+    ];
+    let mut paper = page(&rows, 0.0, 0.0);
+    // a stroke from a letter's foot to that of the next one
+    paper.bar(535.0, 94.0, 50.0, 6.0);
+    let cut = cut_page(&paper, &rows.join(" "), &free()).unwrap();
+    assert_eq!(warned(&cut, "touches a letter"), [1, 2]);
+    assert_eq!(cut.cells.len(), 29);
+    let middle = |i: usize| cut.cells[i].in_sheet.center();
+    let [a, b] = [1, 2].map(middle);
+    let apart = (a.x - b.x).abs().max((a.y - b.y).abs());
+    assert!(apart > 50.0, "{a:?} {b:?}");
+}
+
+#[test]
+fn a_letter_drawn_in_pieces_is_one() {
+    let mut paper = page(&ROWS, 0.0, 0.0);
+    for (bar, shade) in std::mem::take(&mut paper.bars) {
+        let (w, h) = (bar.width(), bar.height());
+        let parts = if w.max(h) > 16.0 { 2.0 } else { 1.0 };
+        // 3 px of paper between the parts and before them
+        let long = |all: f64| if all > 16.0 { all / parts - 3.0 } else { all };
+        for k in [0.0, 1.0].into_iter().take_while(|k| *k < parts) {
+            let along = k * w.max(h) / parts + if parts > 1.0 { 3.0 } else { 0.0 };
+            let (x, y) = if w > h { (along, 0.0) } else { (0.0, along) };
+            let at = Rect::from_origin_size((bar.x0 + x, bar.y0 + y), (long(w), long(h)));
+            paper.bars.push((at, shade));
+        }
+    }
+    let cut = cut_page(&paper, &ROWS.join(" "), &free()).unwrap();
+    let names: Vec<&str> = cut.cells.iter().map(|c| c.label.0.as_str()).collect();
+    assert_eq!(names.join(" "), ROWS.join(" "));
+    let alefs = cut.cells.iter().filter(|c| c.label.0 == "uni0627");
+    assert!(alefs.clone().count() > 0 && alefs.clone().all(|c| c.in_sheet.height() > 38.0));
+}
