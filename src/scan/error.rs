@@ -108,10 +108,11 @@ pub enum ScanError {
         /// names given
         names: usize,
     },
-    /// A line of names is longer or shorter than its row of cells, and lines after it are as long as theirs.
+    /// A line of names is longer or shorter than its row of letters, and one after it as long as its own.
     #[error(
-        "{source_name} has {cells} cells in row {line}, and line {line} of `glyphs` has {names} names, so that the names after it stand in wrong \
-         cells; correct the line, write _ for a cell without a letter, or write all names in one line if lines are no rows"
+        "{source_name} has room for {cells} letters in row {line}, and line {line} of `glyphs` has {names} names, so that the names after it are \
+         those of other rows; correct the line, write _ for what is to be skipped, draw letters clear of each other, or write all names in one \
+         line if lines are no rows"
     )]
     Line {
         /// the file

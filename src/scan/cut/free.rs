@@ -10,7 +10,7 @@ use super::order::{across, in_rows};
 use super::pieces::{Piece, Tie, Usual, pieces, ties};
 use super::rows::{nearest, rows};
 use super::touching::Touch;
-use super::{Layer, Reason, Slot, stroke_width};
+use super::{Layer, Reason, Slot, listed, stroke_width};
 use crate::numeric::view::View;
 use crate::scan::components::Component;
 use crate::scan::error::ScanError;
@@ -65,6 +65,8 @@ pub(super) fn place(
     let mut rows: Vec<Row> = rows.map(|row| names.by_ref().zip(row).collect()).collect();
     claims.iter().for_each(|c| seat(all, &mut rows, c));
     rows.sort_by_key(|row| row.iter().map(|l| l.0).min());
+    let counts: Vec<usize> = rows.iter().map(Vec::len).collect();
+    listed::check(&plan.options.lines, &counts, plan.source)?;
     let mut layer = layer(rows, labels);
     layer.rejected.extend(read.out);
     layer.parted = parted;
@@ -303,7 +305,7 @@ impl<'a> Bare<'a> {
         let pieces = pieces(self.all, (ink, self.parted), usual, parts.sum());
         let least = DIRT * usual_area(&pieces, letters);
         let is_dirt = |p: &Piece| p.is_mote(usual) || (p.area as f64) < least;
-        let ties = ties(&pieces, self.all, usual);
+        let ties = ties(&pieces, (self.all, self.parted), usual);
         let dirt: Vec<bool> = pieces.iter().map(is_dirt).collect();
         let mut rows = in_rows(&pieces, &ties, usual, |i| dirt[i]);
         if self.rtl {

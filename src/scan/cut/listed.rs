@@ -5,7 +5,7 @@
 
 use crate::scan::error::ScanError;
 
-/// Checks lines of names, by how many each has, against the cells of each row.
+/// Checks lines of names, by how many each has, against the cells or letters of each row.
 ///
 /// # Errors
 /// Lines are rows, and one that is as long as its row does not begin with it.

@@ -321,6 +321,58 @@ fn letters_that_touch_are_cut_apart_and_told() {
 }
 
 #[test]
+fn letters_of_two_rows_that_touch_are_cut_apart_and_told() {
+    let mut paper = page(&ROWS, 0.0, 0.0);
+    // from the foot of the fifth letter of the third row to that of the one below it
+    let touch = Rect::new(357.0, 318.0, 363.0, 426.0);
+    paper.bars.push((touch, 1.0));
+    let cut = cut_page(&paper, &ROWS.join(" "), &free()).unwrap();
+    let names: Vec<&str> = cut.cells.iter().map(|c| c.label.0.as_str()).collect();
+    assert_eq!(names.join(" "), ROWS.join(" "));
+    let both = [20, 28];
+    assert_eq!(warned(&cut, "touches a letter"), both);
+    for (i, cell) in cut.cells.iter().enumerate() {
+        let (row, column) = if i < 28 { (i / 8, i % 8) } else { (3, i - 24) };
+        let x = 660.0 - PITCH.0 * column as f64;
+        let foot = 100.0 + PITCH.1 * row as f64;
+        let middle = cell.in_sheet.center();
+        assert!((x..x + 45.0).contains(&middle.x), "{i}: {middle:?}");
+        assert!(
+            (foot - 60.0..foot + 45.0).contains(&middle.y),
+            "{i}: {middle:?}"
+        );
+    }
+}
+
+#[test]
+fn a_line_of_names_that_is_no_row_is_told() {
+    let rows = [ROWS[0], ROWS[1], ROWS[2], ROWS[3], ROWS[0]];
+    let paper = page(&rows, 0.0, 0.0);
+    let names = |lines: &[usize]| Options {
+        lines: lines.to_vec(),
+        ..free()
+    };
+    let cut = |lines: &[usize]| cut_page(&paper, &rows.join(" "), &names(lines));
+    // as the rows are, and wrapped anywhere
+    for lines in [&[8, 8, 8, 7, 8][..], &[16, 16, 7]] {
+        assert_eq!(cut(lines).map(|c| c.cells.len()), Ok(39), "{lines:?}");
+    }
+    let error = cut(&[8, 7, 8, 8, 8]).map(|c| c.cells.len()).unwrap_err();
+    assert!(
+        matches!(
+            error,
+            ScanError::Line {
+                line: 2,
+                names: 7,
+                cells: 8,
+                ..
+            }
+        ),
+        "{error}"
+    );
+}
+
+#[test]
 fn a_letter_drawn_in_pieces_is_one() {
     let mut paper = page(&ROWS, 0.0, 0.0);
     for (bar, shade) in std::mem::take(&mut paper.bars) {
