@@ -305,7 +305,7 @@ impl<'a> Bare<'a> {
         let pieces = pieces(self.all, (ink, self.parted), usual, parts.sum());
         let least = DIRT * usual_area(&pieces, letters);
         let is_dirt = |p: &Piece| p.is_mote(usual) || (p.area as f64) < least;
-        let ties = ties(&pieces, (self.all, self.parted), usual);
+        let ties = ties(&pieces, self.all, usual);
         let dirt: Vec<bool> = pieces.iter().map(is_dirt).collect();
         let mut rows = in_rows(&pieces, &ties, usual, |i| dirt[i]);
         if self.rtl {

@@ -236,22 +236,14 @@ fn root(of: &[usize], mut i: usize) -> usize {
     i
 }
 
-/// For each piece those that are not clearly less than it and of which it may be a part: letters that were `parted` are none of each
-/// other.
-pub(super) fn ties(
-    pieces: &[Piece],
-    (all, parted): (&[Component], &[usize]),
-    usual: Usual,
-) -> Vec<Vec<Tie>> {
-    let is_parted = |p: &Piece| p.parts.iter().any(|i| parted.contains(i));
-    let letter = |p: &Piece| p.full(usual) > 0.0 && is_parted(p);
-    let cut: Vec<bool> = pieces.iter().map(letter).collect();
+/// For each piece those that are not clearly less than it and of which it may be a part.
+pub(super) fn ties(pieces: &[Piece], all: &[Component], usual: Usual) -> Vec<Vec<Tie>> {
     let boxes: Vec<Rect> = pieces.iter().map(|p| p.bounds).collect();
     let mut ties: Vec<Vec<Tie>> = vec![Vec::new(); pieces.len()];
     let reach = (REACH * usual.size).max(BESIDE * usual.stroke);
     for (i, j) in close(&boxes, reach) {
         for (part, to) in [(i, j), (j, i)] {
-            if !(pieces[to].is_smaller(&pieces[part]) || cut[part] && cut[to]) {
+            if !pieces[to].is_smaller(&pieces[part]) {
                 let off = pieces[part].off(&pieces[to], all, usual);
                 ties[part].extend(off.map(|off| Tie { to, off }));
             }

@@ -331,6 +331,9 @@ fn letters_of_two_rows_that_touch_are_cut_apart_and_told() {
     assert_eq!(names.join(" "), ROWS.join(" "));
     let both = [20, 28];
     assert_eq!(warned(&cut, "touches a letter"), both);
+    // neither is a part of the other where a name is missing
+    let forgotten = ROWS.join(" ").replace("uni0621 uni0627", "uni0621");
+    assert!(cut_page(&paper, &forgotten, &free()).is_err());
     for (i, cell) in cut.cells.iter().enumerate() {
         let (row, column) = if i < 28 { (i / 8, i % 8) } else { (3, i - 24) };
         let x = 660.0 - PITCH.0 * column as f64;
