@@ -2,6 +2,7 @@
 
 use super::pieces::{Piece, Tie, Usual};
 use super::reading::{Body, Reading, Role, Seen, align, unwanted};
+use super::rows::beside;
 use super::touching::Touch;
 use crate::scan::letters::Shape;
 use std::iter;
@@ -55,12 +56,13 @@ impl<'a> Lines<'a> {
             let reading = align(&seen, names);
             let owners = self.share(&reading.roles, names);
             let mut wrong = self.lost(&reading.roles, &owners, dirt);
-            let twins = self.twins(&reading.roles, &bodies);
-            if !reading.agrees() || (wrong.is_empty() && twins.is_empty()) {
+            let mut others = self.twins(&reading.roles, &bodies);
+            others.extend(self.standing(&reading.roles, &bodies));
+            if !reading.agrees() || (wrong.is_empty() && others.is_empty()) {
                 return (reading, owners);
             }
             wrong.iter().for_each(|&i| bodies[i] = None);
-            for i in twins {
+            for i in others {
                 bodies[i] = bodies[i].and_then(|b| self.next_body(i, Some(b)));
                 wrong.push(i);
             }
@@ -90,6 +92,26 @@ impl<'a> Lines<'a> {
             other.is_some() && self.pieces[*i].full(self.usual) > 0.0
         };
         (0..roles.len()).filter(is_twin).collect()
+    }
+
+    /// Parts of letters in other rows that are like letters and stand beside those of their own row: where a name was forgotten, a letter
+    /// under another one's tail is likelier its part than one without a name.
+    fn standing(&self, roles: &[Role], bodies: &[Option<Tie>]) -> Vec<usize> {
+        let is_letter = |j: usize| matches!(roles[j], Role::Letter(_) | Role::Touching(..));
+        let stands = |i: usize| {
+            let own = |j: &usize| self.row[*j] == self.row[i] && is_letter(*j);
+            let next = [(0..i).rev().find(own), (i + 1..roles.len()).find(own)];
+            let mut next = next.into_iter().flatten();
+            next.any(|j| beside(&self.pieces[i].bounds, &self.pieces[j].bounds))
+        };
+        let astray = |i: usize| bodies[i].is_some_and(|b| self.row[b.to] != self.row[i]);
+        let is_standing = |&i: &usize| {
+            roles[i] == Role::Part
+                && astray(i)
+                && self.pieces[i].is_likely(self.usual)
+                && stands(i)
+        };
+        (0..roles.len()).filter(is_standing).collect()
     }
 
     /// The ink of letters that touch.

@@ -10,6 +10,8 @@ const TORN: f64 = 0.35;
 const LEAST_TORN: f64 = 1.5;
 /// Sizes of dots and signs end at the first, those of full letters begin at the second, in usual letters' sizes.
 const FULL: (f64, f64) = (0.35, 0.6);
+/// A piece is likelier a letter than a sign if it is so much of a full one.
+const LIKELY: f64 = 0.5;
 /// Pieces below this share of a usual letter's size may be dirt.
 const MOTE: f64 = 0.2;
 /// What a piece's width counts beside its height: signs over letters are wide and low.
@@ -92,6 +94,11 @@ impl Piece {
     pub(super) fn full(&self, usual: Usual) -> f64 {
         let size = self.size / usual.size;
         ((size - FULL.0) / (FULL.1 - FULL.0)).clamp(0.0, 1.0)
+    }
+
+    /// Whether it is likelier a letter than a sign by its size.
+    pub(super) fn is_likely(&self, usual: Usual) -> bool {
+        self.full(usual) >= LIKELY
     }
 
     /// How many letters that touch each other it may be by its width.

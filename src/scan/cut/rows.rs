@@ -60,7 +60,8 @@ pub(super) fn rows(boxes: &[Rect]) -> Vec<Vec<usize>> {
     rows
 }
 
-fn beside(a: &Rect, b: &Rect) -> bool {
+/// Whether two boxes stand side by side.
+pub(super) fn beside(a: &Rect, b: &Rect) -> bool {
     a.y1.min(b.y1) - a.y0.max(b.y0) >= BESIDE * a.height().min(b.height())
 }
 
