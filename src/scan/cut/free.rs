@@ -301,8 +301,12 @@ impl<'a> Bare<'a> {
     fn found(&self, ink: &[usize], names: &[Option<Shape>]) -> Found {
         let letters = names.len();
         let parts = names.iter().map(|n| n.map_or(1, |shape| shape.parts()));
-        let usual = Usual::of(self.all, ink, letters, self.stroke);
-        let pieces = pieces(self.all, (ink, self.parted), usual, parts.sum());
+        let (pieces, usual) = pieces(
+            self.all,
+            (ink, self.parted),
+            self.stroke,
+            (letters, parts.sum()),
+        );
         let least = DIRT * usual_area(&pieces, letters);
         let is_dirt = |p: &Piece| p.is_mote(usual) || (p.area as f64) < least;
         let ties = ties(&pieces, self.all, usual);

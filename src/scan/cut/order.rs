@@ -8,6 +8,8 @@ use std::ops::Range;
 
 /// A piece as large as a letter that is so near to a heavier one, in usual sizes, is taken for a part of that while rows are looked for.
 const CLOSE: f64 = 0.2;
+/// A piece that has no heavier one beside it is a letter if it is so much of a full one.
+const LIKELY: f64 = 0.5;
 /// What is smaller than a letter belongs to a row within this share of a usual letter's size.
 const REACH: f64 = 0.75;
 
@@ -79,9 +81,9 @@ impl Letters {
     fn new(pieces: &[Piece], ties: &[Vec<Tie>], usual: Usual) -> Self {
         let all = 0..pieces.len();
         let body: Vec<Option<Tie>> = all.map(|i| heavier(pieces, ties, i)).collect();
-        let is_letter = |(piece, body): (&Piece, &Option<Tie>)| match body {
-            None => piece.is_likely(usual),
-            Some(body) => piece.full(usual) >= 1.0 && body.off >= CLOSE,
+        let is_letter = |(piece, body): (&Piece, &Option<Tie>)| match (piece.full(usual), body) {
+            (full, None) => full >= LIKELY,
+            (full, Some(body)) => full >= 1.0 && body.off >= CLOSE,
         };
         Self {
             is_letter: pieces.iter().zip(&body).map(is_letter).collect(),

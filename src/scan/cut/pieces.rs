@@ -10,8 +10,8 @@ const TORN: f64 = 0.35;
 const LEAST_TORN: f64 = 1.5;
 /// Sizes of dots and signs end at the first, those of full letters begin at the second, in usual letters' sizes.
 const FULL: (f64, f64) = (0.35, 0.6);
-/// A piece is likelier a letter than a sign if it is so much of a full one.
-const LIKELY: f64 = 0.5;
+/// No sign has so much of a usual letter's size: a hamza has 0.63 at most.
+const NO_SIGN: f64 = 0.7;
 /// Pieces below this share of a usual letter's size may be dirt.
 const MOTE: f64 = 0.2;
 /// What a piece's width counts beside its height: signs over letters are wide and low.
@@ -79,15 +79,22 @@ pub(super) struct Tie {
 impl Piece {
     fn of(parts: Vec<usize>, all: &[Component], usual: Usual) -> Option<Self> {
         let boxes = parts.iter().map(|&i| all[i].upright);
-        let bounds = boxes.clone().reduce(|a, b| a.union(b))?;
-        let largest = boxes.map(size).fold(0.0, f64::max);
-        let dots = largest < FULL.0 * usual.size;
-        Some(Self {
+        let mut piece = Self {
             area: parts.iter().map(|&i| all[i].area).max()?,
-            size: if dots { largest } else { size(bounds) },
+            size: 0.0,
+            bounds: boxes.reduce(|a, b| a.union(b))?,
             parts,
-            bounds,
-        })
+        };
+        piece.measure(all, usual);
+        Some(piece)
+    }
+
+    /// Sets its size.
+    fn measure(&mut self, all: &[Component], usual: Usual) {
+        let sizes = self.parts.iter().map(|&i| size(all[i].upright));
+        let largest = sizes.fold(0.0, f64::max);
+        let dots = largest < FULL.0 * usual.size;
+        self.size = if dots { largest } else { size(self.bounds) };
     }
 
     /// How much of a full letter it is by its size: 0 for dots, 1 for letters.
@@ -96,9 +103,9 @@ impl Piece {
         ((size - FULL.0) / (FULL.1 - FULL.0)).clamp(0.0, 1.0)
     }
 
-    /// Whether it is likelier a letter than a sign by its size.
-    pub(super) fn is_likely(&self, usual: Usual) -> bool {
-        self.full(usual) >= LIKELY
+    /// Whether it is too large for a sign.
+    pub(super) fn is_large(&self, usual: Usual) -> bool {
+        self.size > NO_SIGN * usual.size
     }
 
     /// How many letters that touch each other it may be by its width.
@@ -173,10 +180,10 @@ fn size(r: Rect) -> f64 {
 }
 
 impl Usual {
-    /// Of so many letters among a page's ink, whose strokes are so wide, px.
-    pub(super) fn of(all: &[Component], ink: &[usize], letters: usize, stroke: f64) -> Self {
+    /// Of so many letters among the boxes of a page's ink, whose strokes are so wide, px.
+    pub(super) fn of(boxes: &[Rect], letters: usize, stroke: f64) -> Self {
         let quantile = |of: fn(Rect) -> f64, share: f64| {
-            let mut sizes: Vec<f64> = ink.iter().map(|&i| of(all[i].upright)).collect();
+            let mut sizes: Vec<f64> = boxes.iter().map(|&b| of(b)).collect();
             sizes.sort_by(|a, b| b.total_cmp(a));
             let at = sizes.get(floor(share * letters as f64)).or(sizes.last());
             at.map_or(1.0, |s| s.max(1.0))
@@ -190,26 +197,31 @@ impl Usual {
     }
 }
 
-/// Joins what is surely one, and nothing that was `parted`. Where far more is left than the `parts` that a page's names have, its letters are
-/// drawn in pieces, and what lies nearest is joined until no more are left than that.
+/// Joins what is surely one, and nothing that was `parted`. Where far more is left than the `parts` that the names of so many `letters` have, each
+/// is drawn in pieces, and what lies nearest is joined until no more are left than that.
 pub(super) fn pieces(
     all: &[Component],
     (ink, parted): (&[usize], &[usize]),
-    usual: Usual,
-    parts: usize,
-) -> Vec<Piece> {
+    stroke: f64,
+    (letters, parts): (usize, usize),
+) -> (Vec<Piece>, Usual) {
     let is_apart = |i: usize, j: usize| parted.contains(&i) && parted.contains(&j);
-    let mut reach = (TORN * usual.stroke).max(LEAST_TORN);
+    let boxes: Vec<Rect> = ink.iter().map(|&i| all[i].upright).collect();
+    let mut usual = Usual::of(&boxes, letters, stroke);
+    let mut reach = (TORN * stroke).max(LEAST_TORN);
     let torn = |i: usize, j: usize| is_one(&all[i], &all[j], reach) && !is_apart(i, j);
     let mut found = joined(all, ink, usual, (reach, &torn));
-    let count = |found: &[Piece]| found.iter().filter(|p| !p.is_mote(usual)).count();
-    let in_pieces = count(&found) as f64 > MANY * parts as f64;
-    while in_pieces && count(&found) > parts && reach < usual.size {
+    let count = |found: &[Piece], usual| found.iter().filter(|p| !p.is_mote(usual)).count();
+    let in_pieces = count(&found, usual) as f64 > MANY * parts as f64;
+    while in_pieces && count(&found, usual) > parts && reach < usual.size {
         reach *= FARTHER;
         let near = |i: usize, j: usize| all[i].is_near(&all[j], reach) && !is_apart(i, j);
         found = joined(all, ink, usual, (reach, &near));
+        let boxes: Vec<Rect> = found.iter().map(|p| p.bounds).collect();
+        usual = Usual::of(&boxes, letters, stroke);
     }
-    found
+    found.iter_mut().for_each(|p| p.measure(all, usual));
+    (found, usual)
 }
 
 /// Joins pieces of ink that are `one` and less than `reach` px apart.

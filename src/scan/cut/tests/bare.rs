@@ -218,6 +218,36 @@ fn a_forgotten_name_is_told() {
     );
 }
 
+/// A letter below one that hangs is no part of that, which would hide the name that is missing.
+#[test]
+fn a_letter_under_a_tail_hides_no_forgotten_name() {
+    let rows = [
+        "uni062F uni0644 uni0627 uni062F uni0645 uni062F",
+        "uni0644 uni062F uni062F uni0627 uni062F uni0627",
+        "uni0645 uni0644 uni062F uni0627 uni0644 uni062F",
+        // alone in its row
+        "uni062F",
+    ];
+    let mut paper = Paper::new(600, 400, 0.0);
+    for (row, names) in (0u32..).zip(rows) {
+        for (i, name) in (0u32..).zip(names.split(' ')) {
+            let x = 500.0 - PITCH.0 * f64::from(i);
+            draw(&mut paper, name, x, 100.0 + 68.0 * f64::from(row));
+        }
+    }
+    let all = rows.join(" ");
+    assert_eq!(cut_page(&paper, &all, &free()).unwrap().cells.len(), 19);
+    for forgotten in 0..19 {
+        let mut names: Vec<&str> = all.split(' ').collect();
+        names.remove(forgotten);
+        let told = cut_page(&paper, &names.join(" "), &free());
+        assert!(
+            matches!(told, Err(ScanError::Count { .. })),
+            "{forgotten} of {all}"
+        );
+    }
+}
+
 #[test]
 fn letters_whose_place_is_said_stand_in_the_rows_of_their_neighbours() {
     let all: Vec<&str> = ROWS.iter().flat_map(|r| r.split(' ')).collect();
