@@ -338,12 +338,14 @@ fn a_page_on_its_side_or_head_is_turned() {
                 let fine = at(0) >= x && at(2) <= x + 150.0 && at(1) >= y && at(3) <= y + 150.0;
                 assert!(fine, "{layout}, {turn}, cell {i}: {cell}");
             }
-            let said = list[0]["warnings"].to_string();
-            assert_eq!(
-                said.contains(&format!("turn = {turn},")),
-                turn != 0,
-                "{said}"
-            );
+            let listed = list[0]["warnings"].to_string();
+            for said in [listed, String::from_utf8_lossy(&out.stderr).into_owned()] {
+                assert_eq!(
+                    said.contains(&format!("turn = {turn},")),
+                    turn != 0,
+                    "{said}"
+                );
+            }
         }
     }
 }

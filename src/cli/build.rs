@@ -6,7 +6,7 @@ use super::failure::Failure;
 use super::progress::Times;
 use super::project::{Opened, created};
 use super::staged::{self, Staged};
-use super::{Common, Outcome, files, keep, sarif};
+use super::{Common, Outcome, cut, files, keep, sarif};
 use clap::Args;
 use khatt::pipeline::{self, Built, Outputs, Report, Stage, Store, digest};
 use khatt::types::Files;
@@ -283,10 +283,7 @@ fn remarks(built: &Built) -> String {
     let mut lines: Vec<String> = notes
         .map(|n| format!("note: {}: {}\n", n.glyph, n.message))
         .collect();
-    for page in &built.pages {
-        let warnings = page.cut.warnings.iter();
-        lines.extend(warnings.map(|w| format!("warning: {}, {w}\n", page.name)));
-    }
+    lines.extend(built.pages.iter().map(cut::warnings));
     lines.extend(built.doubts.iter().map(|d| format!("warning: {d}\n")));
     lines.concat()
 }

@@ -7,6 +7,7 @@ use super::{Common, Outcome};
 use clap::Args;
 use khatt::pipeline::project::{CellTable, Cells, Layout};
 use khatt::pipeline::{self, Page};
+use khatt::scan::Warning;
 use khatt::types::{Cell, Files, Png};
 use kurbo::Rect;
 use serde_json::{Value, json};
@@ -38,11 +39,13 @@ impl Cut {
             pipeline::pages(project, world, |page| {
                 let table = project.sheets.get(page.table);
                 let layout = table.map(|t| t.layout);
-                Ok((entry(&page), found(&page, layout)))
+                Ok((entry(&page), found(&page, layout), warnings(&page)))
             })
         })?;
         let (mut files, mut list, mut cells) = (Files::default(), Vec::new(), Cells::new());
-        for ((pictures, entry), found) in pages {
+        let mut said = String::new();
+        for ((pictures, entry), found, warnings) in pages {
+            said.push_str(&warnings);
             files.0.extend(pictures);
             list.push(entry);
             cells.extend(found);
@@ -58,7 +61,11 @@ impl Cut {
             let text = format!("{HEAD}{tables}");
             staged.add(path, &Files::single(text.into_bytes()))?;
         }
-        staged.commit()
+        staged.commit()?;
+        if !common.quiet {
+            eprint!("{said}");
+        }
+        Ok(())
     }
 }
 
@@ -69,6 +76,13 @@ const HEAD: &str = "\
 # rotation (degrees clockwise), baseline_shift (font units upwards), threshold (0.1 to 0.9), ignore = true, trace.
 
 ";
+
+/// What to look at on a page, a line each.
+pub(super) fn warnings(page: &Page) -> String {
+    let warnings = page.cut.warnings.iter();
+    let line = |w: &Warning| format!("warning: {}, {w}\n", page.name);
+    warnings.map(line).collect()
+}
 
 /// Where a page's letters were found; a template's page says that itself.
 fn found(page: &Page, layout: Option<Layout>) -> Cells {

@@ -7,7 +7,7 @@ use super::doubts::Unread;
 use super::lines::Lines;
 use super::nearest::{Gathered, gather};
 use super::order::{across, in_rows};
-use super::pieces::{Piece, Tie, Usual, pieces, ties};
+use super::pieces::{Joined, Piece, Tie, Usual, pieces, ties};
 use super::rows::{nearest, rows};
 use super::touching::Touch;
 use super::{Layer, Reason, Slot, listed, stroke_width};
@@ -31,6 +31,8 @@ const SCRAP: (f64, f64) = (0.2, 0.3);
 const THIN: f64 = 0.4;
 /// Pieces of such thin ink at least, for each name: labels stand beside every letter.
 const MANY: f64 = 0.5;
+/// Cost of a piece that was joined though it is not surely one: labels that were joined to letters look like letters in pieces.
+const SCATTERED: f64 = 0.5;
 /// Pieces of less ink than this share of a usual letter's may be dirt.
 const DIRT: f64 = 0.06;
 
@@ -207,6 +209,8 @@ struct Found {
     /// Whether each piece may be dirt.
     dirt: Vec<bool>,
     usual: Usual,
+    /// How many pieces were joined that are not surely one.
+    scattered: usize,
 }
 
 impl<'a> Bare<'a> {
@@ -301,7 +305,11 @@ impl<'a> Bare<'a> {
     fn found(&self, ink: &[usize], names: &[Option<Shape>]) -> Found {
         let letters = names.len();
         let parts = names.iter().map(|n| n.map_or(1, |shape| shape.parts()));
-        let (pieces, usual) = pieces(
+        let Joined {
+            pieces,
+            usual,
+            scattered,
+        } = pieces(
             self.all,
             (ink, self.parted),
             self.stroke,
@@ -321,6 +329,7 @@ impl<'a> Bare<'a> {
             rows,
             dirt,
             usual,
+            scattered,
         }
     }
 
@@ -344,7 +353,7 @@ impl<'a> Bare<'a> {
             out: out.map(|&i| (i, Reason::Dirt)).collect(),
             rows: letters,
             doubtful: reading.doubtful(),
-            cost: reading.cost,
+            cost: reading.cost + SCATTERED * found.scattered as f64,
         })
     }
 }

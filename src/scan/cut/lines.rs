@@ -108,7 +108,10 @@ impl<'a> Lines<'a> {
         let is_standing = |&i: &usize| {
             let piece = self.pieces[i];
             let is_some = piece.full(self.usual) > 0.0;
-            roles[i] == Role::Part && astray(i) && is_some && (piece.is_large(self.usual) || stands(i))
+            roles[i] == Role::Part
+                && astray(i)
+                && is_some
+                && (piece.is_large(self.usual) || stands(i))
         };
         (0..roles.len()).filter(is_standing).collect()
     }

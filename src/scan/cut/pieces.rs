@@ -66,6 +66,14 @@ pub(super) struct Piece {
     size: f64,
 }
 
+/// A page's ink as it is read.
+pub(super) struct Joined {
+    pub(super) pieces: Vec<Piece>,
+    pub(super) usual: Usual,
+    /// How many pieces were joined that are not surely one.
+    pub(super) scattered: usize,
+}
+
 /// A piece that another one may be a part of.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Tie {
@@ -204,7 +212,7 @@ pub(super) fn pieces(
     (ink, parted): (&[usize], &[usize]),
     stroke: f64,
     (letters, parts): (usize, usize),
-) -> (Vec<Piece>, Usual) {
+) -> Joined {
     let is_apart = |i: usize, j: usize| parted.contains(&i) && parted.contains(&j);
     let boxes: Vec<Rect> = ink.iter().map(|&i| all[i].upright).collect();
     let mut usual = Usual::of(&boxes, letters, stroke);
@@ -212,6 +220,7 @@ pub(super) fn pieces(
     let torn = |i: usize, j: usize| is_one(&all[i], &all[j], reach) && !is_apart(i, j);
     let mut found = joined(all, ink, usual, (reach, &torn));
     let count = |found: &[Piece], usual| found.iter().filter(|p| !p.is_mote(usual)).count();
+    let sure = found.len();
     let in_pieces = count(&found, usual) as f64 > MANY * parts as f64;
     while in_pieces && count(&found, usual) > parts && reach < usual.size {
         reach *= FARTHER;
@@ -221,7 +230,11 @@ pub(super) fn pieces(
         usual = Usual::of(&boxes, letters, stroke);
     }
     found.iter_mut().for_each(|p| p.measure(all, usual));
-    (found, usual)
+    Joined {
+        scattered: sure - found.len(),
+        pieces: found,
+        usual,
+    }
 }
 
 /// Joins pieces of ink that are `one` and less than `reach` px apart.
