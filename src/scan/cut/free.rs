@@ -31,8 +31,8 @@ const SCRAP: (f64, f64) = (0.2, 0.3);
 const THIN: f64 = 0.4;
 /// Pieces of such thin ink at least, for each name: labels stand beside every letter.
 const MANY: f64 = 0.5;
-/// Cost of a piece that was joined though it is not surely one: labels that were joined to letters look like letters in pieces.
-const SCATTERED: f64 = 0.5;
+/// Labels are so many times as many pieces as those of the letters beside them at least, where both are joined.
+const FEWER: usize = 2;
 /// Pieces of less ink than this share of a usual letter's may be dirt.
 const DIRT: f64 = 0.06;
 
@@ -199,6 +199,15 @@ struct Read {
     /// Names that may be other letters'.
     doubtful: Vec<usize>,
     cost: f64,
+    /// How many pieces were joined that are not surely one.
+    scattered: usize,
+}
+
+impl Read {
+    /// Whether another reading is worse: labels that were joined to letters look like letters in pieces.
+    fn is_better(&self, other: &Self) -> bool {
+        self.cost < other.cost || other.scattered > 0 && other.scattered >= FEWER * self.scattered
+    }
 }
 
 /// What a page's ink is made of.
@@ -247,7 +256,7 @@ impl<'a> Bare<'a> {
     }
 
     /// Takes all ink, or leaves out what is drawn with a far thinner pen where that is so much that it must be labels and guides, and the
-    /// letters come out likelier.
+    /// letters come out likelier or in far fewer pieces.
     fn choose<E>(
         &self,
         names: &[Option<Shape>],
@@ -262,7 +271,7 @@ impl<'a> Bare<'a> {
             return whole;
         }
         match (whole, take(&thick)) {
-            (Ok(whole), Ok(part)) if whole.cost <= part.cost => Ok(whole),
+            (Ok(whole), Ok(part)) if !part.is_better(&whole) => Ok(whole),
             (_, Ok(mut part)) => {
                 part.out.extend(thin.into_iter().map(|i| (i, Reason::Thin)));
                 Ok(part)
@@ -290,6 +299,7 @@ impl<'a> Bare<'a> {
             out,
             doubtful: Vec::new(),
             cost: dearest,
+            scattered: 0,
         })
     }
 
@@ -353,7 +363,8 @@ impl<'a> Bare<'a> {
             out: out.map(|&i| (i, Reason::Dirt)).collect(),
             rows: letters,
             doubtful: reading.doubtful(),
-            cost: reading.cost + SCATTERED * found.scattered as f64,
+            cost: reading.cost,
+            scattered: found.scattered,
         })
     }
 }
