@@ -151,6 +151,8 @@ impl<'a> Lines<'a> {
     fn seen(&self, bodies: &[Option<Tie>], dirt: &[bool]) -> Vec<Seen> {
         let seen = |(i, piece): (usize, &&Piece)| Seen {
             full: piece.full(self.usual),
+            slight: piece.is_mote(self.usual)
+                || piece.full(self.usual) <= 0.0 && bodies[i].is_some(),
             above: false,
             below: false,
             body: bodies[i].map(|b| self.as_body(i, b)),

@@ -8,6 +8,9 @@ use crate::scan::letters::{Pieces, Shape};
 
 /// Cost of a piece as small as a dot for the name of a letter or a figure, and for any other name: commas are small.
 const SIZE: (f64, f64) = (1.2, 0.5);
+/// Cost of a speck, or of a dot without signs beside a letter, for the name of a letter, a figure or what has a sign itself: more than that of a
+/// name without a letter and a part together.
+const SLIGHT: f64 = 3.5;
 /// Cost of a letter without the dots that its name has, and of one with signs where its name has none.
 const SIGNS: (f64, f64) = (0.6, 0.3);
 /// Cost of a part that lies by a usual letter's size away from its body.
@@ -40,6 +43,8 @@ const UNLIKE: f64 = 0.6;
 pub(super) struct Seen {
     /// How much of a full letter it is by its size, 0 to 1.
     pub(super) full: f64,
+    /// Whether it is less than a dot, or as small as one and beside a letter.
+    pub(super) slight: bool,
     /// Whether smaller pieces lie over it.
     pub(super) above: bool,
     /// Whether smaller pieces lie below it.
@@ -271,7 +276,16 @@ fn odd(piece: &Seen) -> f64 {
 
 /// How badly a piece stands for a name.
 fn misfit(piece: &Seen, shape: &Shape) -> f64 {
-    let size = if shape.full { SIZE.0 } else { SIZE.1 };
+    let signed = matches!(
+        shape.pieces,
+        Pieces::DotAbove | Pieces::DotBelow | Pieces::Marked
+    );
+    let bare = !piece.above && !piece.below;
+    let size = match shape.full {
+        full if piece.slight && bare && (full || signed) => SLIGHT,
+        true => SIZE.0,
+        false => SIZE.1,
+    };
     let sign = |seen: bool, wanted: bool| match (seen, wanted) {
         (false, true) => SIGNS.0,
         (true, false) => SIGNS.1,
@@ -316,6 +330,7 @@ mod tests {
     fn letter() -> Seen {
         Seen {
             full: 1.0,
+            slight: false,
             above: false,
             below: false,
             body: None,
@@ -476,6 +491,22 @@ mod tests {
         let reading = align(&pieces, &shapes("uni0646 uni062E uni0634 uni0646"));
         assert!(reading.missing.is_empty() && !reading.agrees());
         assert!(align(&[letter(); 4], &shapes("uni0646 uni062E uni0634 uni0646")).agrees());
+    }
+
+    #[test]
+    fn a_dot_beside_a_letter_has_no_letters_name() {
+        // noon and its dot, dal; the names have a letter more
+        let dot = Seen {
+            slight: true,
+            ..sign(0.0, true)
+        };
+        let pieces = [under_signs(), dot, letter()];
+        let reading = align(&pieces, &shapes("uni0646 uni0645 uni062F"));
+        assert_eq!(reading.roles[1], Role::Part);
+        assert_eq!(reading.missing.len(), 1);
+        // a comma is as small
+        let comma = align(&[letter(), dot], &shapes("uni062F uni060C"));
+        assert_eq!(comma.roles[1], Role::Letter(1));
     }
 
     #[test]

@@ -248,6 +248,23 @@ fn a_letter_under_a_tail_hides_no_forgotten_name() {
     }
 }
 
+/// A name whose letter was not drawn takes no other one's dot.
+#[test]
+fn a_name_too_many_is_told() {
+    let rows = [
+        "uni0627 uni0628 uni062D uni0646 uni0646 uni062D uni0627 uni0628",
+        "uni0628.init uni062D uni0646.init uni0646 uni0628.medi uni0627 uni0628.medi uni062D",
+        "uni062D uni0646 uni0628 uni0627 uni0628 uni062D uni0646",
+    ];
+    let paper = page(&rows, 0.0, 0.0);
+    for at in 0..=23 {
+        let mut names: Vec<&str> = rows.iter().flat_map(|r| r.split(' ')).collect();
+        names.insert(at, "uni0648");
+        let told = cut_page(&paper, &names.join(" "), &free());
+        assert!(matches!(told, Err(ScanError::Count { .. })), "before {at}");
+    }
+}
+
 #[test]
 fn letters_whose_place_is_said_stand_in_the_rows_of_their_neighbours() {
     let all: Vec<&str> = ROWS.iter().flat_map(|r| r.split(' ')).collect();

@@ -13,13 +13,13 @@ fn two_dots_stay_together_and_leave_their_neighbours_alone() {
     // one of the two dots stands beside its letter rather than over it
     dot(&mut paper, 410.0, 54.0);
     dot(&mut paper, 422.0, 54.0);
-    // a small letter reaches into its neighbour's box
+    // a full stop reaches into its neighbour's box
     paper.bar(443.0, 218.0, 9.0, 9.0);
     // dots at equal distances under two letters that stand side by side
     paper.letter('n', 500.0, 100.0);
     paper.letter('n', 532.0, 100.0);
     (0..4).for_each(|i| dot(&mut paper, 501.0 + 16.0 * f64::from(i), 106.0));
-    let cut = cut_page(&paper, "a b c ت y y p q r s h", &options(Layout::Free)).unwrap();
+    let cut = cut_page(&paper, "a b c ت y y p q r s .", &options(Layout::Free)).unwrap();
     let size = |i: usize| {
         (
             cut.cells[i].in_sheet.width().round(),
@@ -29,7 +29,7 @@ fn two_dots_stay_together_and_leave_their_neighbours_alone() {
     assert_eq!(size(3), (38.0, 46.0), "both dots are the letter's");
     let pairs = (size(4), size(5));
     assert_eq!(pairs, ((28.0, 44.0), (28.0, 44.0)), "two dots each");
-    assert_eq!(size(10), (9.0, 9.0), "a letter of its own");
+    assert_eq!(size(10), (9.0, 9.0), "a cell of its own");
 }
 
 #[test]
