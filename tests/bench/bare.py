@@ -9,7 +9,7 @@ bare-unseen.txt, bare-uneven.txt, bare-later.txt, bare-last.txt and bare-drawn.t
 its cell has all of its own and none of another letter's. Dust is ink of no letter, a dot's worth or more, in a cell. Behind the figures of
 the free page stand those of the same page as a grid. Baselines are compared with the page's own, of the letters in order: how far they scatter
 (standard deviation) and how far the worst lies from the median, in 1/1000 em; a page drawn with jitter has that much in it. --keep FOLDER keeps pages and cells, and draws none anew that is there. --forget N
-cuts each page so often again with one name left out, and counts how often that is told, and told at its place or the next one, and where names stand in lines. A page's
+cuts each page so often again with one name left out, and counts how often that is told, and told at its place or the next one, and where names stand in lines, and as often with one name too many. A page's
 own option --stray MM moves its rows up and down by so much in the mean. --build appends what font_bench.py says of the font of each bare
 page.
 Needs numpy, scipy, pillow and what make_sheet.py needs.
@@ -117,11 +117,13 @@ def names_of(truth, forms):
     return [(None if p is None else names[p], p) for p in order]
 
 
-def cut(khatt, truth, layout, forms, folder, without=None, line=10**9):
+def cut(khatt, truth, layout, forms, folder, without=None, line=10**9, more=None):
     """Of each letter its cell's ink as (column, row) of the page, and how far its baseline lies below the drawn one, 1/1000 em; what was
     said where there is none; and the seconds taken. `without` is a place in the list of names that lacks its own; with it they are so many a
-    `line`."""
+    `line`. Before the place `more` stands a name whose letter is not on the page."""
     named = [n for n in names_of(truth, forms) if layout != '"free"' or n[1] is not None]
+    if more is not None:
+        named.insert(more, ("uni06BE" if forms else "Þ", None))
     lines = [[n[0] or "_" for k, n in enumerate(named) if k // line == i and k != without] for i in range((len(named) - 1) // line + 1)]
     named = [n for k, n in enumerate(named) if k != without]
     kind = "free" if "free" in layout else "grid"
@@ -144,6 +146,8 @@ def cut(khatt, truth, layout, forms, folder, without=None, line=10**9):
         a, b, c, d, e, f = cell["to_sheet"]
         x, y = x + 0.5, y + 0.5
         place = named[cell["cell"] - 1][1]
+        if place is None:
+            continue
         pixels = np.floor([a * x + c * y + e, b * x + d * y + f]).astype(int)
         dx, dy = np.array(truth["cells"][place]["origin_px"]) - [c * cell["baseline_px"] + e, d * cell["baseline_px"] + f]
         drop = (dx * b - dy * a) / np.hypot(a, b) / truth["ppem"] * 1000
@@ -194,15 +198,16 @@ def dust(x, y, ids, of, own):
 
 def forgotten(khatt, truth, forms, folder, times):
     """How often a page is refused where one name of its list is left out, and how often the place told is that or one next to it; how often
-    where the names stand in lines, a row each; how often as a grid, and as one in lines."""
+    where the names stand in lines, a row each; how often as a grid, and as one in lines; and how often where a name has no letter."""
     count = len(truth["cells"])
-    told = near = 0
+    told = near = many = 0
     refused = [0, 0, 0]
     for k in range(times):
         at = (2 * k + 1) * count // (2 * times)
         grid = f"{{ grid = [{truth['rows']}, {truth['cols']}] }}"
         for k, more in enumerate([('"free"', truth["cols"]), (grid, 10**9), (grid, truth["cols"])]):
             refused[k] += cut(khatt, truth, more[0], forms, folder, at, more[1])[0] is None
+        many += cut(khatt, truth, '"free"', forms, folder, more=at)[0] is None
         found, said, _ = cut(khatt, truth, '"free"', forms, folder, at)
         if found is not None:
             continue
@@ -210,7 +215,7 @@ def forgotten(khatt, truth, forms, folder, times):
         place = re.search(r"letter (\d+) of row (\d+) seems to have no name", said)
         lengths = [min(truth["cols"], count - r * truth["cols"]) for r in range(truth["rows"])]
         near += bool(place) and abs(sum(lengths[: int(place[2]) - 1]) + int(place[1]) - 1 - at) <= 1
-    return f" | {told}, {near}, {refused[0]} of {times} | {refused[1]}, {refused[2]} of {times}"
+    return f" | {told}, {near}, {refused[0]} of {times} | {refused[1]}, {refused[2]} of {times} | {many} of {times}"
 
 
 def font_row(args, original, folder):
@@ -278,7 +283,7 @@ def main():
     listed = open(args.pages).read().splitlines() if args.pages else []
     more = " in order | whole | pieces lost, others' | dusty | baselines | s |"
     build = " font: missing, wrong | mean, worst | baselines |" if args.build else ""
-    forget = " a name forgotten: told, at its place, in lines | as a grid, in lines |" if args.forget else ""
+    forget = " a name forgotten: told, at its place, in lines | as a grid, in lines | a name too many |" if args.forget else ""
     print("| page | letters |" + "".join(more.replace(" in", f" {name}: in", 1) for name in args.layouts) + build + forget)
     print("|---|---|" + "---|" * (6 * len(args.layouts) + 3 * bool(build) + 2 * bool(forget)))
     for text in args.page + [line for line in listed if line.strip()]:
