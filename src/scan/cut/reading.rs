@@ -4,12 +4,12 @@
 //! What a name says about its letter's size and dots makes some of these likely, and the least sum of costs is taken: the
 //! shortest path through pieces and names, as sequences are aligned. A cost of 1 is strong doubt.
 
-use crate::scan::letters::{Pieces, Shape};
+use crate::scan::letters::{Foot, Pieces, Shape};
 
 /// Cost of a piece as small as a dot for the name of a letter or a figure, and for any other name: commas are small.
 const SIZE: (f64, f64) = (1.2, 0.5);
-/// Cost of a speck, or of a dot without signs beside a letter, for the name of a letter, a figure or what has a sign itself: more than that of a
-/// name without a letter and a part together.
+/// Cost of a speck, or of a dot without signs beside a letter, for the name of what is larger: more than that of a
+/// name without a letter and of a part together.
 const SLIGHT: f64 = 3.5;
 /// Cost of a letter without the dots that its name has, and of one with signs where its name has none.
 const SIGNS: (f64, f64) = (0.6, 0.3);
@@ -274,17 +274,24 @@ fn odd(piece: &Seen) -> f64 {
     wide + within
 }
 
-/// How badly a piece stands for a name.
-fn misfit(piece: &Seen, shape: &Shape) -> f64 {
-    let signed = matches!(
+/// Whether a name's letter is larger than a dot: all letters and figures, what has a dot itself, and ampersands.
+fn is_large(shape: &Shape) -> bool {
+    let dotted = matches!(
         shape.pieces,
         Pieces::DotAbove | Pieces::DotBelow | Pieces::Marked
     );
+    shape.full || dotted || shape.foot != Foot::None
+}
+
+/// How badly a piece stands for a name.
+fn misfit(piece: &Seen, shape: &Shape) -> f64 {
     let bare = !piece.above && !piece.below;
-    let size = match shape.full {
-        full if piece.slight && bare && (full || signed) => SLIGHT,
-        true => SIZE.0,
-        false => SIZE.1,
+    let size = if piece.slight && bare && is_large(shape) {
+        SLIGHT
+    } else if shape.full {
+        SIZE.0
+    } else {
+        SIZE.1
     };
     let sign = |seen: bool, wanted: bool| match (seen, wanted) {
         (false, true) => SIGNS.0,
