@@ -31,7 +31,7 @@ const SCRAP: (f64, f64) = (0.2, 0.3);
 const THIN: f64 = 0.4;
 /// Pieces of such thin ink at least, for each name: labels stand beside every letter.
 const MANY: f64 = 0.5;
-/// Labels are so many times as many pieces as those of the letters beside them at least, where both are joined.
+/// Where pieces had to be joined, labels are so many that without them the joined ones are fewer by this factor.
 const FEWER: usize = 2;
 /// Pieces of less ink than this share of a usual letter's may be dirt.
 const DIRT: f64 = 0.06;
@@ -204,7 +204,7 @@ struct Read {
 }
 
 impl Read {
-    /// Whether another reading is worse: labels that were joined to letters look like letters in pieces.
+    /// Whether it is likelier than another one, or of far fewer pieces: labels that were joined to letters look like letters in pieces.
     fn is_better(&self, other: &Self) -> bool {
         self.cost < other.cost || other.scattered > 0 && other.scattered >= FEWER * self.scattered
     }

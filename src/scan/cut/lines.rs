@@ -107,10 +107,10 @@ impl<'a> Lines<'a> {
         let astray = |i: usize| bodies[i].is_some_and(|b| self.row[b.to] != self.row[i]);
         let is_standing = |&i: &usize| {
             let piece = self.pieces[i];
-            let is_some = piece.full(self.usual) > 0.0;
+            let is_no_dot = piece.full(self.usual) > 0.0;
             roles[i] == Role::Part
                 && astray(i)
-                && is_some
+                && is_no_dot
                 && (piece.is_large(self.usual) || stands(i))
         };
         (0..roles.len()).filter(is_standing).collect()

@@ -97,7 +97,7 @@ impl Piece {
         Some(piece)
     }
 
-    /// Sets its size.
+    /// Sets its size among letters of a usual one.
     fn measure(&mut self, all: &[Component], usual: Usual) {
         let sizes = self.parts.iter().map(|&i| size(all[i].upright));
         let largest = sizes.fold(0.0, f64::max);
@@ -231,7 +231,7 @@ pub(super) fn pieces(
     }
     found.iter_mut().for_each(|p| p.measure(all, usual));
     Joined {
-        scattered: sure - found.len(),
+        scattered: sure.saturating_sub(found.len()),
         pieces: found,
         usual,
     }
