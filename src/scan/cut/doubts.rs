@@ -83,6 +83,15 @@ impl Unread {
         }
     }
 
+    /// Of a page whose letters are not like their names, so many in each row.
+    pub(super) fn unlike(rows: Vec<usize>) -> Self {
+        Self {
+            rows,
+            doubts: vec![Doubt::Unlike],
+            touching: Vec::new(),
+        }
+    }
+
     /// The error of a page that has so many names; `label` says the text of one.
     pub(super) fn error<'a>(
         &self,

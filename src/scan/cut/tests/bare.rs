@@ -422,8 +422,8 @@ fn a_line_of_names_that_is_no_row_is_told() {
     );
 }
 
-#[test]
-fn a_letter_drawn_in_pieces_is_one() {
+/// A page of [`ROWS`] whose longer strokes are each in two parts.
+fn in_pieces() -> Paper {
     let mut paper = page(&ROWS, 0.0, 0.0);
     for (bar, shade) in std::mem::take(&mut paper.bars) {
         let (w, h) = (bar.width(), bar.height());
@@ -437,7 +437,28 @@ fn a_letter_drawn_in_pieces_is_one() {
             paper.bars.push((at, shade));
         }
     }
-    let cut = cut_page(&paper, &ROWS.join(" "), &free()).unwrap();
+    paper
+}
+
+#[test]
+fn letters_in_pieces_lose_no_stripes() {
+    let mut paper = in_pieces();
+    // a rule is no stripe
+    paper.bar(20.0, 150.0, 700.0, 3.0);
+    assert!(cut_page(&paper, &ROWS.join(" "), &free()).is_ok());
+    for row in 0..4 {
+        for i in 0..7 {
+            let (x, y) = (662.0 - PITCH.0 * f64::from(i), PITCH.1 * f64::from(row));
+            paper.bar(x, y + 136.0, 60.0, 2.0);
+        }
+    }
+    let error = cut_page(&paper, &ROWS.join(" "), &free()).unwrap_err();
+    assert!(error.to_string().contains("grid"), "{error}");
+}
+
+#[test]
+fn a_letter_drawn_in_pieces_is_one() {
+    let cut = cut_page(&in_pieces(), &ROWS.join(" "), &free()).unwrap();
     let names: Vec<&str> = cut.cells.iter().map(|c| c.label.0.as_str()).collect();
     assert_eq!(names.join(" "), ROWS.join(" "));
     let alefs = cut.cells.iter().filter(|c| c.label.0 == "uni0627");
