@@ -264,7 +264,7 @@ impl<'a> Bare<'a> {
         Ok(read)
     }
 
-    /// The share of a page's ink that is in no letter, without long lines.
+    /// The share of a page's ink that is in no letter, without long lines, labels and guides.
     fn left_out(&self, read: &Read) -> f64 {
         let side = |r: Rect| r.width().max(r.height());
         let letters = read.rows.iter().flatten();
@@ -272,7 +272,8 @@ impl<'a> Bare<'a> {
         let is_short = |&i: &usize| side(self.all[i].upright) < LONG * usual;
         let area = |i: usize| self.all[i].area;
         let short: usize = self.lines.iter().copied().filter(is_short).map(area).sum();
-        let out: usize = read.out.iter().map(|&(i, _)| area(i)).sum();
+        let out = read.out.iter().filter(|o| o.1 != Reason::Thin);
+        let out: usize = out.map(|&(i, _)| area(i)).sum();
         let ink: usize = self.ink.iter().copied().map(area).sum();
         (out + short) as f64 / (ink + short).max(1) as f64
     }
