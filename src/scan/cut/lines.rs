@@ -95,7 +95,7 @@ impl<'a> Lines<'a> {
     }
 
     /// Parts of letters in other rows that stand beside the letters of their own, or are as large as letters: where a name was forgotten, a
-    /// letter under another one's tail is likelier its part than one without a name. Of 156 pages that were rightly read none had such parts.
+    /// letter under another one's tail is likelier its part than one without a name. Of 170 pages that were rightly read none had such parts.
     fn standing(&self, roles: &[Role], bodies: &[Option<Tie>]) -> Vec<usize> {
         let is_letter = |j: usize| matches!(roles[j], Role::Letter(_) | Role::Touching(..));
         let stands = |i: usize| {
