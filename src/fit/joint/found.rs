@@ -17,7 +17,7 @@ const UPRIGHT: f64 = 0.006;
 const ASLANT_PX: f64 = 0.1;
 
 /// A structure before its refinement.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Default)]
 pub(super) struct Draft {
     pub(super) chain: Chain,
     /// Few points that tell nearly as much as all, and their feet.

@@ -170,12 +170,14 @@ impl Joint {
         let least = self.least_noise * tolerance_px;
         let mut sigma: Vec<f64> = spans.iter().map(|s| s.sigma.max(least)).collect();
         let marks: Vec<Vec<Candidate>> = spans.iter().map(candidate::candidates).collect();
+        let choose = |k: usize, sigma: f64| Draft::choose(&spans[k], &marks[k], sigma);
+        let each = sigma.iter().enumerate();
+        let mut drafts = each
+            .map(|(k, &d)| choose(k, d))
+            .collect::<Option<Vec<Draft>>>()?;
         let mut tighter = 0;
         loop {
-            let each = spans.iter().zip(&marks).zip(&sigma);
-            let drafts: Option<Vec<Draft>> =
-                each.map(|((s, m), &d)| Draft::choose(s, m, d)).collect();
-            let mut draft = weld(drafts?)?;
+            let mut draft = weld(drafts.clone())?;
             if tighter > 0 {
                 found::turn(&mut draft.chain);
             }
@@ -187,7 +189,10 @@ impl Joint {
                 return Some(found);
             }
             tighter += 1;
-            missed.into_iter().for_each(|k| sigma[k] *= 0.5);
+            for k in missed {
+                sigma[k] *= 0.5;
+                drafts[k] = choose(k, sigma[k])?;
+            }
         }
     }
 }
