@@ -21,6 +21,8 @@ from scipy.ndimage import binary_dilation, label
 
 # ink this far from a letter is not the letter's own edge, px
 EDGE = 3
+# what is said of letters whose dots are not as many as their names have
+SIGNS = "beside its body where"
 # paper around a letter that goes with it where its row is moved, px
 AROUND = 6
 # area of the least dust that counts, px²
@@ -119,7 +121,7 @@ def names_of(truth, forms):
 
 def cut(khatt, truth, layout, forms, folder, without=None, line=10**9, more=None):
     """Of each letter its cell's ink as (column, row) of the page, and how far its baseline lies below the drawn one, 1/1000 em; what was
-    said where there is none; and the seconds taken. `without` is a place in the list of names that lacks its own; with it they are so many a
+    said of it; and the seconds taken. `without` is a place in the list of names that lacks its own; with it they are so many a
     `line`. Before the place `more` stands a name whose letter is not on the page."""
     named = [n for n in names_of(truth, forms) if layout != '"free"' or n[1] is not None]
     if more is not None:
@@ -140,7 +142,9 @@ def cut(khatt, truth, layout, forms, folder, without=None, line=10**9, more=None
     if run.returncode:
         return None, " ".join(run.stderr.split()), took
     found = {}
-    for cell in json.load(open(os.path.join(out, "cells.json")))[0]["cells"]:
+    page = json.load(open(os.path.join(out, "cells.json")))[0]
+    said = " ".join(w["message"] for w in page["warnings"])
+    for cell in page["cells"]:
         ink = np.asarray(Image.open(os.path.join(out, cell["picture"]))) < 128
         y, x = np.nonzero(ink)
         a, b, c, d, e, f = cell["to_sheet"]
@@ -152,7 +156,7 @@ def cut(khatt, truth, layout, forms, folder, without=None, line=10**9, more=None
         dx, dy = np.array(truth["cells"][place]["origin_px"]) - [c * cell["baseline_px"] + e, d * cell["baseline_px"] + f]
         drop = (dx * b - dy * a) / np.hypot(a, b) / truth["ppem"] * 1000
         found[place] = pixels, drop
-    return found, "", took
+    return found, said, took
 
 
 def judge(found, truth, page):
@@ -198,16 +202,19 @@ def dust(x, y, ids, of, own):
 
 def forgotten(khatt, truth, forms, folder, times):
     """How often a page is refused where one name of its list is left out, and how often the place told is that or one next to it; how often
-    where the names stand in lines, a row each; how often as a grid, and as one in lines; and how often where a name has no letter."""
+    where the names stand in lines, a row each; how often as a grid, and as one in lines; and where a name has no letter, how often it is refused and how
+    often letters are warned of for their signs."""
     count = len(truth["cells"])
-    told = near = many = 0
+    told = near = many = signs = 0
     refused = [0, 0, 0]
     for k in range(times):
         at = (2 * k + 1) * count // (2 * times)
         grid = f"{{ grid = [{truth['rows']}, {truth['cols']}] }}"
         for k, more in enumerate([('"free"', truth["cols"]), (grid, 10**9), (grid, truth["cols"])]):
             refused[k] += cut(khatt, truth, more[0], forms, folder, at, more[1])[0] is None
-        many += cut(khatt, truth, '"free"', forms, folder, more=at)[0] is None
+        found, said, _ = cut(khatt, truth, '"free"', forms, folder, more=at)
+        many += found is None
+        signs += found is not None and SIGNS in said
         found, said, _ = cut(khatt, truth, '"free"', forms, folder, at)
         if found is not None:
             continue
@@ -215,7 +222,7 @@ def forgotten(khatt, truth, forms, folder, times):
         place = re.search(r"letter (\d+) of row (\d+) seems to have no name", said)
         lengths = [min(truth["cols"], count - r * truth["cols"]) for r in range(truth["rows"])]
         near += bool(place) and abs(sum(lengths[: int(place[2]) - 1]) + int(place[1]) - 1 - at) <= 1
-    return f" | {told}, {near}, {refused[0]} of {times} | {refused[1]}, {refused[2]} of {times} | {many} of {times}"
+    return f" | {told}, {near}, {refused[0]} of {times} | {refused[1]}, {refused[2]} of {times} | {many}, {signs} of {times}"
 
 
 def font_row(args, original, folder):
@@ -283,7 +290,7 @@ def main():
     listed = open(args.pages).read().splitlines() if args.pages else []
     more = " in order | whole | pieces lost, others' | dusty | baselines | s |"
     build = " font: missing, wrong | mean, worst | baselines |" if args.build else ""
-    forget = " a name forgotten: told, at its place, in lines | as a grid, in lines | a name too many |" if args.forget else ""
+    forget = " a name forgotten: told, at its place, in lines | as a grid, in lines | a name too many: refused, signs warned of |" if args.forget else ""
     print("| page | letters |" + "".join(more.replace(" in", f" {name}: in", 1) for name in args.layouts) + build + forget)
     print("|---|---|" + "---|" * (6 * len(args.layouts) + 3 * bool(build) + 2 * bool(forget)))
     for text in args.page + [line for line in listed if line.strip()]:

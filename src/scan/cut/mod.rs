@@ -23,6 +23,7 @@ mod pins;
 mod reading;
 mod rows;
 mod ruling;
+mod signs;
 mod stance;
 mod strays;
 mod touching;

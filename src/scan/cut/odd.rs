@@ -1,6 +1,6 @@
 //! What a user should look at: letters that may be torn, joined or cut off.
 
-use super::{Slot, Warning};
+use super::{Slot, Warning, signs};
 use crate::numeric::median::median;
 use crate::scan::components::Component;
 use crate::scan::letters::Shape;
@@ -77,6 +77,7 @@ pub(super) fn warnings(
             ));
         }
     }
+    out.extend(signs::warnings(slots, all));
     out
 }
 

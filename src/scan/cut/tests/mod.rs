@@ -1,5 +1,6 @@
 mod bare;
 mod dust;
+mod signs;
 mod small;
 mod told;
 
