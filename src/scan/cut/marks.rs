@@ -79,7 +79,12 @@ pub(super) fn dust(layer: &mut Layer, all: &[Component], claims: &[(usize, Vec<u
             };
             dust && (!in_pieces || apart(c, parts, all, 1.0))
         };
-        let (small, kept): (Vec<usize>, Vec<usize>) = parts.iter().partition(|&&i| is_dust(i));
+        let surely = parts.iter().filter(|&&i| i != body && !is_dust(i));
+        let least = surely.map(|&i| all[i].area).min().filter(|_| in_pieces);
+        // of letters in pieces what is no smaller than a piece is one
+        let is_piece = |i: usize| least.is_some_and(|least| all[i].area >= least);
+        let (small, kept): (Vec<usize>, Vec<usize>) =
+            parts.iter().partition(|&&i| is_dust(i) && !is_piece(i));
         slot.parts = kept;
         let small = small.into_iter().map(|i| (i, Reason::Dirt));
         layer.rejected.extend(small);

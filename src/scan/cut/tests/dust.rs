@@ -144,3 +144,28 @@ fn letters_drawn_in_pieces_keep_them() {
     assert!(cut.rejected.is_empty(), "{:?}", cut.rejected);
     assert!(cut.cells.iter().all(|c| c.in_sheet.width() > 28.0));
 }
+
+#[test]
+fn of_letters_in_pieces_what_is_no_smaller_than_a_piece_is_one() {
+    let mut paper = Paper::new(700, 500, 0.0);
+    for i in 0..20 {
+        let (x, y) = (
+            90.0 + 120.0 * f64::from(i % 5),
+            70.0 + 100.0 * f64::from(i / 5),
+        );
+        paper.bar(x, y, 6.0, 22.0);
+        paper.bar(x + 8.0, y + 14.0, 22.0, 6.0);
+        paper.bar(x + 8.0, y + 21.5, 5.0, 5.0);
+        // apart from all others by its own length
+        let side = [(7, 7.0), (12, 3.5)].into_iter().find(|s| s.0 == i);
+        if let Some((_, side)) = side {
+            paper.bar(x + 20.0, y - side, side, side);
+        }
+    }
+    let names = "n h p n l n n p h n h n l n n n p n h n";
+    let cut = cut_page(&paper, names, &options(Layout::Grid(4, 5))).unwrap();
+    let heights: Vec<f64> = [7, 12, 0]
+        .map(|i| cut.cells[i].in_sheet.height().round())
+        .into();
+    assert_eq!(heights, [34.0, 27.0, 27.0], "a piece, dust, and none");
+}
