@@ -126,44 +126,37 @@ fn a_thin_end_that_is_parted_stays_with_its_letter() {
     );
 }
 
-#[test]
-fn letters_drawn_in_pieces_keep_them() {
-    // the segments of a clock's figures: most cells have the same ones at the same places
+/// The segments of a clock's figures in four rows of five cells: most have the same ones at the same places. In some cells, a square of a
+/// side stands apart from all of them.
+fn clock(squares: &[(usize, f64)]) -> Cut {
+    let place = |i: usize| {
+        let (column, row) = (i % 5, i / 5);
+        (90.0 + 120.0 * column as f64, 70.0 + 100.0 * row as f64)
+    };
     let mut paper = Paper::new(700, 500, 0.0);
-    for i in 0..20 {
-        let (x, y) = (
-            90.0 + 120.0 * f64::from(i % 5),
-            70.0 + 100.0 * f64::from(i / 5),
-        );
+    for (x, y) in (0..20).map(place) {
         paper.bar(x, y, 6.0, 22.0);
         paper.bar(x + 8.0, y + 14.0, 22.0, 6.0);
         paper.bar(x + 8.0, y + 21.5, 5.0, 5.0);
     }
+    for &(i, side) in squares {
+        let (x, y) = place(i);
+        paper.bar(x + 20.0, y - side, side, side);
+    }
     let names = "n h p n l n n p h n h n l n n n p n h n";
-    let cut = cut_page(&paper, names, &options(Layout::Grid(4, 5))).unwrap();
+    cut_page(&paper, names, &options(Layout::Grid(4, 5))).unwrap()
+}
+
+#[test]
+fn letters_drawn_in_pieces_keep_them() {
+    let cut = clock(&[]);
     assert!(cut.rejected.is_empty(), "{:?}", cut.rejected);
     assert!(cut.cells.iter().all(|c| c.in_sheet.width() > 28.0));
 }
 
 #[test]
 fn of_letters_in_pieces_what_is_no_smaller_than_a_piece_is_one() {
-    let mut paper = Paper::new(700, 500, 0.0);
-    for i in 0..20 {
-        let (x, y) = (
-            90.0 + 120.0 * f64::from(i % 5),
-            70.0 + 100.0 * f64::from(i / 5),
-        );
-        paper.bar(x, y, 6.0, 22.0);
-        paper.bar(x + 8.0, y + 14.0, 22.0, 6.0);
-        paper.bar(x + 8.0, y + 21.5, 5.0, 5.0);
-        // apart from all others by its own length
-        let side = [(7, 7.0), (12, 3.5)].into_iter().find(|s| s.0 == i);
-        if let Some((_, side)) = side {
-            paper.bar(x + 20.0, y - side, side, side);
-        }
-    }
-    let names = "n h p n l n n p h n h n l n n n p n h n";
-    let cut = cut_page(&paper, names, &options(Layout::Grid(4, 5))).unwrap();
+    let cut = clock(&[(7, 7.0), (12, 3.5)]);
     let heights: Vec<f64> = [7, 12, 0]
         .map(|i| cut.cells[i].in_sheet.height().round())
         .into();
