@@ -3,79 +3,27 @@
 use super::alike;
 use super::batch::Batch;
 use super::by_hand;
-use super::cache::{self, Store};
+use super::cache;
 use super::corrections::Corrections;
 use super::doubt::Doubt;
 use super::labels;
-use super::letter::Letter;
+use super::letter::{Letter, placed};
 use super::letters;
 use super::level;
-use super::page::{Page, Source};
+use super::page::{Page, Traced};
 use super::palette;
-use super::problem::Problem;
+use super::problem::{Problem, all, all_lists};
 use super::project::{Content, Project};
 use super::repeats::{self, Settled};
-use super::watch::{Stage, Watch};
+use super::source::Source;
+use super::watch::Stage;
+use super::world::World;
 use crate::assemble::words::Gap;
-use crate::assemble::{self, Drawn, Note};
+use crate::assemble::{self, Note};
 use crate::types::{Cell, Font, Label};
 use rayon::prelude::*;
+use std::mem;
 use std::path::Path;
-use std::{fmt, mem};
-
-/// The files that a project names.
-pub trait Inputs: Sync {
-    /// A file's content.
-    ///
-    /// # Errors
-    /// Why there is none.
-    fn read(&self, path: &Path) -> Result<Vec<u8>, String>;
-
-    /// A digest of the content, that of the last reading where there was one.
-    ///
-    /// # Errors
-    /// Why there is none.
-    fn digest(&self, path: &Path) -> Result<String, String> {
-        self.read(path).map(|bytes| cache::digest(&bytes))
-    }
-}
-
-impl<F: Fn(&Path) -> Result<Vec<u8>, String> + Sync> Inputs for F {
-    fn read(&self, path: &Path) -> Result<Vec<u8>, String> {
-        self(path)
-    }
-}
-
-/// What a run needs of the world outside.
-#[derive(Clone, Copy)]
-pub struct World<'a> {
-    /// The files that the project names.
-    pub inputs: &'a dyn Inputs,
-    /// Is told what is done.
-    pub watch: &'a dyn Watch,
-    /// Seconds since 1970 that the font gives as its date.
-    pub created: i64,
-    /// Where what pages became is kept between runs.
-    pub store: &'a dyn Store,
-}
-
-impl World<'_> {
-    /// The content of a file that the project names.
-    pub(super) fn file(&self, path: &Path) -> Result<Vec<u8>, Problem> {
-        self.inputs.read(path).map_err(|why| Problem::File {
-            file: path.display().to_string(),
-            why,
-        })
-    }
-}
-
-impl fmt::Debug for World<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("World")
-            .field("created", &self.created)
-            .finish_non_exhaustive()
-    }
-}
 
 /// A font and the letters that it was made of.
 #[derive(Debug, Clone)]
@@ -119,7 +67,7 @@ pub fn build(project: &Project, world: World<'_>) -> Result<Built, Vec<Problem>>
     } = repeats::settle(letters, project.repeated, draw).map_err(|p| vec![p])?;
     let _time = world.watch.enter(Stage::Assemble);
     let levelled = level::set(&mut letters, project, &corrections)?;
-    let drawn = place(&letters, project.font.units_per_em)?;
+    let drawn = placed(&letters, project.font.units_per_em)?;
     let twins = alike::notes(&letters, &drawn, project.font.units_per_em);
     let words = words.par_iter();
     let words = all(words
@@ -144,15 +92,6 @@ pub fn build(project: &Project, world: World<'_>) -> Result<Built, Vec<Problem>>
         gaps: assembled.gaps,
     })
 }
-
-/// The letters in font units.
-pub(super) fn place(letters: &[Letter], units_per_em: u16) -> Result<Vec<Drawn>, Vec<Problem>> {
-    let letters = letters.par_iter();
-    all(letters.map(|letter| letter.place(units_per_em)).collect())
-}
-
-/// The letters of a page, and the page without its cells.
-pub(super) type Traced = (Vec<Letter>, Page);
 
 /// What was drawn on all pages in reading order, and the pages without their cells.
 struct Drawings {
@@ -337,30 +276,4 @@ fn sources<'a>(
     let tables = project.sheets.iter().zip(named).enumerate();
     let sources = tables.map(|(n, (table, labels))| Source::new(project, (n, table, labels)));
     all_lists(sources.collect())
-}
-
-/// All values, or all problems.
-pub(super) fn all<T>(results: Vec<Result<T, Problem>>) -> Result<Vec<T>, Vec<Problem>> {
-    all_lists(
-        results
-            .into_iter()
-            .map(|r| r.map_err(|p| vec![p]))
-            .collect(),
-    )
-}
-
-/// All values, or all problems.
-fn all_lists<T>(results: Vec<Result<T, Vec<Problem>>>) -> Result<Vec<T>, Vec<Problem>> {
-    let (mut values, mut problems) = (Vec::with_capacity(results.len()), Vec::new());
-    for result in results {
-        match result {
-            Ok(value) => values.push(value),
-            Err(more) => problems.extend(more),
-        }
-    }
-    if problems.is_empty() {
-        Ok(values)
-    } else {
-        Err(problems)
-    }
 }

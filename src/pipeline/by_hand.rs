@@ -1,8 +1,8 @@
 //! What a user sets by hand: anchors, kerning and features win over what follows from the shapes.
 
-use super::build::World;
 use super::problem::Problem;
 use super::project::Project;
+use super::world::World;
 use crate::types::{Anchor, Font};
 use crate::write::layout;
 use kurbo::Point;

@@ -5,36 +5,14 @@
 //! is not read again, and a change of what comes later, spacing or outputs, redoes no page.
 
 use super::batch::Batch;
-use super::build::{Traced, World};
 use super::labels;
-use super::page::Source;
+use super::page::Traced;
 use super::project::Project;
 use super::record;
-use blake3::Hasher;
+use super::source::Source;
+use super::world::{World, digest};
 use serde_json::json;
-use std::io::{self, Read};
 use std::path::Path;
-
-/// Where results are kept between runs.
-pub trait Store: Sync {
-    /// What was put under that key, exactly; anything else, or nothing, where there is no such thing.
-    fn get(&self, key: &str) -> Option<Vec<u8>>;
-
-    /// Keeps `content` under a key, or not.
-    fn put(&self, key: &str, content: &[u8]);
-}
-
-/// Keeps nothing.
-#[derive(Debug, Clone, Copy, Default)]
-pub struct Nothing;
-
-impl Store for Nothing {
-    fn get(&self, _: &str) -> Option<Vec<u8>> {
-        None
-    }
-
-    fn put(&self, _: &str, _: &[u8]) {}
-}
 
 /// What became of a picture file's pages, where that is kept.
 pub(super) fn recall(
@@ -92,18 +70,4 @@ fn key(
     let picture = world.inputs.digest(image)?;
     let all = json!([env!("CARGO_PKG_VERSION"), earlier, labels, lines, picture]);
     Ok(digest(all.to_string().as_bytes()))
-}
-
-/// [`digest`] of all that can be read, which need not fit into memory.
-///
-/// # Errors
-/// It cannot be read.
-pub fn digest_of(from: impl Read) -> io::Result<String> {
-    Ok(Hasher::new().update_reader(from)?.finalize().to_string())
-}
-
-/// BLAKE3, hexadecimal.
-#[must_use]
-pub fn digest(bytes: &[u8]) -> String {
-    blake3::hash(bytes).to_string()
 }

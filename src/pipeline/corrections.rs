@@ -1,10 +1,10 @@
 //! What a user says better about single letters than the page does.
 
-use super::build::World;
 use super::labels::{SKIP, skips};
 use super::picture;
 use super::problem::Problem;
 use super::project::{CellTable, Cells, Project};
+use super::world::World;
 use crate::assemble::names;
 use crate::numeric::tone;
 use crate::scan::{Cut, Pin, Region};

@@ -1,9 +1,9 @@
 //! The text of a project's `glyphs` → a label for each cell, checked before any page is read.
 
-use super::build::{World, all};
-use super::problem::{Place, Problem};
+use super::problem::{Place, Problem, all};
 use super::project::{Content, Labels, Layout, Project, SheetTable};
 use super::repeats::Repeated;
+use super::world::World;
 use crate::assemble::names;
 use crate::types::{Label, Name};
 use std::collections::BTreeMap;

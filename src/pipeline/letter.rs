@@ -1,7 +1,7 @@
 //! One cell → one drawn letter.
 
 use super::picture::{self, trace_picture};
-use super::problem::{Place, Problem};
+use super::problem::{Place, Problem, all};
 use super::watch::{Stage, Watch};
 use crate::assemble::words::Word;
 use crate::assemble::{Drawn, names};
@@ -9,6 +9,7 @@ use crate::finish::place;
 use crate::trace;
 use crate::types::{Cell, Contour, Font, Frame, Guides, Label, Outline, Plate, Png};
 use kurbo::{BezPath, Rect};
+use rayon::prelude::*;
 
 /// What was drawn in a cell, still in the cell's px.
 #[derive(Debug, Clone)]
@@ -146,4 +147,10 @@ impl Letter {
             advance: advance.map(|(left, right)| (units(left), units(right))),
         })
     }
+}
+
+/// The letters in font units.
+pub(super) fn placed(letters: &[Letter], units_per_em: u16) -> Result<Vec<Drawn>, Vec<Problem>> {
+    let letters = letters.par_iter();
+    all(letters.map(|letter| letter.place(units_per_em)).collect())
 }

@@ -1,12 +1,12 @@
 //! Which letters a project's cells hold, and whether its labels say so.
 
-use super::build::World;
 use super::doubt::Doubt;
 use super::letter::Letter;
 use super::problem::{Place, Problem};
 use super::project::{Content, Labels, Layout, Project, SheetTable};
 use super::reference::{Script, samples, spelling};
-use super::{corrections, labels, page};
+use super::world::World;
+use super::{corrections, labels, source};
 use crate::assemble::names;
 use crate::recognise::{Alphabet, Finding, Guess, Look, Reading, check, once};
 use crate::types::{Cell, Label};
@@ -35,7 +35,7 @@ pub fn match_letters(
     let (mut matched, mut remarks) = (Vec::new(), Vec::new());
     for sheet in of_letters(project) {
         let labels = sheet_labels(sheet, world).map_err(|p| vec![p])?;
-        let cells = page::cells(sheet, &labels, project, world)?;
+        let cells = source::cells(sheet, &labels, project, world)?;
         let guesses = guesses(&cells, seen(project), &alphabet);
         if !sheet.glyphs.is_auto() {
             let indices = cells.iter().map(|c| c.index);
@@ -70,7 +70,7 @@ pub(super) fn resolve(
         let sheet = &project.sheets[i];
         if sheet.glyphs.is_auto() {
             let labels = sheet_labels(sheet, world).map_err(|p| vec![p])?;
-            let cells = page::cells(sheet, &labels, &project, world)?;
+            let cells = source::cells(sheet, &labels, &project, world)?;
             let guesses = guesses(&cells, seen(&project), &alphabet);
             let (labels, unsure) = name(labels.len(), &cells, &guesses);
             let remark = |finding| Doubt {

@@ -1,8 +1,7 @@
 //! Letters that were drawn off the baseline as a whole: moved back, which joining strokes tell.
 
-use super::build::place;
 use super::corrections::Corrections;
-use super::letter::Letter;
+use super::letter::{Letter, placed};
 use super::problem::Problem;
 use super::project::Project;
 use crate::assemble::{Note, level};
@@ -20,7 +19,7 @@ pub(super) fn set(
     project: &Project,
     corrections: &Corrections,
 ) -> Result<Vec<Note>, Vec<Problem>> {
-    let drawn = place(letters, project.font.units_per_em)?;
+    let drawn = placed(letters, project.font.units_per_em)?;
     let em = f64::from(project.font.units_per_em);
     let rows = rows(letters);
     let strays = level::strays(&drawn, &rows, em, &project.spacing.joining);

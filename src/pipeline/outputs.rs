@@ -1,12 +1,13 @@
 //! A built font → the bytes of its outputs.
 
 use super::budget::{self, Measured};
-use super::build::{Built, World};
+use super::build::Built;
 use super::letter::Letter;
 use super::problem::Problem;
 use super::project::{GateTable, Project};
 use super::report::{Report, corners, mm_per_unit};
 use super::watch::Stage;
+use super::world::World;
 use crate::assemble::names;
 use crate::finish::round;
 use crate::types::{Files, Font};

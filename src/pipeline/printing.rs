@@ -1,12 +1,12 @@
 //! A template: the pages that are printed for a table of the project, and their pictures once they are drawn on.
 
 use super::batch::{self, Batch};
-use super::build::World;
 use super::labels::{self, skips};
 use super::page::Page;
 use super::problem::Problem;
 use super::project::{Layout, Project, SheetTable};
 use super::watch::Stage;
+use super::world::World;
 use crate::assemble::names;
 use crate::scan::{self, Cut, Direction, Order, Polarity, Reason, Rejected, Warning};
 use crate::template::{self, Drawing, Place, TemplateError};

@@ -192,3 +192,29 @@ impl Problem {
         })
     }
 }
+
+/// All values, or all problems.
+pub(super) fn all<T>(results: Vec<Result<T, Problem>>) -> Result<Vec<T>, Vec<Problem>> {
+    all_lists(
+        results
+            .into_iter()
+            .map(|r| r.map_err(|p| vec![p]))
+            .collect(),
+    )
+}
+
+/// All values, or all problems.
+pub(super) fn all_lists<T>(results: Vec<Result<T, Vec<Problem>>>) -> Result<Vec<T>, Vec<Problem>> {
+    let (mut values, mut problems) = (Vec::with_capacity(results.len()), Vec::new());
+    for result in results {
+        match result {
+            Ok(value) => values.push(value),
+            Err(more) => problems.extend(more),
+        }
+    }
+    if problems.is_empty() {
+        Ok(values)
+    } else {
+        Err(problems)
+    }
+}

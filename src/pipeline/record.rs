@@ -1,9 +1,8 @@
 //! Letters and pages as bytes and back, to the last bit.
 
 use super::batch::Batch;
-use super::build::Traced;
 use super::letter::Letter;
-use super::page::Page;
+use super::page::{Page, Traced};
 use crate::scan::{Colour, Cut, Reason, Rejected, Warning};
 use crate::template::Gain;
 use crate::types::{Contour, Guides, Label, Png};

@@ -1,6 +1,7 @@
 //! A second look: corners that the picture and the fitted curves contradict, and their contours once more.
 
-use super::picture::{Options, fit, sharp};
+use super::contours::sharp;
+use super::options::Options;
 use crate::{
     fit::FitError,
     refine::{Comparison, Cornered, Doubts},
@@ -54,7 +55,7 @@ fn refit(
     let mut paths = paths.to_vec();
     for (k, path) in paths.iter_mut().enumerate() {
         if wanted[k] != found[k] {
-            *path = fit(&edges[k..=k], options)?.swap_remove(0);
+            *path = options.curves(&edges[k..=k])?.swap_remove(0);
         }
     }
     Ok(paths)

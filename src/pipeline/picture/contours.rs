@@ -1,0 +1,54 @@
+//! One picture → its contours and their corners.
+
+use super::options::Options;
+use crate::refine::{self, Cornered};
+use crate::types::Gray;
+use crate::{corner, trace};
+
+/// The picture's coverage, and its contours as they were traced with the indices of their corners.
+pub(super) fn found(gray: &Gray, options: &Options) -> (Gray, Vec<Cornered>) {
+    let coverage = trace::level(gray);
+    let detector = options.corners.detector();
+    let contours = trace::trace(&coverage, &options.trace).into_iter();
+    let found = contours.map(|c| {
+        let at = detector.corners(&c);
+        (c, at)
+    });
+    let found = found.collect();
+    let found = decided(&coverage, found, options);
+    (coverage, found)
+}
+
+/// The contours with their corners sharp, moved to where the picture has its edges.
+pub(super) fn sharp(coverage: &Gray, found: &[Cornered], options: &Options) -> Vec<Cornered> {
+    if options.trace.boundary == trace::Boundary::Chain {
+        // the boundary that the papers start from is taken as it is
+        return found.to_vec();
+    }
+    let sharp: Vec<_> = found.iter().map(|(c, at)| corner::sharpen(c, at)).collect();
+    refine::contours(coverage, &sharp)
+}
+
+/// The corners that the picture bears out, where the detector leaves it to it.
+fn decided(coverage: &Gray, found: Vec<Cornered>, options: &Options) -> Vec<Cornered> {
+    let detector = options.corners.detector();
+    let possible: Option<Vec<Vec<usize>>> =
+        found.iter().map(|(c, _)| detector.possible(c)).collect();
+    let Some(possible) = possible.filter(|_| options.trace.boundary == trace::Boundary::Iso) else {
+        return found;
+    };
+    let pairs = || found.iter().zip(&possible);
+    let sharp: Vec<Cornered> = pairs()
+        .map(|((c, _), may)| corner::sharpen(c, may))
+        .collect();
+    let seen: Vec<Vec<bool>> = pairs()
+        .map(|((_, at), may)| may.iter().map(|i| at.contains(i)).collect())
+        .collect();
+    let kept = refine::confirmed(coverage, &sharp, &seen);
+    let chosen = possible.iter().zip(kept).map(|(may, kept)| {
+        let both = may.iter().zip(kept);
+        both.filter_map(|(i, kept)| kept.then_some(*i)).collect()
+    });
+    let contours = found.iter().map(|(c, _)| c.clone());
+    contours.zip(chosen).collect()
+}

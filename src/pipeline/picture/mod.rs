@@ -1,0 +1,45 @@
+//! One picture → closed curves: trace, corner, cut, fit, refine.
+
+mod contours;
+mod options;
+mod review;
+
+pub use options::Options;
+
+use crate::fit::{self, FitError};
+use crate::refine::Cornered;
+use crate::types::Gray;
+use contours::{found, sharp};
+use kurbo::{Affine, BezPath};
+
+/// The closed curves around a picture's ink, px, y up, origin at the picture's bottom left; outer ones
+/// counter-clockwise, holes clockwise. Nothing for a picture without ink.
+///
+/// # Errors
+/// An option of the fitter is outside its range.
+pub fn trace_picture(gray: &Gray, options: &Options) -> Result<Vec<BezPath>, FitError> {
+    let (coverage, found) = found(gray, options);
+    let paths = options.curves(&sharp(&coverage, &found, options))?;
+    if matches!(options.fit, fit::Method::Joint(_)) {
+        review::reviewed(&coverage, &found, &paths, options)
+    } else {
+        Ok(paths)
+    }
+}
+
+/// The contours of a picture's ink with their corners sharp, and the corners' indices.
+#[must_use]
+pub fn edges(gray: &Gray, options: &Options) -> Vec<Cornered> {
+    let (coverage, found) = found(gray, options);
+    sharp(&coverage, &found, options)
+}
+
+/// The map from the curves' space (y up) to that of a picture so many px high (y down).
+#[must_use]
+#[expect(
+    clippy::cast_precision_loss,
+    reason = "pictures have fewer rows than 2^52"
+)]
+pub fn to_picture(height: usize) -> Affine {
+    Affine::new([1.0, 0.0, 0.0, -1.0, 0.0, height as f64])
+}

@@ -1,0 +1,53 @@
+//! How a picture becomes curves: a method for each stage.
+
+use crate::fit::{self, FitError};
+use crate::refine::Cornered;
+use crate::{corner, trace};
+use kurbo::BezPath;
+use serde::de::Error;
+use serde::{Deserialize, Deserializer, Serialize};
+
+/// How a picture becomes curves.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Options {
+    /// Contours.
+    pub trace: trace::Options,
+    /// Corners.
+    pub corners: corner::Method,
+    /// Curves.
+    pub fit: fit::Method,
+    /// Distance between contour and curve that a fitter aims at, px.
+    #[serde(deserialize_with = "tolerance")]
+    pub tolerance_px: f64,
+}
+
+/// A distance in px that a fitter can aim at.
+fn tolerance<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
+    let px = f64::deserialize(from)?;
+    if (0.001..=1000.0).contains(&px) {
+        Ok(px)
+    } else {
+        Err(D::Error::custom("must be between 0.001 and 1000 pixels"))
+    }
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self {
+            trace: trace::Options::default(),
+            corners: corner::Method::default(),
+            fit: fit::Method::default(),
+            tolerance_px: 0.5,
+        }
+    }
+}
+
+impl Options {
+    /// The curves of some contours.
+    pub(super) fn curves(&self, edges: &[Cornered]) -> Result<Vec<BezPath>, FitError> {
+        let fitter = self.fit.fitter();
+        let fit = |(c, at): &Cornered| fitter.contour(&c.cut(at), self.tolerance_px);
+        edges.iter().map(fit).collect()
+    }
+}
