@@ -1,8 +1,9 @@
 //! Drawings with a known edge through the whole trace: where their outlines run, and what they never do.
 
 use khatt::numeric::cast::single;
-use khatt::pipeline::picture::{Options, to_picture, trace_picture};
+use khatt::pipeline::picture::{Options, trace_picture};
 use khatt::types::Gray;
+use khatt::write::picture::to_picture;
 use kurbo::{BezPath, ParamCurve, ParamCurveArclen, PathEl, PathSeg, Point, Shape, Vec2};
 
 /// A picture of `side` px squared, y down, of the points where `distance` is below 0; 8 × 8 samples a pixel.

@@ -5,6 +5,7 @@
 //! no-break space.
 
 mod basics;
+mod characters;
 pub mod compose;
 mod features;
 pub mod joining;

@@ -5,9 +5,8 @@
 //! or a friendly name as Glyphs writes it (`beh-ar`, `lam_alef-ar`). Names take suffixes (`.init`,
 //! `.ss01`). The font keeps a name as it was given; the characters follow from it.
 
-use super::nearest;
+use super::{characters, nearest};
 use crate::types::{Label, Name};
-use glyphs_reader::glyphdata::GlyphData;
 use read_fonts::ps::agl;
 use thiserror::Error;
 
@@ -120,7 +119,7 @@ pub fn identify(label: &Label) -> Result<Identity, LabelError> {
     let mut parts = text.split('.');
     let base = parts.next().unwrap_or_default();
     let suffixes: Vec<String> = parts.map(str::to_owned).collect();
-    match characters(base) {
+    match characters::of(base) {
         Some(chars) if suffixes.iter().all(|s| !s.is_empty()) => identity(text, chars, suffixes),
         _ => Err(LabelError::Unknown {
             label: text.to_owned(),
@@ -191,34 +190,6 @@ fn agl_name(c: char) -> Option<String> {
         .min_by_key(|n| (n.len(), n.clone()))
 }
 
-/// The characters of a name without suffix; `None` when no list knows it.
-pub(super) fn characters(base: &str) -> Option<Vec<char>> {
-    let known: Vec<Vec<char>> = base
-        .split('_')
-        .map(|part| agl::name_to_chars(part).collect())
-        .collect();
-    if known.iter().all(|k| !k.is_empty()) {
-        return Some(known.concat());
-    }
-    friendly(base)
-}
-
-/// The characters of a name as Glyphs writes it, `lam_alef-ar`.
-fn friendly(base: &str) -> Option<Vec<char>> {
-    let data = GlyphData::default();
-    let known = data.query(base, None)?;
-    if let Some(c) = known.codepoint.and_then(char::from_u32) {
-        return Some(vec![c]);
-    }
-    let production = known.production_name?.to_string();
-    let stem = production.split('.').next().unwrap_or_default();
-    let parts: Vec<Vec<char>> = stem
-        .split('_')
-        .map(|part| agl::name_to_chars(part).collect())
-        .collect();
-    (parts.iter().all(|p| !p.is_empty())).then(|| parts.concat())
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -278,7 +249,7 @@ mod tests {
         {
             let name = name_of(&[c]);
             assert_eq!(
-                characters(&name),
+                characters::of(&name),
                 Some(vec![c]),
                 "U+{:04X} {name}",
                 u32::from(c)

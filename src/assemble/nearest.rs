@@ -1,6 +1,6 @@
 //! The known glyph name that differs least from an unknown one.
 
-use super::names::characters;
+use super::characters;
 use read_fonts::ps::agl;
 use std::sync::LazyLock;
 
@@ -29,7 +29,7 @@ pub(super) fn name(base: &str) -> Option<String> {
     if base.len() > LONGEST || !base.is_ascii() {
         return None;
     }
-    let known = |n: &String| characters(n).is_some();
+    let known = |n: &String| characters::of(n).is_some();
     let mut close = with_script(base).chain(edits(base)).filter(known);
     close.next().or_else(|| listed(base))
 }

@@ -1,9 +1,8 @@
 //! `--keep`: what each stage made of each cell.
 
-use super::trace;
 use khatt::pipeline::{Built, Letter};
 use khatt::types::{Contour, Files};
-use khatt::write;
+use khatt::write::{self, picture};
 use kurbo::{BezPath, PathEl};
 
 /// For every cell its picture, its contours and its curves in the picture's pixels; for every glyph its
@@ -12,18 +11,22 @@ pub(crate) fn files(built: &Built) -> Files {
     let mut files = Files::default();
     for (n, letter) in built.letters.iter().enumerate() {
         let stem = format!("{:03}-{}", n + 1, letter.index + 1);
-        let picture = &letter.picture;
-        let size = (picture.width(), picture.height());
+        let png = &letter.picture;
+        let size = (png.width(), png.height());
         let mut add = |stage: &str, kind: &str, content: Vec<u8>| {
             files.0.insert(format!("{stage}/{stem}.{kind}"), content);
         };
-        add("1-cut", "png", picture.bytes().to_vec());
+        add("1-cut", "png", png.bytes().to_vec());
         add(
             "2-trace",
             "svg",
-            trace::svg(size, &rings(letter)).into_bytes(),
+            picture::svg(size, &rings(letter)).into_bytes(),
         );
-        add("3-fit", "svg", trace::svg(size, &letter.paths).into_bytes());
+        add(
+            "3-fit",
+            "svg",
+            picture::svg(size, &letter.paths).into_bytes(),
+        );
     }
     if let Some(format) = write::format("svg") {
         let outlines = (format.write)(&built.font).unwrap_or_default();

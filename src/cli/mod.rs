@@ -9,7 +9,6 @@
 
 mod build;
 mod cache;
-mod centerline;
 mod convert;
 mod cut;
 mod designspace;

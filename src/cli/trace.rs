@@ -2,20 +2,17 @@
 
 use super::failure::{Failure, chain};
 use super::staged::Staged;
-use super::{Outcome, centerline, files};
+use super::{Outcome, files};
 use clap::Args;
 use clap::builder::PossibleValuesParser;
-use khatt::pipeline::picture::{Options, to_picture, trace_picture};
+use khatt::assemble::names;
+use khatt::pipeline::picture::{Options, trace_picture};
 use khatt::recognise;
 use khatt::scan::{self, Polarity};
-use khatt::types::Gray;
+use khatt::types::{Gray, Label};
+use khatt::write::{centerline, picture};
 use khatt::{corner, fit};
-use kurbo::{BezPath, PathEl, Point};
-use std::fmt::Write as _;
 use std::path::PathBuf;
-
-/// Decimals of a coordinate, px.
-const DECIMALS: usize = 4;
 
 /// Pixels of a picture that is traced as a whole: more would take over two gigabytes.
 const LARGEST: usize = 100_000_000;
@@ -68,17 +65,26 @@ impl Trace {
         let paths =
             trace_picture(&page.gray, &self.options()).map_err(|e| Failure::at(&name, &e))?;
         let size = (page.gray.width(), page.gray.height());
-        files::write(&self.output, svg(size, &paths).as_bytes())
+        files::write(&self.output, picture::svg(size, &paths).as_bytes())
     }
 
-    /// Writes the middle of the lines: a UFO where the output is named so, else an SVG.
+    /// Writes the middle of the lines: a UFO where the output is named so, else an SVG. The UFO's glyph bears the output's
+    /// name, and its character where that names one.
     fn write_lines(&self, gray: &Gray) -> Outcome {
         let drawn = recognise::centerline(gray);
+        let size = (gray.width(), gray.height());
         if self.output.extension().is_none_or(|e| e != "ufo") {
-            return files::write(&self.output, centerline::svg(gray, &drawn).as_bytes());
+            return files::write(&self.output, centerline::svg(size, &drawn).as_bytes());
         }
-        let ufo = centerline::ufo(gray, &drawn, &self.output);
-        let ufo = ufo.map_err(|e| Failure::at(self.output.display(), &*e))?;
+        let stem = self.output.file_stem().and_then(|s| s.to_str());
+        let known = names::identify(&Label(stem.unwrap_or_default().to_owned())).ok();
+        let name = known.as_ref().map_or("drawing", |id| id.name.as_str());
+        let character = match known.as_ref().map(|id| id.chars.as_slice()) {
+            Some([c]) => Some(*c),
+            _ => None,
+        };
+        let ufo = centerline::ufo(size, &drawn, (name, character));
+        let ufo = ufo.map_err(|e| Failure::at(self.output.display(), &e))?;
         let mut staged = Staged::default();
         staged.add(&self.output, &ufo)?;
         staged.commit()
@@ -112,37 +118,5 @@ pub(super) fn positive(text: &str) -> Result<f64, String> {
         Ok(value)
     } else {
         Err("must be a finite number above 0".to_owned())
-    }
-}
-
-/// One path of all contours; user space is the picture's px, y down.
-pub(crate) fn svg((w, h): (usize, usize), paths: &[BezPath]) -> String {
-    let flip = to_picture(h);
-    let mut d = String::new();
-    for path in paths {
-        for el in (flip * path).elements() {
-            path_data(&mut d, *el);
-        }
-    }
-    format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{w}\" height=\"{h}\" viewBox=\"0 0 {w} {h}\">\n\
-         <path d=\"{d}\"/>\n</svg>\n"
-    )
-}
-
-/// Adds one element to an SVG path's data.
-pub(super) fn path_data(d: &mut String, el: PathEl) {
-    let (letter, points): (char, &[Point]) = match &el {
-        PathEl::MoveTo(p) => ('M', &[*p]),
-        PathEl::LineTo(p) => ('L', &[*p]),
-        PathEl::QuadTo(a, p) => ('Q', &[*a, *p]),
-        PathEl::CurveTo(a, b, p) => ('C', &[*a, *b, *p]),
-        PathEl::ClosePath => ('Z', &[]),
-    };
-    d.push(letter);
-    for (i, p) in points.iter().enumerate() {
-        let space = if i > 0 { " " } else { "" };
-        let written = write!(d, "{space}{:.DECIMALS$} {:.DECIMALS$}", p.x, p.y);
-        debug_assert!(written.is_ok(), "a String takes everything");
     }
 }

@@ -1,9 +1,10 @@
 //! Where vertices may lie: the admissible control point band.
 
+use super::places::{extent, place};
 use super::tube::Tube;
 use super::{Bounds, Kind, Width};
 use crate::numeric::qbc::Pull;
-use kurbo::{Point, Rect};
+use kurbo::Point;
 use std::collections::BTreeMap;
 
 /// A vertex that the curve may have, and the boundary point nearest to it.
@@ -136,12 +137,6 @@ impl Band {
     }
 }
 
-/// The place of a cell in rows of such a width from a corner on.
-pub(super) fn place(corner: (i32, i32), width: usize, (x, y): (i32, i32)) -> Option<usize> {
-    let x = usize::try_from(x - corner.0).ok().filter(|&x| x < width)?;
-    Some(usize::try_from(y - corner.1).ok()? * width + x)
-}
-
 /// `W_j - T_j` [sohel sec. III.C, eq. 13-15]; a polygon's vertices lie within T.
 fn beyond(kind: Kind, [chord, run]: [f64; 2], t_max: f64, t: f64) -> f64 {
     let rho = run * std::f64::consts::SQRT_2;
@@ -155,13 +150,6 @@ fn beyond(kind: Kind, [chord, run]: [f64; 2], t_max: f64, t: f64) -> f64 {
         Kind::Spline(Pull::QbcN) => ((5.0 * chord + 6.0 * t_max + 4.0 * t) / 20.0, rho / 6.0),
     };
     f64::min(bound, longest)
-}
-
-/// The box around a boundary.
-pub(super) fn extent(boundary: &[Point]) -> Rect {
-    let first = boundary.first().copied().unwrap_or_default();
-    let start = Rect::from_points(first, first);
-    boundary.iter().fold(start, |r, &p| r.union_pt(p))
 }
 
 /// `T_i`: `t_max` where the boundary is straight, falling to `t_min` where it turns by 90° within a few px.

@@ -1,7 +1,6 @@
 //! How far places lie outside the tube.
 
-use super::band::extent;
-use super::piece::to_edge;
+use super::places::{extent, to_edge};
 use kurbo::{Point, Rect};
 
 /// Distances are known up to this, px.

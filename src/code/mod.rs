@@ -17,6 +17,7 @@ mod fan;
 mod line;
 mod moat;
 mod piece;
+mod places;
 mod search;
 mod tube;
 mod vertex;
@@ -93,7 +94,7 @@ pub struct Coded {
 #[must_use]
 pub fn distortion(boundary: &[Point], curve: &[Point]) -> (f64, f64) {
     let off = |p: &Point| {
-        let edges = curve.windows(2).map(|w| piece::to_edge(*p, w));
+        let edges = curve.windows(2).map(|w| places::to_edge(*p, w));
         edges.fold(f64::INFINITY, f64::min)
     };
     let all: Vec<f64> = boundary.iter().map(off).collect();

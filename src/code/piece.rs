@@ -3,7 +3,7 @@
 use super::Kind;
 use super::band::Band;
 use super::line::{LOOK, Weights};
-use kurbo::{Point, Vec2};
+use kurbo::Point;
 use std::cell::Cell;
 
 /// Every such boundary point is looked at before all are.
@@ -185,11 +185,4 @@ impl<'a> Piece<'a> {
         };
         all.windows(3).flat_map(piece).collect()
     }
-}
-
-/// Square of the distance of a point from an edge.
-pub(super) fn to_edge(p: Point, w: &[Point]) -> f64 {
-    let v: Vec2 = w[1] - w[0];
-    let u = ((p - w[0]).dot(v) / v.hypot2().max(1e-12)).clamp(0.0, 1.0);
-    (w[0] + v * u).distance_squared(p)
 }

@@ -1,8 +1,9 @@
 //! Algorithm 1: the cheapest vertices by shortest path over pairs of them.
 
-use super::band::{Band, extent};
+use super::band::Band;
 use super::fan::{Edge, Group, Pair, Words, arrivals, departures};
 use super::piece::{Disc, Piece};
+use super::places::extent;
 use super::{Bounds, CodeError, Coded, Kind, Steps, Width, distortion};
 use kurbo::Point;
 use std::cell::Cell;

@@ -1,8 +1,7 @@
 //! Where the curve may lie: the tolerance band around the boundary, `T_i` wide on each side.
 
-use super::band::{extent, place};
 use super::moat::Moat;
-use super::piece::to_edge;
+use super::places::{extent, place, to_edge};
 use kurbo::{Point, Rect};
 
 /// Nearest boundary points are known up to this, px.

@@ -11,29 +11,11 @@
 //! place nearest to the lines that arrive there
 //! Cost     O(ink · pen width)      Fails  never; no ink gives no paths
 
-use super::skeleton::{Dot, Pruning, Skeleton, Stroke};
+use super::skeleton::{Pruning, Skeleton, Stroke};
 use super::spline::{Data, Knots, Spline};
 use crate::numeric::cast::index;
-use crate::types::{Bitmap, Gray, Span};
+use crate::types::{Bitmap, Centerline, Gray, PenLine, Span};
 use kurbo::{BezPath, CubicBez, Point, Vec2};
-
-/// A line that the pen drew.
-#[derive(Debug, Clone)]
-pub struct Line {
-    /// Its middle, px, y down.
-    pub path: BezPath,
-    /// The ink's width at each node of the path in order, px; of a closed one the first is not repeated.
-    pub widths: Vec<f64>,
-}
-
-/// What the pen drew.
-#[derive(Debug, Clone, Default)]
-pub struct Centerline {
-    /// Lines in reading order of their first pixel.
-    pub lines: Vec<Line>,
-    /// Spots.
-    pub dots: Vec<Dot>,
-}
 
 /// Variance of a middle read from the grey, px².
 const NOISE: f64 = 0.004;
@@ -224,7 +206,7 @@ impl Way {
     }
 
     /// The cubics through the middles, split at corners.
-    fn line(&self) -> Option<Line> {
+    fn line(&self) -> Option<PenLine> {
         let mut cuts = if self.closed { Vec::new() } else { vec![0] };
         cuts.extend(self.corners());
         let n = self.middles.len();
@@ -256,7 +238,7 @@ impl Way {
         if self.closed {
             path.close_path();
         }
-        Some(Line {
+        Some(PenLine {
             path,
             widths: nodes.iter().map(|p| self.width_at(*p)).collect(),
         })

@@ -20,10 +20,10 @@ mod spline;
 mod thin;
 
 pub use alphabet::{Alphabet, Guess, Look, Method, Sample};
-pub use centerline::{Centerline, Line, centerline};
+pub use centerline::centerline;
 pub use check::{Finding, Reading, check};
 pub use once::once;
-pub use skeleton::{Dot, Pruning, Skeleton, Stroke};
+pub use skeleton::{Pruning, Skeleton, Stroke};
 pub use thin::thin;
 
 #[cfg(test)]

@@ -4,7 +4,7 @@
 //! ink's own half width there, and a compact spot of ink is a dot, never a stroke and never lost.
 
 use super::thin::{Field, thin};
-use crate::types::Bitmap;
+use crate::types::{Bitmap, PenDot};
 use image::{GrayImage, Luma};
 use imageproc::distance_transform::euclidean_squared_distance_transform;
 use kurbo::Point;
@@ -41,15 +41,6 @@ pub struct Stroke {
     pub closed: bool,
 }
 
-/// A compact spot of ink.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Dot {
-    /// Centre of its ink, px, y down.
-    pub centre: Point,
-    /// Radius of the disc of the same area, px.
-    pub radius: f64,
-}
-
 /// Strokes, the places where they meet, and dots; px, y down.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Skeleton {
@@ -58,7 +49,7 @@ pub struct Skeleton {
     /// Where at least three line ends meet.
     pub junctions: Vec<Point>,
     /// Compact spots.
-    pub dots: Vec<Dot>,
+    pub dots: Vec<PenDot>,
 }
 
 impl Skeleton {
@@ -121,7 +112,7 @@ pub(crate) fn parts(ink: &Bitmap) -> (Vec<Option<usize>>, usize) {
 }
 
 /// Takes the compact parts out of the ink.
-fn split_dots(ink: &Bitmap, radii: &[f64]) -> (Vec<Dot>, Bitmap) {
+fn split_dots(ink: &Bitmap, radii: &[f64]) -> (Vec<PenDot>, Bitmap) {
     let (label, count) = parts(ink);
     let mut sums = vec![(0.0, 0.0, 0.0, 0.0_f64); count]; // area, moments, largest radius
     for (i, part) in label.iter().enumerate() {
@@ -136,7 +127,7 @@ fn split_dots(ink: &Bitmap, radii: &[f64]) -> (Vec<Dot>, Bitmap) {
     // Half a pixel of border is added back: the disc inscribed in the pixels' squares, not their centres.
     let compact =
         |s: &(f64, f64, f64, f64)| s.0 <= DOT_AREA * std::f64::consts::PI * (s.3 + 0.25).powi(2);
-    let dots = sums.iter().filter(|s| compact(s)).map(|s| Dot {
+    let dots = sums.iter().filter(|s| compact(s)).map(|s| PenDot {
         centre: Point::new(s.1 / s.0, s.2 / s.0),
         radius: (s.0 / std::f64::consts::PI).sqrt(),
     });
@@ -291,7 +282,7 @@ impl Graph {
                 closed: true,
             }
         }));
-        let dot = |&(centre, radius): &(Point, f64)| Dot { centre, radius };
+        let dot = |&(centre, radius): &(Point, f64)| PenDot { centre, radius };
         let dots = self.alone.iter().map(dot).collect();
         Skeleton {
             strokes,

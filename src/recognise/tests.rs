@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::numeric::distance::Polyline;
-use crate::types::{Bitmap, Gray, Guides};
+use crate::types::{Bitmap, Centerline, Gray, Guides};
 use kurbo::Point;
 
 #[expect(clippy::cast_possible_truncation, reason = "coverage")]

@@ -2,9 +2,10 @@
 
 use super::{
     corners::TELLING,
+    curves::{arriving, leaving, polygon_px},
     residual::{Blot, Residual},
 };
-use kurbo::{CubicBez, ParamCurve, Point, Vec2};
+use kurbo::{CubicBez, ParamCurve, Point};
 use std::f64::consts::{PI, SQRT_2};
 
 /// Longest curve that may stand for a corner, px, and what each px of the lens' deviation adds.
@@ -108,11 +109,6 @@ fn blunt(
     (part > LIKELY).then_some(Overlooked { tip, nodes })
 }
 
-/// Length of a curve's control polygon, px.
-pub(super) fn polygon_px(c: &CubicBez) -> f64 {
-    c.p0.distance(c.p1) + c.p1.distance(c.p2) + c.p2.distance(c.p3)
-}
-
 /// Where the end of one segment and the start of another lead, within `reach` px of both, and the turn there,
 /// radians.
 fn meeting(before: &CubicBez, after: &CubicBez, reach: f64) -> Option<(Point, f64)> {
@@ -122,20 +118,4 @@ fn meeting(before: &CubicBez, after: &CubicBez, reach: f64) -> Option<(Point, f6
     let (on, back) = (gap.cross(v) / cross, gap.cross(u) / cross);
     let near = |d: f64| (-1e-6..=reach).contains(&d);
     (near(on) && near(-back)).then(|| (before.p3 + on * u, cross.atan2(u.dot(v))))
-}
-
-/// Direction in which a segment leaves its start, through the first control point that differs.
-pub(super) fn leaving(c: &CubicBez) -> Vec2 {
-    let ways = [c.p1 - c.p0, c.p2 - c.p0, c.p3 - c.p0];
-    ways.into_iter()
-        .find(|d| d.hypot() > 1e-9)
-        .unwrap_or_default()
-}
-
-/// Direction in which it arrives at its end.
-pub(super) fn arriving(c: &CubicBez) -> Vec2 {
-    let ways = [c.p3 - c.p2, c.p3 - c.p1, c.p3 - c.p0];
-    ways.into_iter()
-        .find(|d| d.hypot() > 1e-9)
-        .unwrap_or_default()
 }

@@ -2,11 +2,13 @@
 
 use super::{
     blunt::{self, Overlooked},
-    corners, mend, nodes,
+    corners,
+    curves::polygon,
+    mend, nodes,
     residual::Residual,
 };
 use crate::types::Gray;
-use kurbo::{BezPath, CubicBez, PathEl, Point, flatten};
+use kurbo::{BezPath, CubicBez, Point};
 
 /// Chords leave a path that is compared with the picture by no more than this, px.
 const CHORD_PX: f64 = 0.01;
@@ -98,14 +100,4 @@ fn cubics(path: &BezPath) -> Vec<CubicBez> {
 
 fn polygons(paths: &[BezPath]) -> Vec<Vec<Point>> {
     paths.iter().map(|p| polygon(p, CHORD_PX)).collect()
-}
-
-/// A closed path as chords that leave it by no more than `tolerance_px`.
-pub(super) fn polygon(path: &BezPath, tolerance_px: f64) -> Vec<Point> {
-    let mut out = Vec::new();
-    flatten(path, tolerance_px, |el| match el {
-        PathEl::MoveTo(p) | PathEl::LineTo(p) => out.push(p),
-        _ => {}
-    });
-    out
 }

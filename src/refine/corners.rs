@@ -5,7 +5,7 @@
 
 use super::{
     Cornered,
-    blunt::{arriving, leaving},
+    curves::{arriving, leaving},
     residual::{Blot, Residual},
 };
 use crate::types::{Contour, Gray};

@@ -4,8 +4,7 @@
 //! directions and handles follow by least squares, joins kept. This is the gradient of the squared difference itself,
 //! corners included, which the contour only knows from their sides.
 
-use super::blunt::polygon_px;
-use super::comparison::polygon;
+use super::curves::{polygon, polygon_px};
 use super::residual::Residual;
 use crate::numeric::{
     cast::index,

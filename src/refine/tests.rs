@@ -142,7 +142,7 @@ pub(super) fn square() -> BezPath {
 }
 
 pub(super) fn photograph(path: &BezPath, lens: f64) -> Gray {
-    picture(&comparison::polygon(path, 0.001), 48, lens)
+    picture(&curves::polygon(path, 0.001), 48, lens)
 }
 
 fn doubts(gray: &Gray, path: &BezPath, blur: f64) -> Vec<Doubts> {
@@ -221,7 +221,7 @@ fn levels_are_those_that_the_rings_leave() {
     // a slit that the first model did not know passes for paler ink
     let slit = |tip: f64| {
         let text = format!("M6.2 4.3L42.1 4.3L42.1 43.6L25.4 43.6L24.6 {tip}L23.9 43.6L6.2 43.6Z");
-        comparison::polygon(&BezPath::from_svg(&text).unwrap(), 0.01)
+        curves::polygon(&BezPath::from_svg(&text).unwrap(), 0.01)
     };
     let (drawn, short) = (slit(10.0), slit(40.0));
     let lens = 0.9;
@@ -249,7 +249,7 @@ fn a_part_that_is_drawn_again_is_that_of_the_whole() {
     let before = [square(), rounded(9.0)];
     let after = [notched(15.0), rounded(9.0)];
     let ring = |p: &BezPath| {
-        let mut ring = comparison::polygon(p, 0.01);
+        let mut ring = curves::polygon(p, 0.01);
         ring.extend(ring.first().copied());
         (p.bounding_box(), ring)
     };

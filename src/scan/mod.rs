@@ -15,7 +15,6 @@ mod components;
 mod cut;
 mod deskew;
 mod error;
-mod grid;
 mod header;
 mod ink;
 mod letters;

@@ -7,6 +7,7 @@
 //! | [`Sheet`], [`Cell`] | a page, a letter of it | px, y down |
 //! | [`Contour`], [`Spans`] | rings of points, cut at corners | px, y **up**, origin at the picture's bottom left |
 //! | [`Fitted`] | curves through a span | px, y up |
+//! | [`Centerline`] | the middle of a pen's lines | px, y down |
 //! | [`Outline`] | closed curves | font units, y up, origin on the baseline |
 //! | [`Glyph`], [`Font`] | outlines with names, advances, anchors | font units |
 //! | [`Png`], [`Files`] | a picture to look at, what a writer made | bytes |
@@ -14,6 +15,7 @@
 //! Three functions cross between spaces, and no others: `scan::cut` (sheet to cell), `trace`
 //! (y down to y up) and `finish::place` (px to font units).
 
+mod centerline;
 mod contour;
 mod curve;
 mod files;
@@ -24,6 +26,7 @@ mod png;
 mod raster;
 mod sheet;
 
+pub use centerline::{Centerline, PenDot, PenLine};
 pub use contour::{Contour, ContourError, Span, Spans};
 pub use curve::{Fitted, Verdict};
 pub use files::Files;

@@ -5,7 +5,7 @@
 //! master is a style of its own, and fontmake builds them as one family.
 
 use super::WriteError;
-use super::handwork;
+use super::ufo::files::load;
 use crate::types::Files;
 use norad::designspace::{Axis, DesignSpaceDocument, Dimension, Instance, Source};
 use norad::{Font, Glyph, PointType};
@@ -143,7 +143,7 @@ pub fn designspace(masters: &[Master]) -> Result<Designspace, FamilyError> {
 impl<'a> Style<'a> {
     fn of(master: &'a Master) -> Result<Self, FamilyError> {
         let path = master.path.as_str();
-        let font = handwork::load(&master.files).map_err(|source| FamilyError::Ufo {
+        let font = load(&master.files).map_err(|source| FamilyError::Ufo {
             path: path.to_owned(),
             source,
         })?;

@@ -7,17 +7,16 @@
 //! no build writes is left alone: notes, guidelines, colours, layers, images, further glyphs and lib keys.
 
 use super::WriteError;
-use super::ufo::{self, failed};
+use super::ufo::files::{bytes, failed, load};
+use super::ufo::states::{
+    ANCHOR, CHARACTERS, FEATURES, GROUP, INFORMATION, KERNING, OUTLINE, States, font_states,
+    glyph_states, information, pairs, signed,
+};
+use super::ufo::{COLOUR_KEYS, has_layers};
 use crate::types::Files;
-use norad::{Anchor, Contour, DataRequest, Font, Glyph, Name};
-use plist::{Dictionary, Value};
-use std::collections::{BTreeMap, BTreeSet};
-use std::fmt::Write;
-use std::io;
-use std::path::Path;
-
-/// Lib key of what the last build wrote.
-const BUILT: &str = "khatt.built";
+use norad::{Anchor, Font, Glyph};
+use plist::Value;
+use std::collections::BTreeSet;
 
 /// Folders of a UFO whose files nobody reads here.
 const OTHERS: [&str; 2] = ["data/", "images/"];
@@ -30,9 +29,6 @@ pub struct Kept {
     /// What hand and build have both changed: the hand's stays.
     pub conflicts: Vec<String>,
 }
-
-/// Names of things and their states as text.
-type States = BTreeMap<String, String>;
 
 /// Whose state is taken.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -51,7 +47,7 @@ pub fn merge(old: &Files, new: &Files) -> Result<(Files, Kept), WriteError> {
     let mut out = hand.clone();
     merge.glyphs(&hand, &build, &mut out)?;
     merge.font(&hand, &build, &mut out)?;
-    let mut files = ufo::bytes(&out)?;
+    let mut files = bytes(&out)?;
     let others = old
         .0
         .iter()
@@ -60,120 +56,6 @@ pub fn merge(old: &Files, new: &Files) -> Result<(Files, Kept), WriteError> {
         .0
         .extend(others.map(|(name, content)| (name.clone(), content.clone())));
     Ok((files, merge.kept))
-}
-
-pub(super) fn load(files: &Files) -> Result<Font, WriteError> {
-    let source = |path: &Path| {
-        let name: Vec<_> = path.iter().map(|p| p.to_string_lossy()).collect();
-        files
-            .0
-            .get(&name.join("/"))
-            .map(|content| Ok::<_, io::Error>(content.clone()))
-    };
-    Font::load_from_source(&DataRequest::all(), &source).map_err(|e| failed(&e))
-}
-
-/// Notes in a font what is in it now.
-pub(super) fn sign(font: &mut Font) -> Result<(), WriteError> {
-    let states = font_states(font)?;
-    font.lib.insert(BUILT.to_owned(), value(&states));
-    for glyph in font.default_layer_mut().iter_mut() {
-        let states = glyph_states(glyph);
-        glyph.lib.insert(BUILT.to_owned(), value(&states));
-    }
-    Ok(())
-}
-
-fn value(states: &States) -> Value {
-    let states = states
-        .iter()
-        .map(|(k, v)| (k.clone(), Value::from(v.as_str())));
-    Value::Dictionary(states.collect())
-}
-
-/// What the last build wrote; none for what no build has made.
-fn signed(lib: &Dictionary) -> Option<States> {
-    let states = lib.get(BUILT)?.as_dictionary()?.iter();
-    Some(
-        states
-            .filter_map(|(k, v)| Some((k.clone(), v.as_string()?.to_owned())))
-            .collect(),
-    )
-}
-
-const OUTLINE: &str = "outline";
-const CHARACTERS: &str = "characters";
-const ANCHOR: &str = "anchor ";
-
-fn glyph_states(glyph: &Glyph) -> States {
-    let mut outline = format!("{}", glyph.width);
-    let mut add = |text: std::fmt::Arguments<'_>| {
-        let done = outline.write_fmt(text);
-        debug_assert!(done.is_ok(), "a string takes all that is written to it");
-    };
-    for Contour { points, .. } in &glyph.contours {
-        add(format_args!("\n"));
-        points
-            .iter()
-            .for_each(|p| add(format_args!(" {:?} {} {}", p.typ, p.x, p.y)));
-    }
-    for part in &glyph.components {
-        let t = part.transform;
-        let numbers = [
-            t.x_scale, t.xy_scale, t.yx_scale, t.y_scale, t.x_offset, t.y_offset,
-        ];
-        add(format_args!("\n{} {numbers:?}", part.base));
-    }
-    let mut states = States::from([
-        (OUTLINE.to_owned(), digest(&outline)),
-        (CHARACTERS.to_owned(), glyph.codepoints.iter().collect()),
-    ]);
-    states.extend(glyph.anchors.iter().filter_map(|a| {
-        let name = a.name.as_ref()?;
-        Some((format!("{ANCHOR}{name}"), format!("{} {}", a.x, a.y)))
-    }));
-    states
-}
-
-const FEATURES: &str = "features";
-const INFORMATION: &str = "font information ";
-const GROUP: &str = "group ";
-const KERNING: &str = "kerning ";
-
-fn font_states(font: &Font) -> Result<States, WriteError> {
-    let mut states = States::from([(FEATURES.to_owned(), digest(&font.features))]);
-    let info = information(font)?;
-    states.extend(
-        info.iter()
-            .map(|(k, v)| (format!("{INFORMATION}{k}"), format!("{v:?}"))),
-    );
-    states.extend(font.groups.iter().map(|(name, members)| {
-        let members: Vec<&str> = members.iter().map(Name::as_str).collect();
-        (format!("{GROUP}{name}"), members.join(" "))
-    }));
-    states.extend(
-        pairs(font)
-            .into_iter()
-            .map(|((a, b), v)| (format!("{KERNING}{a} {b}"), v.to_string())),
-    );
-    Ok(states)
-}
-
-fn information(font: &Font) -> Result<Dictionary, WriteError> {
-    let info = plist::to_value(&font.font_info).map_err(|e| failed(&e))?;
-    Ok(info.into_dictionary().unwrap_or_default())
-}
-
-fn pairs(font: &Font) -> BTreeMap<(Name, Name), f64> {
-    let of = |(first, seconds): (&Name, &BTreeMap<Name, f64>)| {
-        let pair = |(second, value): (&Name, &f64)| ((first.clone(), second.clone()), *value);
-        seconds.iter().map(pair).collect::<Vec<_>>()
-    };
-    font.kerning.iter().flat_map(of).collect()
-}
-
-fn digest(text: &str) -> String {
-    blake3::hash(text.as_bytes()).to_string()
 }
 
 #[derive(Default)]
@@ -251,8 +133,8 @@ impl Merge {
         names.extend(more.filter(|n| !listed.contains(n)));
         let names = names.into_iter().map(Value::from).collect();
         out.lib.extend(build.lib.clone());
-        if !ufo::has_layers(out) {
-            for key in ufo::COLOUR_KEYS {
+        if !has_layers(out) {
+            for key in COLOUR_KEYS {
                 out.lib.remove(key);
             }
         }
@@ -336,7 +218,10 @@ impl Merge {
 mod tests {
     use super::*;
     use crate::types;
+    use crate::write::ufo;
+    use crate::write::ufo::states::sign_glyph;
     use kurbo::{Point, Rect, Shape};
+    use norad::Name;
 
     /// A UFO of A and V, as high as said.
     fn built(height: f64, kern: f64) -> Files {
@@ -362,7 +247,7 @@ mod tests {
     fn edited(files: &Files, edit: impl FnOnce(&mut Font)) -> Files {
         let mut font = load(files).unwrap();
         edit(&mut font);
-        ufo::bytes(&font).unwrap()
+        bytes(&font).unwrap()
     }
 
     fn wider(font: &mut Font) {
@@ -430,7 +315,7 @@ mod tests {
         assert!(font.get_glyph("logo").is_some());
 
         // a third build knows again what is by hand
-        let again = merge(&ufo::bytes(&font).unwrap(), &built(600.0, -50.0)).unwrap();
+        let again = merge(&bytes(&font).unwrap(), &built(600.0, -50.0)).unwrap();
         assert_eq!(again.1.kept, want);
     }
 
@@ -457,9 +342,7 @@ mod tests {
                 let mut glyph = font.get_glyph("A").unwrap().clone();
                 glyph.codepoints.clear();
                 font.default_layer_mut().insert_glyph(Glyph::new(gone));
-                let own = font.get_glyph_mut(gone).unwrap();
-                own.lib
-                    .insert(BUILT.to_owned(), value(&glyph_states(&Glyph::new(gone))));
+                sign_glyph(font.get_glyph_mut(gone).unwrap());
             }
             font.get_glyph_mut("X").unwrap().width = 1.0;
         });

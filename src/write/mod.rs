@@ -3,6 +3,7 @@
 //! [`FORMATS`] is the table of them. Every writer is a pure function: the same font gives the same
 //! bytes, and nothing touches the disk.
 
+pub mod centerline;
 mod cff;
 mod colour;
 pub mod designspace;
@@ -12,6 +13,8 @@ mod names;
 mod numbers;
 mod os2;
 mod otf;
+mod path;
+pub mod picture;
 pub mod proof;
 mod sfnt;
 mod svg;

@@ -1,10 +1,10 @@
 //! One SVG a glyph: user space in font units, y down, the em box from ascender to descender.
 
 use super::WriteError;
+use super::path::path_data;
 use crate::types::{Files, Font, Glyph, Layer, Name};
-use kurbo::{Affine, BezPath, PathEl, Point};
+use kurbo::Affine;
 use std::collections::BTreeSet;
-use std::fmt::Write;
 
 /// Numbers are cut to thousandths of a unit: below what a rasteriser can show.
 const PER_UNIT: f64 = 1000.0;
@@ -52,7 +52,7 @@ fn file_name(glyph: &str, taken: &mut BTreeSet<String>) -> String {
 fn document(font: &Font, glyph: &Glyph) -> String {
     let m = font.info.metrics;
     let path = |glyph: &Glyph, fill: &str| {
-        let data = path_data(&(Affine::FLIP_Y * font.shape(glyph).to_path()));
+        let data = path_data(&(Affine::FLIP_Y * font.shape(glyph).to_path()), number);
         format!("  <path{fill} d=\"{data}\"/>\n")
     };
     let layer = |layer: &Layer| {
@@ -79,23 +79,6 @@ fn number(v: f64) -> String {
     let cut = (v * PER_UNIT).round() / PER_UNIT;
     // no "-0"
     format!("{}", cut + 0.0)
-}
-
-/// SVG path data, absolute, to thousandths of a unit.
-fn path_data(path: &BezPath) -> String {
-    let mut out = String::new();
-    let p = |p: Point| format!("{} {}", number(p.x), number(p.y));
-    for el in path.elements() {
-        let done = match *el {
-            PathEl::MoveTo(a) => write!(out, "M{}", p(a)),
-            PathEl::LineTo(a) => write!(out, "L{}", p(a)),
-            PathEl::QuadTo(a, b) => write!(out, "Q{} {}", p(a), p(b)),
-            PathEl::CurveTo(a, b, c) => write!(out, "C{} {} {}", p(a), p(b), p(c)),
-            PathEl::ClosePath => write!(out, "Z"),
-        };
-        debug_assert!(done.is_ok(), "a string takes all that is written to it");
-    }
-    out
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@
 use super::{SPLINES, boundary};
 use crate::code::band::{Band, Vertex};
 use crate::code::line::LOOK;
-use crate::code::piece::to_edge;
+use crate::code::places::to_edge;
 use crate::code::{Bounds, Kind, Steps, Width, encode};
 use kurbo::Point;
 

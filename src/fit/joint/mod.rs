@@ -90,7 +90,7 @@ impl Joint {
         let points = span.points();
         let length: f64 = points.windows(2).map(|w| w[0].distance(w[1])).sum();
         if points.len() < 3 || length <= 0.0 {
-            return Ok(polygon(span));
+            return Ok(path::polygon(span));
         }
         let pinned = self.pinned(span, tolerance_px);
         let short = points.len() <= SHORT;
@@ -99,7 +99,7 @@ impl Joint {
             return if points.len() > FEW {
                 self.halves(span, tolerance_px)
             } else {
-                Ok(polygon(span))
+                Ok(path::polygon(span))
             };
         };
         Ok(Fitted {
@@ -217,27 +217,6 @@ fn canonical(span: Span<'_>) -> (Vec<Point>, bool) {
         p.reverse();
     }
     (p, turned)
-}
-
-/// The points themselves, joined by lines.
-fn polygon(span: Span<'_>) -> Fitted {
-    let mut path = BezPath::new();
-    let mut last: Option<Point> = None;
-    for &p in span.points() {
-        match last {
-            None => path.move_to(p),
-            Some(_) => path.line_to(p),
-        }
-        last = Some(p);
-    }
-    if span.is_ring() {
-        path.close_path();
-    }
-    Fitted {
-        path,
-        verdict: Verdict::Degenerate,
-        parameters: 2 * span.points().len(),
-    }
 }
 
 #[cfg(test)]

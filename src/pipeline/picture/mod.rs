@@ -10,7 +10,7 @@ use crate::fit::{self, FitError};
 use crate::refine::Cornered;
 use crate::types::Gray;
 use contours::{found, sharp};
-use kurbo::{Affine, BezPath};
+use kurbo::BezPath;
 
 /// The closed curves around a picture's ink, px, y up, origin at the picture's bottom left; outer ones
 /// counter-clockwise, holes clockwise. Nothing for a picture without ink.
@@ -32,14 +32,4 @@ pub fn trace_picture(gray: &Gray, options: &Options) -> Result<Vec<BezPath>, Fit
 pub fn edges(gray: &Gray, options: &Options) -> Vec<Cornered> {
     let (coverage, found) = found(gray, options);
     sharp(&coverage, &found, options)
-}
-
-/// The map from the curves' space (y up) to that of a picture so many px high (y down).
-#[must_use]
-#[expect(
-    clippy::cast_precision_loss,
-    reason = "pictures have fewer rows than 2^52"
-)]
-pub fn to_picture(height: usize) -> Affine {
-    Affine::new([1.0, 0.0, 0.0, -1.0, 0.0, height as f64])
 }

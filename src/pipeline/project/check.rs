@@ -35,7 +35,7 @@ pub(super) fn paths<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<PathBuf>, 
 
 pub(super) fn version<'de, D: Deserializer<'de>>(from: D) -> Result<String, D::Error> {
     let text = String::deserialize(from)?;
-    match super::font::version_numbers(&text) {
+    match version_numbers(&text) {
         Some(_) => Ok(text),
         None => Err(D::Error::custom(
             "must be two whole numbers with a dot between, such as \"1.002\"",
@@ -122,4 +122,12 @@ pub(super) fn some_sheets<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<Shee
         return Err(D::Error::custom("a font needs at least one [[sheet]]"));
     }
     Ok(sheets)
+}
+
+/// Major and minor number of a version such as `1.002`.
+pub(super) fn version_numbers(text: &str) -> Option<(u16, u16)> {
+    let (major, minor) = text.split_once('.')?;
+    let digits = |s: &str| s.bytes().all(|b| b.is_ascii_digit());
+    let minor = (digits(major) && digits(minor)).then_some(minor)?;
+    Some((major.parse().ok()?, minor.parse().ok()?))
 }

@@ -69,14 +69,6 @@ fn vendor() -> String {
     String::from_utf8_lossy(&Info::default().vendor_id).into_owned()
 }
 
-/// Major and minor number of a version such as `1.002`.
-pub(super) fn version_numbers(text: &str) -> Option<(u16, u16)> {
-    let (major, minor) = text.split_once('.')?;
-    let digits = |s: &str| s.bytes().all(|b| b.is_ascii_digit());
-    let minor = (digits(major) && digits(minor)).then_some(minor)?;
-    Some((major.parse().ok()?, minor.parse().ok()?))
-}
-
 impl FontTable {
     /// What the font says about itself; `created` is seconds since 1970. Heights are still to be measured,
     /// except those that the file gives.
@@ -91,7 +83,7 @@ impl FontTable {
         Info {
             family: self.family.clone(),
             style: self.style.clone(),
-            version: version_numbers(&self.version).unwrap_or(default.version),
+            version: check::version_numbers(&self.version).unwrap_or(default.version),
             units_per_em: self.units_per_em,
             weight: self.weight,
             italic_angle: self.italic_angle,

@@ -1,9 +1,9 @@
 //! Bends too tight for a lens to tell from corners, and the corners in their place.
 
-use super::variants::{HOOKED, behind, reversed, unit};
+use super::side::{HOOKED, behind, reversed, unit};
 use crate::{
     numeric::chain::{Chain, Join, Node},
-    refine::blunt::arriving,
+    refine::curves::arriving,
 };
 use kurbo::{CubicBez, ParamCurve, ParamCurveDeriv, ParamCurveNearest, Point, Vec2};
 

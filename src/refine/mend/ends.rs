@@ -1,10 +1,10 @@
 //! Corners whose ends are cut off by a short line, as some designers draw them.
 
-use super::variants::unit;
+use super::side::unit;
 use crate::{
     numeric::chain::{Chain, Join},
     refine::{
-        blunt::{arriving, leaving},
+        curves::{arriving, leaving},
         residual::{Blot, Residual},
     },
 };

@@ -20,6 +20,7 @@ mod ends;
 mod fair;
 mod part;
 mod place;
+mod side;
 mod structure;
 #[cfg(test)]
 mod tests;
@@ -27,7 +28,7 @@ mod tips;
 mod variants;
 mod window;
 
-use super::{comparison::polygon, residual::Residual};
+use super::{curves::polygon, residual::Residual};
 use crate::numeric::{chain::Chain, joins::divide_at_extrema};
 use bends::tight_bends;
 use ends::hint;

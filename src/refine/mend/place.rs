@@ -10,7 +10,7 @@ use super::{
 };
 use crate::{
     numeric::chain::{Chain, Kind},
-    refine::{comparison::polygon, residual::Residual},
+    refine::{curves::polygon, residual::Residual},
 };
 use kurbo::{ParamCurveNearest, Point};
 

@@ -12,7 +12,7 @@ use crate::{
     },
     refine::{
         Comparison,
-        comparison::polygon,
+        curves::polygon,
         tests::{notched, photograph, picture, rounded, square},
     },
     types::{Contour, Gray},

@@ -3,13 +3,13 @@
 //! Where two sides run on as one, or cross before they end in a corner, there is no ink (or no paper) between them: a needle
 //! or a loop that no pixel speaks against. Such an end is cut off where its sides part. So are small loops at other corners.
 
-use super::variants::{behind, reversed, unit};
+use super::side::{behind, reversed, unit};
 use crate::{
     numeric::{
         cast::index,
         chain::{Chain, Join, Node},
     },
-    refine::blunt::{arriving, leaving, polygon_px},
+    refine::curves::{arriving, leaving, polygon_px},
 };
 use kurbo::{CubicBez, Line, ParamCurve, ParamCurveNearest, Point, Vec2};
 

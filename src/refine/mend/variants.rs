@@ -1,23 +1,21 @@
 //! Other structures of a few nodes: what a drawing may have where another was fit.
 
-use super::{bends::meeting, tips::tip};
+use super::bends::meeting;
+use super::side::{HOOKED, behind, reversed, unit};
+use super::tips::tip;
 use crate::{
     numeric::{
         chain::{Chain, Join, Kind, Node},
         joins::divide,
     },
-    refine::blunt::polygon_px,
+    refine::curves::polygon_px,
 };
 use kurbo::{CubicBez, ParamCurve, ParamCurveDeriv, ParamCurveNearest, Point, Vec2};
 
 /// How much of each side a corner that is cut off may lose, px.
 pub(super) const CUTS_PX: [f64; 2] = [0.8, 2.0];
-/// And as a part of the side at most.
-const CUT: f64 = 0.4;
 /// So far from a smooth node its sides tell how sharp a corner would be, px.
 const SHARP_PX: f64 = 4.0;
-/// A corner whose sides turn by more than this on their last px is tried with sides that do not, radians.
-pub(super) const HOOKED: f64 = 0.3;
 /// How much further out a tip is tried, as parts of the reach.
 const PULLS: [f64; 2] = [0.4, 0.8];
 /// The largest part of a line that is bent.
@@ -181,18 +179,6 @@ pub(super) fn cut(chain: &Chain, i: usize, px: f64, by: Kind) -> Chain {
     out
 }
 
-/// How far before the end of a curve, in its parameter, it is about `px` from there.
-pub(super) fn behind(c: &CubicBez, px: f64) -> f64 {
-    let length = polygon_px(c);
-    let px = px.min(CUT * length);
-    let mut t = (px / length.max(1e-9)).min(CUT);
-    for _ in 0..4 {
-        let gone = c.eval(1.0 - t).distance(c.p3);
-        t = (t * (px / gone.max(1e-9)).clamp(0.5, 2.0)).min(0.5);
-    }
-    t
-}
-
 /// With the tip at corner `i` `px` further out, its sides' handles where they were.
 fn pulled(chain: &Chain, i: usize, px: f64) -> Option<Chain> {
     let (arrive, leave) = tip(chain, i)?;
@@ -255,12 +241,4 @@ fn met(chain: &Chain, i: usize, j: usize) -> Chain {
     out.nodes.splice(i..=j, [corner]);
     out.kinds.drain(i..j);
     out
-}
-
-pub(super) fn reversed(c: &CubicBez) -> CubicBez {
-    CubicBez::new(c.p3, c.p2, c.p1, c.p0)
-}
-
-pub(super) fn unit(v: Vec2) -> Vec2 {
-    v / v.hypot().max(1e-12)
 }

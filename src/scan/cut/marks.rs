@@ -6,7 +6,7 @@
 //! and one that is drawn in one piece has none of them, but a thin end that is parted from its stroke. How large a dot is,
 //! the page's letters of one dot say.
 
-use super::grid::{SMALL, group};
+use super::small::{SMALL, group};
 use super::{Layer, Reason, gap};
 use crate::numeric::median::median;
 use crate::scan::components::Component;

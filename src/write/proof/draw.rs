@@ -2,6 +2,8 @@
 
 use super::Entry;
 use crate::types::{Info, Png};
+use crate::write::path;
+use crate::write::picture::to_picture;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use kurbo::{Affine, BezPath, PathEl, Point};
@@ -63,13 +65,9 @@ impl Drawn {
 }
 
 /// From the cell picture's px (y down) to font units with y down.
-#[expect(
-    clippy::cast_precision_loss,
-    reason = "pictures have fewer rows than 2^52"
-)]
 fn picture_to_user(entry: &Entry) -> Affine {
-    let height = entry.picture.height() as f64;
-    Affine::FLIP_Y * entry.frame.to_units() * Affine::new([1.0, 0.0, 0.0, -1.0, 0.0, height])
+    let up = to_picture(entry.picture.height()).inverse();
+    Affine::FLIP_Y * entry.frame.to_units() * up
 }
 
 /// The em box and what sticks out of it.
@@ -131,26 +129,7 @@ fn push(out: &mut String, text: std::fmt::Arguments<'_>) {
 
 /// Path data to a tenth of a unit: below what a screen shows.
 pub(super) fn path_data(path: &BezPath) -> String {
-    let mut out = String::new();
-    for el in path.elements() {
-        match el {
-            PathEl::MoveTo(p) => push(&mut out, format_args!("M{:.1} {:.1}", p.x, p.y)),
-            PathEl::LineTo(p) => push(&mut out, format_args!("L{:.1} {:.1}", p.x, p.y)),
-            PathEl::QuadTo(a, p) => push(
-                &mut out,
-                format_args!("Q{:.1} {:.1} {:.1} {:.1}", a.x, a.y, p.x, p.y),
-            ),
-            PathEl::CurveTo(a, b, p) => push(
-                &mut out,
-                format_args!(
-                    "C{:.1} {:.1} {:.1} {:.1} {:.1} {:.1}",
-                    a.x, a.y, b.x, b.y, p.x, p.y
-                ),
-            ),
-            PathEl::ClosePath => out.push('Z'),
-        }
-    }
-    out
+    path::path_data(path, |v| format!("{v:.1}"))
 }
 
 /// The cell's picture in a data URI.

@@ -16,7 +16,7 @@ use crate::{
         coverage::{Coverage, blur},
         joins::past_levels,
     },
-    refine::{blunt::polygon_px, residual::Residual},
+    refine::{curves::polygon_px, residual::Residual},
     types::Contour,
 };
 use kurbo::{CubicBez, ParamCurve, ParamCurveDeriv, Point, Rect, Vec2};
@@ -389,7 +389,7 @@ fn dot(a: &[f32], b: &[f32]) -> f64 {
 mod tests {
     use super::*;
     use crate::{
-        refine::{comparison::polygon, mend::part::open_part},
+        refine::{curves::polygon, mend::part::open_part},
         types::Gray,
     };
     use kurbo::BezPath;

@@ -371,7 +371,7 @@ impl Window {
 mod tests {
     use super::*;
     use crate::numeric::{chain::Join, coverage::Coverage};
-    use crate::refine::{comparison::polygon, mend::window::numbers::numbers, residual::Residual};
+    use crate::refine::{curves::polygon, mend::window::numbers::numbers, residual::Residual};
     use crate::types::{Contour, Gray};
     use kurbo::BezPath;
 

@@ -4,7 +4,7 @@
 //! compared with a wave of that length; the wave's phase says where the gaps are. Printed lines, letters
 //! out of their place and empty cells do not move it.
 
-use super::whole::floor;
+use crate::scan::whole::floor;
 use std::f64::consts::TAU;
 use std::ops::Range;
 

@@ -4,15 +4,17 @@
 //! `kerning.plist` and the anchors, as our own writers do, so that a change to either counts.
 //! What was built stands in the libs, so that the next build knows hand work ([`super::handwork`]).
 
+pub(super) mod files;
+pub(super) mod states;
+
 use super::layout::{self, Class};
-use super::{WriteError, handwork, names};
+use super::{WriteError, names};
 use crate::types::{Files, Font, Glyph, Info, Layer};
+use files::{bytes, failed};
 use kurbo::{BezPath, PathEl, Point, Vec2};
 use norad::fontinfo::{NonNegativeIntegerOrFloat, StyleMapStyle};
-use norad::{AffineTransform, Contour, ContourPoint, FontInfo, PointType, WriteOptions};
+use norad::{AffineTransform, Contour, ContourPoint, FontInfo, PointType};
 use plist::{Dictionary, Value};
-use std::path::Path;
-use std::sync::Mutex;
 
 /// Tangents that turn less than this at a point, radians, make it a smooth one: a quarter of a degree.
 const SMOOTH: f64 = 0.0044;
@@ -31,32 +33,8 @@ const USE_TYPO_METRICS: u8 = 7;
 /// The files of a UFO.
 pub(super) fn files(font: &Font) -> Result<Files, WriteError> {
     let mut ufo = convert(font)?;
-    handwork::sign(&mut ufo)?;
+    states::sign(&mut ufo)?;
     bytes(&ufo)
-}
-
-/// The files of a UFO in memory.
-pub(super) fn bytes(ufo: &norad::Font) -> Result<Files, WriteError> {
-    let files = Mutex::new(Files::default());
-    let sink = |path: &Path, data: &[u8]| {
-        let name = path
-            .iter()
-            .map(|p| p.to_string_lossy())
-            .collect::<Vec<_>>()
-            .join("/");
-        let mut files = files
-            .lock()
-            .map_err(|e| std::io::Error::other(e.to_string()))?;
-        files.0.insert(name, data.to_vec());
-        Ok(())
-    };
-    ufo.save_to_sink(&sink, &WriteOptions::default())
-        .map_err(|e| failed(&e))?;
-    files.into_inner().map_err(|e| failed(&e))
-}
-
-pub(super) fn failed(error: &dyn std::error::Error) -> WriteError {
-    WriteError::table("UFO", error)
 }
 
 fn name(text: &str) -> Result<norad::Name, WriteError> {

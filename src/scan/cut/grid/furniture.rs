@@ -3,7 +3,7 @@
 //! A letter of one piece leaves no second piece in its cell. Where nearly all cells of such letters have one, at the
 //! same place and with less ink than the rest of the cell, it is printed, and so is what lies there in the others.
 
-use super::grid::Shared;
+use super::shared::Shared;
 use crate::scan::components::Component;
 use kurbo::{Point, Rect, Vec2};
 use std::collections::BTreeSet;

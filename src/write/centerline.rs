@@ -1,32 +1,27 @@
 //! Lines that a pen drew, as SVG strokes or as the open contours of a UFO.
 
-use super::trace::path_data;
-use khatt::assemble::names;
-use khatt::pipeline::picture::to_picture;
-use khatt::recognise::{Centerline, Dot, Line};
-use khatt::types::{Files, Gray, Label};
+use super::WriteError;
+use super::path::path_data;
+use super::picture::{pixels, to_picture};
+use super::ufo::files::bytes;
+use crate::types::{Centerline, Files, PenDot, PenLine};
 use kurbo::{Affine, BezPath, PathEl, Point};
-use norad::{Codepoints, Contour, ContourPoint, PointType, WriteOptions};
+use norad::{Codepoints, Contour, ContourPoint, PointType};
 use plist::Value;
-use std::error::Error;
-use std::path::Path;
-use std::sync::Mutex;
 
 /// Where a UFO's glyph keeps the ink's width: a list a contour, a number an on-curve point, in units.
 const WIDTHS: &str = "khatt.strokeWidths";
 
 /// A stroked path of each line, as wide as the line is in the middle; the width at each of its nodes in
 /// `data-widths`. Dots are circles. User space is the picture's px, y down.
-pub(super) fn svg(gray: &Gray, drawn: &Centerline) -> String {
-    let (w, h) = (gray.width(), gray.height());
+#[must_use]
+pub fn svg((w, h): (usize, usize), drawn: &Centerline) -> String {
     let mut out = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{w}\" height=\"{h}\" viewBox=\"0 0 {w} {h}\">\n\
          <g fill=\"none\" stroke=\"black\" stroke-linecap=\"round\" stroke-linejoin=\"round\">\n"
     );
     for line in &drawn.lines {
-        let mut d = String::new();
-        let elements = line.path.elements().iter();
-        elements.for_each(|el| path_data(&mut d, *el));
+        let d = path_data(&line.path, pixels);
         let mut sorted = line.widths.clone();
         sorted.sort_by(f64::total_cmp);
         let middle = sorted.get(sorted.len() / 2).copied().unwrap_or_default();
@@ -43,18 +38,19 @@ pub(super) fn svg(gray: &Gray, drawn: &Centerline) -> String {
     out + "</svg>\n"
 }
 
-/// A UFO of one glyph: a unit is a px, y up from the picture's lower edge. The glyph bears the output's name, and
-/// its character where that names one. Dots are lines of no length, as wide as the dot.
-pub(super) fn ufo(gray: &Gray, drawn: &Centerline, to: &Path) -> Result<Files, Box<dyn Error>> {
-    let stem = to.file_stem().and_then(|s| s.to_str()).unwrap_or_default();
-    let known = names::identify(&Label(stem.to_owned())).ok();
-    let name = known.as_ref().map_or("drawing", |id| id.name.as_str());
+/// A UFO of one glyph: a unit is a px, y up from the picture's lower edge. Dots are lines of no length, as wide as the dot.
+///
+/// # Errors
+/// The UFO cannot be written.
+pub fn ufo(
+    (width, height): (usize, usize),
+    drawn: &Centerline,
+    (name, character): (&str, Option<char>),
+) -> Result<Files, WriteError> {
     let mut glyph = norad::Glyph::new(name);
-    if let Some([c]) = known.as_ref().map(|id| id.chars.as_slice()) {
-        glyph.codepoints = Codepoints::new([*c]);
-    }
-    glyph.width = gray.width() as f64;
-    let up = to_picture(gray.height()).inverse();
+    glyph.codepoints = Codepoints::new(character);
+    glyph.width = width as f64;
+    let up = to_picture(height).inverse();
     glyph.contours = drawn
         .lines
         .iter()
@@ -62,23 +58,13 @@ pub(super) fn ufo(gray: &Gray, drawn: &Centerline, to: &Path) -> Result<Files, B
         .collect();
     glyph.contours.extend(drawn.dots.iter().map(|d| dot(d, up)));
     let reals = |widths: &[f64]| Value::Array(widths.iter().map(|w| Value::Real(*w)).collect());
-    let lines = drawn.lines.iter().map(|l: &Line| reals(&l.widths));
+    let lines = drawn.lines.iter().map(|l: &PenLine| reals(&l.widths));
     let dots = drawn.dots.iter().map(|d| reals(&[2.0 * d.radius; 2]));
     let widths = Value::Array(lines.chain(dots).collect());
     glyph.lib.insert(WIDTHS.to_owned(), widths);
     let mut font = norad::Font::new();
     font.default_layer_mut().insert_glyph(glyph);
-    let files = Mutex::new(Files::default());
-    let sink = |path: &Path, data: &[u8]| {
-        let parts: Vec<_> = path.iter().map(|p| p.to_string_lossy()).collect();
-        let mut files = files
-            .lock()
-            .map_err(|e| std::io::Error::other(e.to_string()))?;
-        files.0.insert(parts.join("/"), data.to_vec());
-        Ok(())
-    };
-    font.save_to_sink(&sink, &WriteOptions::default())?;
-    Ok(files.into_inner().unwrap_or_default())
+    bytes(&font)
 }
 
 /// A line as the field writes it: an open contour begins with a point of type `move`.
@@ -101,7 +87,7 @@ fn contour(path: &BezPath) -> Contour {
     Contour::new(points, None)
 }
 
-fn dot(dot: &Dot, up: Affine) -> Contour {
+fn dot(dot: &PenDot, up: Affine) -> Contour {
     let at = up * dot.centre;
     Contour::new(
         vec![node(at, PointType::Move), node(at, PointType::Line)],

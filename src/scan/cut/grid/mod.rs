@@ -1,0 +1,202 @@
+//! Equal cells in rows and columns.
+
+mod axis;
+mod furniture;
+mod plan;
+mod shared;
+
+pub(super) use plan::Plan;
+
+use super::small::{SMALL, group};
+use super::{Layer, Reason, Slot, gap, listed, marks, ruling};
+use crate::scan::components::Component;
+use crate::scan::error::ScanError;
+use crate::scan::letters::{Pieces, Shape};
+use crate::types::Label;
+use axis::Axis;
+use glyphs_reader::glyphdata::GlyphData;
+use kurbo::Point;
+use shared::{COUNTS, NEAR, Shared, neighbours, share};
+
+/// A piece longer than this many cells is no letter if it is thin or hollow.
+const LINE_LENGTH: f64 = 1.4;
+/// Share of its box that a printed lattice covers at most.
+const LINE_COVER: f64 = 0.12;
+/// Thickness of a printed line at most, as a share of a cell.
+const LINE_WIDTH: f64 = 0.06;
+/// What a distance within the cell counts beside one to another cell's letter.
+const HOME: f64 = 0.6;
+
+/// Shares the ink out to the cells of a grid. Pieces that touch printed lines are cut free and appended to `all`.
+pub(super) fn place(
+    all: &mut Vec<Component>,
+    labels: &[Label],
+    plan: &Plan<'_>,
+) -> Result<Layer, ScanError> {
+    listed::check(&plan.options.lines, &plan.lines(), plan.source)?;
+    plan.too_many(labels)?;
+    let lines = lines(all, plan);
+    let is_lined = !lines.is_empty();
+    let freed = lines
+        .iter()
+        .flat_map(|&i| ruling::freed(&all[i], &plan.upright));
+    let freed: Vec<Component> = freed.collect();
+    all.extend(freed);
+    let letters: Vec<usize> = (0..all.len()).filter(|i| !lines.contains(i)).collect();
+    let mut rejected: Vec<(usize, Reason)> = lines.iter().map(|&i| (i, Reason::Line)).collect();
+    let blank = || ScanError::Blank {
+        source_name: plan.source.to_owned(),
+    };
+    let mut shared = share(all, &letters, labels, plan).ok_or_else(blank)?;
+    let names = GlyphData::default();
+    let label = |cell: usize| labels.get(plan.index((cell / plan.columns, cell % plan.columns))?);
+    let one_piece = |l: &Label| Shape::of(l, &names).pieces == Pieces::One;
+    let drawn = shared.cells.iter().enumerate();
+    let drawn = drawn.filter_map(|(cell, parts)| Some((label(cell)?, parts.as_slice())));
+    let asked: Vec<usize> = if marks::in_pieces(drawn, all, &names) {
+        Vec::new()
+    } else {
+        let cells = 0..shared.cells.len();
+        cells.filter(|&c| label(c).is_some_and(one_piece)).collect()
+    };
+    let printed = furniture::find(all, &shared, &asked);
+    if !printed.is_empty() {
+        let rest: Vec<usize> = letters
+            .into_iter()
+            .filter(|i| !printed.contains(i))
+            .collect();
+        shared = share(all, &rest, labels, plan).ok_or_else(blank)?;
+        rejected.extend(printed.into_iter().map(|i| (i, Reason::Furniture)));
+    }
+    let Shared {
+        x,
+        y,
+        mut cells,
+        outside,
+    } = shared;
+    rejected.extend(outside.into_iter().map(|i| (i, Reason::Outside)));
+    settle_small_parts(all, &mut cells, &x, &y);
+    let mut slots = name(all, cells, labels, plan, &mut rejected)?;
+    slots.iter_mut().for_each(|s| s.level = y.begin(s.row));
+    Ok(Layer {
+        slots,
+        rows: plan.rows,
+        ruled: is_lined,
+        rejected,
+        parted: Vec::new(),
+        doubtful: Vec::new(),
+    })
+}
+
+/// Pieces that are printed lines: longer than a cell, and thin or hollow.
+fn lines(all: &[Component], plan: &Plan<'_>) -> Vec<usize> {
+    let Some(page) = all.iter().map(|c| c.upright).reduce(|a, b| a.union(b)) else {
+        return Vec::new();
+    };
+    let (w, h) = (
+        page.width() / plan.columns as f64,
+        page.height() / plan.rows as f64,
+    );
+    let is_line = |c: &Component| {
+        let b = c.upright;
+        let long = b.width() > LINE_LENGTH * w || b.height() > LINE_LENGTH * h;
+        let thin = b.width() < LINE_WIDTH * w || b.height() < LINE_WIDTH * h;
+        long && (thin || (c.area as f64) < LINE_COVER * b.area())
+    };
+    (0..all.len()).filter(|&i| is_line(&all[i])).collect()
+}
+
+/// Dots and accents near a border of cells go to the letter that is nearer.
+fn settle_small_parts(all: &[Component], cells: &mut [Vec<usize>], x: &Axis, y: &Axis) {
+    let columns = x.count;
+    let body = |cell: &[usize]| cell.iter().copied().max_by_key(|&i| all[i].area);
+    let bodies: Vec<Option<usize>> = cells.iter().map(|c| body(c)).collect();
+    let mut moves = Vec::new();
+    for (from, parts) in cells.iter().enumerate() {
+        for &part in parts {
+            let c = &all[part];
+            let main = bodies[from].map_or(0, |b| all[b].area);
+            // the only ink of its cell may be a letter that sits high or low, or a neighbour's dot
+            let alone = bodies[from] == Some(part);
+            if !alone && c.area as f64 > SMALL * main as f64 {
+                continue;
+            }
+            let others = parts.iter().filter(|&&p| bodies[from] != Some(p));
+            let group = if alone {
+                vec![part]
+            } else {
+                group(all, part, others)
+            };
+            let is_near = |at: Point| y.clearance(at.y) < NEAR || x.clearance(at.x) < NEAR;
+            if !group.iter().any(|&i| is_near(all[i].centre)) {
+                continue;
+            }
+            let place = group
+                .iter()
+                .fold(c.upright, |r, &i| r.union(all[i].upright));
+            let around = neighbours(from, columns, cells.len() / columns);
+            let candidates =
+                around.filter_map(|to| bodies[to].filter(|&b| b != part).map(|b| (to, b)));
+            let nearest = candidates
+                .filter(|&(to, b)| to == from || (c.area as f64) < SMALL * all[b].area as f64)
+                .map(|(to, b)| {
+                    let home = if to == from { HOME } else { 1.0 };
+                    (home * gap(place, all[b].upright), to)
+                })
+                .min_by(|a, b| a.0.total_cmp(&b.0));
+            let close = NEAR * y.pitch.min(x.pitch) / 2.0;
+            let nearest = nearest.filter(|n| n.1 != from && (!alone || n.0 < close));
+            moves.extend(nearest.map(|(_, to)| (part, from, to)));
+        }
+    }
+    for (part, from, to) in moves {
+        cells[from].retain(|&p| p != part);
+        cells[to].push(part);
+    }
+}
+
+/// Gives the cells their labels.
+fn name(
+    all: &[Component],
+    mut cells: Vec<Vec<usize>>,
+    labels: &[Label],
+    plan: &Plan<'_>,
+    rejected: &mut Vec<(usize, Reason)>,
+) -> Result<Vec<Slot>, ScanError> {
+    let ink = |cell: &[usize]| cell.iter().map(|&i| all[i].area).sum::<usize>();
+    let mut usual: Vec<usize> = cells.iter().map(|c| ink(c)).filter(|&a| a > 0).collect();
+    usual.sort_unstable();
+    let least = COUNTS * usual.get(usual.len() / 2).copied().unwrap_or(0) as f64;
+    let mut slots = Vec::new();
+    for row in 0..plan.rows {
+        for column in 0..plan.columns {
+            let parts = std::mem::take(&mut cells[row * plan.columns + column]);
+            let Some(index) = plan.index((row, column)) else {
+                continue;
+            };
+            match labels.get(index) {
+                Some(label) if label.0 == "_" => {
+                    rejected.extend(parts.iter().map(|&i| (i, Reason::Skipped)))
+                }
+                Some(label) => slots.push(Slot {
+                    label: label.clone(),
+                    index,
+                    row,
+                    level: 0.0,
+                    parts,
+                }),
+                None if ink(&parts) as f64 > least => {
+                    return Err(ScanError::TooFewNames {
+                        source_name: plan.source.to_owned(),
+                        row: row + 1,
+                        column: column + 1,
+                        names: labels.len(),
+                    });
+                }
+                None => rejected.extend(parts.iter().map(|&i| (i, Reason::Dirt))),
+            }
+        }
+    }
+    slots.sort_by_key(|s| s.index);
+    Ok(slots)
+}

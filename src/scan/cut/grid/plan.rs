@@ -1,0 +1,70 @@
+//! The grid that a user said.
+
+use crate::numeric::view::View;
+use crate::scan::clean::Page;
+use crate::scan::cut::position;
+use crate::scan::error::ScanError;
+use crate::scan::options::{Options, Order};
+use crate::types::Label;
+
+/// A cell is at least this large, px.
+const LEAST_CELL: usize = 4;
+
+/// The grid that a user said.
+pub(in crate::scan::cut) struct Plan<'a> {
+    pub(super) rows: usize,
+    pub(super) columns: usize,
+    pub(super) source: &'a str,
+    pub(super) options: &'a Options,
+    pub(super) upright: View,
+}
+
+impl<'a> Plan<'a> {
+    pub(in crate::scan::cut) fn new(
+        page: &'a Page,
+        options: &'a Options,
+        (rows, columns): (usize, usize),
+        upright: View,
+    ) -> Result<Self, ScanError> {
+        let source = page.sheet.source.as_str();
+        let gray = &page.sheet.gray;
+        let fits = |n: usize, side: usize| n > 0 && n <= side / LEAST_CELL;
+        let fine = fits(rows, gray.height()) && fits(columns, gray.width());
+        fine.then_some(Self {
+            rows,
+            columns,
+            source,
+            options,
+            upright,
+        })
+        .ok_or(ScanError::NoGrid { rows, columns })
+    }
+
+    pub(super) fn place(&self, index: usize) -> (usize, usize) {
+        position(index, (self.rows, self.columns), self.options)
+    }
+
+    pub(super) fn index(&self, cell: (usize, usize)) -> Option<usize> {
+        (0..self.rows * self.columns).find(|&i| self.place(i) == cell)
+    }
+
+    /// How many cells follow each other in a row, or in a column where columns come first.
+    pub(super) fn lines(&self) -> Vec<usize> {
+        match self.options.order {
+            Order::Rows => vec![self.columns; self.rows],
+            Order::Columns => vec![self.rows; self.columns],
+        }
+    }
+
+    pub(super) fn too_many(&self, labels: &[Label]) -> Result<(), ScanError> {
+        let cells = self.rows * self.columns;
+        labels.get(cells).map_or(Ok(()), |extra| {
+            Err(ScanError::TooManyNames {
+                source_name: self.source.to_owned(),
+                cells,
+                names: labels.len(),
+                extra: extra.0.clone(),
+            })
+        })
+    }
+}
