@@ -45,53 +45,69 @@ pub(crate) fn sources() -> Vec<(String, String)> {
     out
 }
 
-/// The modules named after `crate::` in a file, comments left out; of a list in braces, over however many lines, all.
-fn named(text: &str) -> Vec<String> {
-    let code: Vec<&str> = text
-        .lines()
-        .filter(|l| !l.trim_start().starts_with("//"))
-        .collect();
-    let first_word = |w: &str| -> String {
-        let letters = w.trim_start().chars();
-        letters
-            .take_while(|c| c.is_alphanumeric() || *c == '_')
-            .collect()
-    };
-    let mut out = Vec::new();
-    for rest in code.join("\n").split("crate::").skip(1) {
-        match rest.strip_prefix('{') {
-            Some(list) => out.extend(top_level(list).into_iter().map(first_word)),
-            None => out.push(first_word(rest)),
-        }
-    }
-    out.retain(|w| !w.is_empty());
-    out
+/// The code of a file without comments.
+fn code(text: &str) -> String {
+    let lines = text.lines().filter(|l| !l.trim_start().starts_with("//"));
+    lines.collect::<Vec<_>>().join("\n")
 }
 
-/// The items of a list in braces, from behind its opening to its own closing one.
-fn top_level(list: &str) -> Vec<&str> {
-    let (mut out, mut start, mut depth) = (Vec::new(), 0, 0);
-    for (i, c) in list.char_indices() {
-        match c {
-            '{' => depth += 1,
-            '}' if depth > 0 => depth -= 1,
-            ',' | '}' if depth == 0 => {
-                out.push(&list[start..i]);
-                start = i + 1;
+/// The paths of a tree as `use` has them, and what follows it.
+fn tree(text: &str) -> (Vec<Vec<&str>>, &str) {
+    let text = text.trim_start();
+    if let Some(mut rest) = text.strip_prefix('{') {
+        let mut all = Vec::new();
+        loop {
+            rest = rest.trim_start_matches(|c: char| c == ',' || c.is_whitespace());
+            let (paths, after) = tree(rest);
+            if paths.is_empty() {
+                return (all, after);
             }
-            _ => {}
-        }
-        if c == '}' && start == i + 1 {
-            break;
+            all.extend(paths);
+            rest = after;
         }
     }
-    out
+    let end = text.find(|c: char| !c.is_alphanumeric() && c != '_');
+    let (word, rest) = text.split_at(end.unwrap_or(text.len()));
+    if word.is_empty() {
+        return (Vec::new(), rest.get(1..).unwrap_or_default());
+    }
+    let Some(below) = rest.strip_prefix("::") else {
+        // a name of its own is a name of ours
+        let named = rest.strip_prefix(" as ").map(|other| tree(other).1);
+        return (vec![vec![word]], named.unwrap_or(rest));
+    };
+    let (mut paths, rest) = tree(below);
+    if paths.is_empty() {
+        paths.push(Vec::new());
+    }
+    paths.iter_mut().for_each(|p| p.insert(0, word));
+    (paths, rest)
+}
+
+/// The paths in a file's code that begin with a word, such as `crate`.
+fn paths<'a>(code: &'a str, first: &str) -> Vec<Vec<&'a str>> {
+    let head = format!("{first}::");
+    let begins = code.match_indices(&head).map(|(i, _)| i);
+    let whole = begins.filter(|&i| {
+        let before = code[..i].chars().next_back();
+        before.is_none_or(|c| !c.is_alphanumeric() && c != '_' && c != ':')
+    });
+    whole.flat_map(|i| tree(&code[i..]).0).collect()
+}
+
+/// The modules named after `crate::` in a file; of a list in braces, over however many lines, all.
+fn named(text: &str) -> Vec<String> {
+    let code = code(text);
+    let seconds = paths(&code, "crate")
+        .into_iter()
+        .map(|p| p.get(1).map(|w| (*w).to_owned()));
+    seconds.flatten().collect()
 }
 
 #[test]
 fn names_are_found_in_lists_over_lines() {
     let text = "use crate::{\n    corner::{Detector, sides::Sides},\n    types::Contour,\n};\n// crate::fit\ncrate::scan::whole()";
-    assert_eq!(named(text), ["corner", "types", "scan"]);
+    assert_eq!(named(text), ["corner", "corner", "types", "scan"]);
 }
 
 #[test]
@@ -125,6 +141,74 @@ fn stages_name_only_what_lies_below() {
         .map(|(m, _)| m.0)
         .collect();
     assert!(missing.is_empty(), "no source of {missing:?}");
+}
+
+/// The module of a file: its folders and its name.
+fn module(path: &str) -> Vec<&str> {
+    let stem = path.trim_end_matches(".rs");
+    stem.trim_end_matches("/mod").split('/').collect()
+}
+
+/// Where a path of a module's code leads, from the root.
+fn resolved<'a>(module: &[&'a str], path: &[&'a str]) -> Vec<&'a str> {
+    let up = path.iter().take_while(|w| **w == "super").count();
+    let base = match path.first() {
+        Some(&"crate") => &[][..],
+        _ => &module[..module.len().saturating_sub(up)],
+    };
+    let down = path.iter().filter(|w| !matches!(**w, "crate" | "super"));
+    base.iter().chain(down).copied().collect()
+}
+
+#[test]
+fn no_files_name_each_other_in_a_circle() {
+    let files: Vec<_> = sources()
+        .into_iter()
+        .filter(|(p, _)| !p.contains("tests"))
+        .collect();
+    let tested = |text: &str| text.find("#[cfg(test)]\nmod tests {").unwrap_or(text.len());
+    let code: Vec<String> = files
+        .iter()
+        .map(|(_, text)| code(&text[..tested(text)]))
+        .collect();
+    let modules: Vec<_> = files.iter().map(|(path, _)| module(path)).collect();
+    let names = |m: &Vec<&str>, code: &'_ str| -> Vec<usize> {
+        let all = paths(code, "crate").into_iter().chain(paths(code, "super"));
+        let leads = all.filter_map(|path| {
+            let path = resolved(m, &path.iter().map(|w| &**w).collect::<Vec<_>>());
+            (1..=path.len())
+                .rev()
+                .find_map(|n| modules.iter().position(|o| *o == path[..n]))
+        });
+        // a folder and what is in it are one room
+        leads
+            .filter(|&o| !m.starts_with(&modules[o]) && !modules[o].starts_with(m))
+            .collect()
+    };
+    let arrows: Vec<Vec<usize>> = modules
+        .iter()
+        .zip(&code)
+        .map(|(m, c)| names(m, c))
+        .collect();
+    assert!(
+        arrows.iter().map(Vec::len).sum::<usize>() > 500,
+        "few arrows were found"
+    );
+    let mut left: Vec<usize> = (0..files.len()).collect();
+    loop {
+        let (stay, done): (Vec<usize>, Vec<usize>) = left
+            .iter()
+            .partition(|&&i| arrows[i].iter().any(|o| left.contains(o)));
+        left = stay;
+        if done.is_empty() {
+            break;
+        }
+    }
+    let circle: Vec<&str> = left.iter().map(|&i| files[i].0.as_str()).collect();
+    assert!(
+        circle.is_empty(),
+        "a circle, and what leads to it: {circle:?}"
+    );
 }
 
 #[test]
