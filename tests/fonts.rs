@@ -3,10 +3,11 @@
 use harfrust::{ShapeOptions, ShaperData, UnicodeBuffer};
 use khatt::assemble::{self, Drawn};
 use khatt::quadratic::Method;
+use khatt::read::Pen;
 use khatt::types::{Files, Font, Info, Label, Outline};
 use khatt::write::{self, Curves};
 use kurbo::{BezPath, Circle, Ellipse, Point, Rect, Shape};
-use skrifa::outline::{DrawSettings, OutlinePen};
+use skrifa::outline::DrawSettings;
 use skrifa::prelude::{LocationRef, Size};
 use skrifa::{FontRef, GlyphId, MetadataProvider};
 
@@ -94,29 +95,6 @@ pub(crate) fn single(font: &Font, name: &str) -> Vec<u8> {
     files(font, name).0.remove("").expect("one file")
 }
 
-#[derive(Default)]
-struct Pen(BezPath);
-
-impl OutlinePen for Pen {
-    fn move_to(&mut self, x: f32, y: f32) {
-        self.0.move_to((f64::from(x), f64::from(y)));
-    }
-    fn line_to(&mut self, x: f32, y: f32) {
-        self.0.line_to((f64::from(x), f64::from(y)));
-    }
-    fn quad_to(&mut self, cx: f32, cy: f32, x: f32, y: f32) {
-        let (cx, cy, x, y) = (f64::from(cx), f64::from(cy), f64::from(x), f64::from(y));
-        self.0.quad_to((cx, cy), (x, y));
-    }
-    fn curve_to(&mut self, ax: f32, ay: f32, bx: f32, by: f32, x: f32, y: f32) {
-        let p = |x: f32, y: f32| Point::new(f64::from(x), f64::from(y));
-        self.0.curve_to(p(ax, ay), p(bx, by), p(x, y));
-    }
-    fn close(&mut self) {
-        self.0.close_path();
-    }
-}
-
 /// A glyph's outline as skrifa reads it; of CFF numbers it keeps whole units only.
 fn skrifa_outline(font: &FontRef<'_>, id: u32) -> BezPath {
     let mut pen = Pen::default();
@@ -124,7 +102,7 @@ fn skrifa_outline(font: &FontRef<'_>, id: u32) -> BezPath {
         let settings = DrawSettings::unhinted(Size::unscaled(), LocationRef::default());
         glyph.draw(settings, &mut pen).expect("a readable outline");
     }
-    pen.0
+    pen.path()
 }
 
 struct TtfPen(BezPath);

@@ -1,12 +1,13 @@
 //! Letters of a reference font as pictures: shaped, drawn, labelled as a project labels its cells.
 
 use crate::assemble::names::{self, Form, Identity};
+use crate::read::Pen;
 use crate::recognise::Sample;
 use crate::types::{Gray, Guides, Label};
 use harfrust::{ShapeOptions, Shaper, ShaperData, UnicodeBuffer};
 use kurbo::{Affine, BezPath, PathEl, Rect, Shape, Vec2};
 use resvg::tiny_skia::{Color, FillRule, Paint, PathBuilder, Pixmap, Transform};
-use skrifa::outline::{DrawSettings, OutlinePen};
+use skrifa::outline::DrawSettings;
 use skrifa::prelude::{LocationRef, Size};
 use skrifa::{FontRef, GlyphId, MetadataProvider};
 use std::collections::BTreeSet;
@@ -180,39 +181,16 @@ fn set(face: &FontRef<'_>, shaper: &Shaper<'_>, text: &str) -> Option<BezPath> {
     Some(path)
 }
 
-/// Collects a glyph's outline.
-struct Pen(BezPath);
-
-impl OutlinePen for Pen {
-    fn move_to(&mut self, x: f32, y: f32) {
-        self.0.move_to((f64::from(x), f64::from(y)));
-    }
-    fn line_to(&mut self, x: f32, y: f32) {
-        self.0.line_to((f64::from(x), f64::from(y)));
-    }
-    fn quad_to(&mut self, cx: f32, cy: f32, x: f32, y: f32) {
-        self.0
-            .quad_to((f64::from(cx), f64::from(cy)), (f64::from(x), f64::from(y)));
-    }
-    fn curve_to(&mut self, ax: f32, ay: f32, bx: f32, by: f32, x: f32, y: f32) {
-        let p = |x: f32, y: f32| (f64::from(x), f64::from(y));
-        self.0.curve_to(p(ax, ay), p(bx, by), p(x, y));
-    }
-    fn close(&mut self) {
-        self.0.close_path();
-    }
-}
-
 /// A glyph's outline, font units; empty where it has none.
 fn outline(face: &FontRef<'_>, glyph: u32) -> BezPath {
-    let mut pen = Pen(BezPath::new());
+    let mut pen = Pen::default();
     let settings = DrawSettings::unhinted(Size::unscaled(), LocationRef::default());
     let glyphs = face.outline_glyphs();
     let drawn = glyphs
         .get(GlyphId::new(glyph))
         .map(|g| g.draw(settings, &mut pen));
     match drawn {
-        Some(Ok(_)) => pen.0,
+        Some(Ok(_)) => pen.path(),
         _ => BezPath::new(),
     }
 }

@@ -12,6 +12,7 @@ mod sfnt;
 mod svg;
 mod ufo;
 
+pub use pen::Pen;
 pub use sfnt::font;
 pub use svg::svg;
 pub use ufo::ufo;

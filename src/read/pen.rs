@@ -4,12 +4,19 @@ use kurbo::{BezPath, Point};
 use skrifa::outline::OutlinePen;
 
 /// The contours that were drawn.
-#[derive(Default)]
-pub(super) struct Pen {
-    pub(super) paths: Vec<BezPath>,
+#[derive(Debug, Clone, Default)]
+pub struct Pen {
+    /// One path each, in the font's units, y up.
+    pub paths: Vec<BezPath>,
 }
 
 impl Pen {
+    /// All of them as one path.
+    #[must_use]
+    pub fn path(self) -> BezPath {
+        self.paths.into_iter().flatten().collect()
+    }
+
     /// The contour being drawn; commands before the first one begins draw nothing.
     fn draw(&mut self, f: impl FnOnce(&mut BezPath)) {
         if let Some(path) = self.paths.last_mut() {

@@ -15,10 +15,11 @@ use harfrust::{Feature, ShapeOptions, ShaperData, Tag, UnicodeBuffer};
 use khatt::assemble::{self, Drawn, Options};
 use khatt::finish::{place, round};
 use khatt::quadratic::Method;
+use khatt::read::Pen;
 use khatt::types::{Font, Frame, Info, Label, Name, Outline};
 use khatt::write;
 use kurbo::{Affine, BezPath};
-use skrifa::outline::{DrawSettings, OutlinePen};
+use skrifa::outline::DrawSettings;
 use skrifa::prelude::{LocationRef, Size};
 use skrifa::raw::TableProvider;
 use skrifa::{FontRef, GlyphId, MetadataProvider};
@@ -33,29 +34,6 @@ const TEXT: &str =
 const DUAL: &str = "بتثجحخسشصضطظعغفقكلمنهيئپچگ";
 const RIGHT: &str = "اأإآدذرزوؤةى";
 const LIGATURES: &[&str] = &["لا", "لأ", "لإ", "لآ"];
-
-#[derive(Default)]
-struct Pen(BezPath);
-
-impl OutlinePen for Pen {
-    fn move_to(&mut self, x: f32, y: f32) {
-        self.0.move_to((f64::from(x), f64::from(y)));
-    }
-    fn line_to(&mut self, x: f32, y: f32) {
-        self.0.line_to((f64::from(x), f64::from(y)));
-    }
-    fn quad_to(&mut self, cx: f32, cy: f32, x: f32, y: f32) {
-        self.0
-            .quad_to((f64::from(cx), f64::from(cy)), (f64::from(x), f64::from(y)));
-    }
-    fn curve_to(&mut self, ax: f32, ay: f32, bx: f32, by: f32, x: f32, y: f32) {
-        let [ax, ay, bx, by, x, y] = [ax, ay, bx, by, x, y].map(f64::from);
-        self.0.curve_to((ax, ay), (bx, by), (x, y));
-    }
-    fn close(&mut self) {
-        self.0.close_path();
-    }
-}
 
 /// The shapes to take out of a font.
 type Glyphs = fn(&FontRef<'_>) -> Vec<Truth>;
@@ -98,7 +76,7 @@ fn shaped(face: &FontRef<'_>, text: &str, label: String) -> Option<Truth> {
             x + f64::from(position.x_offset),
             f64::from(position.y_offset),
         );
-        contours.push(Affine::scale(scale) * Affine::translate(at) * pen.0);
+        contours.push(Affine::scale(scale) * Affine::translate(at) * pen.path());
         x += f64::from(position.x_advance);
     }
     let paths: Vec<BezPath> = contours.iter().flat_map(subpaths).collect();

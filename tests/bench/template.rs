@@ -16,50 +16,29 @@ mod camera;
 mod moments;
 
 use camera::Camera;
+use khatt::read::Pen;
 use khatt::scan::{self, Polarity};
 use khatt::template::{self, Direction, Layout, Page};
 use khatt::types::Cell;
 use kurbo::{Affine, BezPath, Shape};
 use moments::Moments;
 use skrifa::instance::{LocationRef, Size};
-use skrifa::outline::{DrawSettings, OutlinePen};
+use skrifa::outline::DrawSettings;
 use skrifa::{FontRef, MetadataProvider};
 
 const TEXT: &str = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789&?!";
 
-/// A glyph's outline in em, y up.
-struct Pen(BezPath);
-
-impl OutlinePen for Pen {
-    fn move_to(&mut self, x: f32, y: f32) {
-        self.0.move_to((f64::from(x), f64::from(y)));
-    }
-    fn line_to(&mut self, x: f32, y: f32) {
-        self.0.line_to((f64::from(x), f64::from(y)));
-    }
-    fn quad_to(&mut self, a: f32, b: f32, x: f32, y: f32) {
-        self.0
-            .quad_to((f64::from(a), f64::from(b)), (f64::from(x), f64::from(y)));
-    }
-    fn curve_to(&mut self, a: f32, b: f32, c: f32, d: f32, x: f32, y: f32) {
-        let p = [(a, b), (c, d), (x, y)].map(|(x, y)| (f64::from(x), f64::from(y)));
-        self.0.curve_to(p[0], p[1], p[2]);
-    }
-    fn close(&mut self) {
-        self.0.close_path();
-    }
-}
-
+/// Letters of a font with their outlines, em, y up.
 fn letters(font: &FontRef<'_>) -> Vec<(char, BezPath)> {
     let em = font
         .metrics(Size::unscaled(), LocationRef::default())
         .units_per_em;
     let outline = |c: char| {
         let glyph = font.outline_glyphs().get(font.charmap().map(c)?)?;
-        let mut pen = Pen(BezPath::new());
+        let mut pen = Pen::default();
         let settings = DrawSettings::unhinted(Size::unscaled(), LocationRef::default());
         glyph.draw(settings, &mut pen).ok()?;
-        Some((c, Affine::scale(1.0 / f64::from(em)) * pen.0))
+        Some((c, Affine::scale(1.0 / f64::from(em)) * pen.path()))
     };
     TEXT.chars().filter_map(outline).collect()
 }

@@ -3,14 +3,16 @@
 //! A box is seen by its inside: paper that ink encloses. Slanted, warped and touched boxes enclose their
 //! paper all the same; gaps in a line close at the reduced size at which they are looked for.
 
+use super::named::{Place, named};
 use super::rows::rows;
-use super::{Layer, Reason, Slot, listed};
+use super::{Layer, Reason, listed};
 use crate::numeric::view::View;
 use crate::scan::components::{Component, Run, enclosed};
 use crate::scan::error::ScanError;
 use crate::scan::options::{Direction, Options};
 use crate::types::{Gray, Label};
 use kurbo::{Affine, Rect};
+use std::mem;
 
 /// Longer side of the reduced picture in which boxes are looked for, px.
 const REDUCED: usize = 1800;
@@ -24,8 +26,6 @@ const ALIKE: f64 = 0.25;
 const RIM: f64 = 0.07;
 /// Least ink that boxes hold, as a share of what lies outside them: more can be printed beside boxes than is written in them.
 const HELD: f64 = 0.25;
-/// Ink in a box without a name counts from this share of a usual box's ink.
-const COUNTS: f64 = 0.1;
 
 /// What the page of boxes is cut by.
 pub(super) struct Plan<'a> {
@@ -85,7 +85,24 @@ pub(super) fn place(
         let outside = outside.map(|r| all[r.0].area).sum();
         return Err(too_many(plan, frames.len(), labels, (held, outside)));
     }
-    name(all, (&frames, &order, inside), labels, plan, rejected)
+    let boxes = order.iter().enumerate();
+    let boxes = boxes.flat_map(|(r, row)| row.iter().enumerate().map(move |(c, &f)| (r, c, f)));
+    let places = boxes.enumerate().map(|(index, (row, column, f))| Place {
+        index,
+        row,
+        column,
+        level: frames[f].y1,
+        parts: mem::take(&mut inside[f]),
+    });
+    let slots = named(all, places.collect(), (labels, plan.source), &mut rejected)?;
+    Ok(Layer {
+        slots,
+        rows: order.len(),
+        ruled: true,
+        rejected,
+        parted: Vec::new(),
+        doubtful: Vec::new(),
+    })
 }
 
 /// Why there are more names than boxes: too many names, or no boxes.
@@ -178,57 +195,4 @@ fn paper_runs(plan: &Plan<'_>, step: usize) -> Vec<Run> {
         }
     }
     runs
-}
-
-type Found<'a> = (&'a [Rect], &'a [Vec<usize>], Vec<Vec<usize>>);
-
-/// Gives the boxes their labels.
-fn name(
-    all: &[Component],
-    (frames, order, mut inside): Found<'_>,
-    labels: &[Label],
-    plan: &Plan<'_>,
-    mut rejected: Vec<(usize, Reason)>,
-) -> Result<Layer, ScanError> {
-    let ink = |parts: &[usize]| parts.iter().map(|&i| all[i].area).sum::<usize>();
-    let mut usual: Vec<usize> = inside.iter().map(|p| ink(p)).filter(|&a| a > 0).collect();
-    usual.sort_unstable();
-    let least = COUNTS * usual.get(usual.len() / 2).copied().unwrap_or(0) as f64;
-    let mut slots = Vec::new();
-    let places = order
-        .iter()
-        .enumerate()
-        .flat_map(|(r, row)| row.iter().enumerate().map(move |(c, &f)| (r, c, f)));
-    for (index, (row, column, f)) in places.enumerate() {
-        let parts = std::mem::take(&mut inside[f]);
-        match labels.get(index) {
-            Some(label) if label.0 == "_" => {
-                rejected.extend(parts.iter().map(|&i| (i, Reason::Skipped)))
-            }
-            Some(label) => slots.push(Slot {
-                label: label.clone(),
-                index,
-                row,
-                level: frames[f].y1,
-                parts,
-            }),
-            None if ink(&parts) as f64 > least => {
-                return Err(ScanError::TooFewNames {
-                    source_name: plan.source.to_owned(),
-                    row: row + 1,
-                    column: column + 1,
-                    names: labels.len(),
-                });
-            }
-            None => rejected.extend(parts.iter().map(|&i| (i, Reason::Dirt))),
-        }
-    }
-    Ok(Layer {
-        slots,
-        rows: order.len(),
-        ruled: true,
-        rejected,
-        parted: Vec::new(),
-        doubtful: Vec::new(),
-    })
 }

@@ -14,6 +14,7 @@ mod joins;
 mod lines;
 mod listed;
 mod marks;
+mod named;
 mod nearest;
 mod odd;
 mod order;

@@ -7,8 +7,9 @@ mod shared;
 
 pub(super) use plan::Plan;
 
+use super::named::{Place, named};
 use super::small::{SMALL, group};
-use super::{Layer, Reason, Slot, gap, listed, marks, ruling};
+use super::{Layer, Reason, gap, listed, marks, ruling};
 use crate::scan::components::Component;
 use crate::scan::error::ScanError;
 use crate::scan::letters::{Pieces, Shape};
@@ -16,7 +17,7 @@ use crate::types::Label;
 use axis::Axis;
 use glyphs_reader::glyphdata::GlyphData;
 use kurbo::Point;
-use shared::{COUNTS, NEAR, Shared, neighbours, share};
+use shared::{NEAR, Shared, neighbours, share};
 
 /// A piece longer than this many cells is no letter if it is thin or hollow.
 const LINE_LENGTH: f64 = 1.4;
@@ -76,8 +77,17 @@ pub(super) fn place(
     } = shared;
     rejected.extend(outside.into_iter().map(|i| (i, Reason::Outside)));
     settle_small_parts(all, &mut cells, &x, &y);
-    let mut slots = name(all, cells, labels, plan, &mut rejected)?;
-    slots.iter_mut().for_each(|s| s.level = y.begin(s.row));
+    let places = cells.into_iter().enumerate().filter_map(|(cell, parts)| {
+        let (row, column) = (cell / plan.columns, cell % plan.columns);
+        Some(Place {
+            index: plan.index((row, column))?,
+            row,
+            column,
+            level: y.begin(row),
+            parts,
+        })
+    });
+    let slots = named(all, places.collect(), (labels, plan.source), &mut rejected)?;
     Ok(Layer {
         slots,
         rows: plan.rows,
@@ -153,50 +163,4 @@ fn settle_small_parts(all: &[Component], cells: &mut [Vec<usize>], x: &Axis, y: 
         cells[from].retain(|&p| p != part);
         cells[to].push(part);
     }
-}
-
-/// Gives the cells their labels.
-fn name(
-    all: &[Component],
-    mut cells: Vec<Vec<usize>>,
-    labels: &[Label],
-    plan: &Plan<'_>,
-    rejected: &mut Vec<(usize, Reason)>,
-) -> Result<Vec<Slot>, ScanError> {
-    let ink = |cell: &[usize]| cell.iter().map(|&i| all[i].area).sum::<usize>();
-    let mut usual: Vec<usize> = cells.iter().map(|c| ink(c)).filter(|&a| a > 0).collect();
-    usual.sort_unstable();
-    let least = COUNTS * usual.get(usual.len() / 2).copied().unwrap_or(0) as f64;
-    let mut slots = Vec::new();
-    for row in 0..plan.rows {
-        for column in 0..plan.columns {
-            let parts = std::mem::take(&mut cells[row * plan.columns + column]);
-            let Some(index) = plan.index((row, column)) else {
-                continue;
-            };
-            match labels.get(index) {
-                Some(label) if label.0 == "_" => {
-                    rejected.extend(parts.iter().map(|&i| (i, Reason::Skipped)))
-                }
-                Some(label) => slots.push(Slot {
-                    label: label.clone(),
-                    index,
-                    row,
-                    level: 0.0,
-                    parts,
-                }),
-                None if ink(&parts) as f64 > least => {
-                    return Err(ScanError::TooFewNames {
-                        source_name: plan.source.to_owned(),
-                        row: row + 1,
-                        column: column + 1,
-                        names: labels.len(),
-                    });
-                }
-                None => rejected.extend(parts.iter().map(|&i| (i, Reason::Dirt))),
-            }
-        }
-    }
-    slots.sort_by_key(|s| s.index);
-    Ok(slots)
 }

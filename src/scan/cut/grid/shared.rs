@@ -4,14 +4,13 @@ use super::axis::Axis;
 use super::plan::Plan;
 use crate::scan::components::Component;
 use crate::scan::cut::gap;
+use crate::scan::cut::named::COUNTS;
 use crate::types::Label;
 use std::collections::BTreeSet;
 use std::ops::Range;
 
 /// Small parts this near to a border of cells, as a share of the pitch, go to the nearer letter.
 pub(super) const NEAR: f64 = 0.2;
-/// Ink in a cell without a name, and where cells are looked for, counts from this share of a usual cell's ink.
-pub(super) const COUNTS: f64 = 0.1;
 /// Letters without names at least that tell of a row or a column whose names are missing.
 const NAMELESS: usize = 2;
 
