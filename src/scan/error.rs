@@ -141,6 +141,20 @@ pub enum ScanError {
         /// where letters and names part
         doubts: String,
     },
+    /// There is ink for every name, but it is likelier that one has none.
+    #[error(
+        "{source_name} looks as if it had a letter less than the {names} names: “{name}”, number {number}, or one near it seems to have only a part          of another's ink; take the name away, or, where it has its letter, write the names in lines that are the page's rows, or say where          the letter stands: box under [cells.NAME]"
+    )]
+    SpareName {
+        /// the file
+        source_name: String,
+        /// the name that is likeliest to be too many
+        name: String,
+        /// its place in the list, from 1
+        number: usize,
+        /// names given
+        names: usize,
+    },
     /// The size of an em is to be measured in millimetres, and the file does not say its resolution.
     #[error(
         "{source_name} does not say its resolution, so em_mm means nothing; give pixels_per_em"

@@ -66,6 +66,7 @@ pub(super) fn place(
     let label = |k: usize| names.get(k).map_or("", |&i| labels[i].0.as_str());
     let (read, parted) =
         read(all, &shapes, plan).map_err(|unread| unread.error(plan.source, names.len(), label))?;
+    let spare = read.spare.map(|k| names[k]);
     let doubtful = read.doubtful.iter().map(|&k| names[k]).collect();
     let mut names = names.into_iter();
     let rows = read.rows.into_iter();
@@ -74,11 +75,24 @@ pub(super) fn place(
     rows.sort_by_key(|row| row.iter().map(|l| l.0).min());
     let counts: Vec<usize> = rows.iter().map(Vec::len).collect();
     listed::check(&plan.options.lines, &counts, plan.source)?;
+    // lines that are the page's rows say how many letters there are
+    if let Some(index) = spare.filter(|_| plan.options.lines != counts) {
+        return Err(spare_name(labels, index, plan.source));
+    }
     let mut layer = layer(rows, labels);
     layer.rejected.extend(read.out);
     layer.parted = parted;
     layer.doubtful = doubtful;
     Ok(layer)
+}
+
+fn spare_name(labels: &[Label], index: usize, source: &str) -> ScanError {
+    ScanError::SpareName {
+        source_name: source.to_owned(),
+        name: labels[index].0.clone(),
+        number: index + 1,
+        names: labels.len(),
+    }
 }
 
 /// A page that was read, and which of its ink was cut off letters that it touched.
@@ -203,6 +217,8 @@ struct Read {
     out: Vec<(usize, Reason)>,
     /// Names that may be other letters'.
     doubtful: Vec<usize>,
+    /// A name that may be too many.
+    spare: Option<usize>,
     cost: f64,
     /// How many pieces were joined that are not surely one.
     scattered: usize,
@@ -321,6 +337,7 @@ impl<'a> Bare<'a> {
             rows: order.iter().map(row).collect(),
             out,
             doubtful: Vec::new(),
+            spare: None,
             cost: dearest,
             scattered: 0,
         })
@@ -386,6 +403,7 @@ impl<'a> Bare<'a> {
             out: out.map(|&i| (i, Reason::Dirt)).collect(),
             rows: letters,
             doubtful: reading.doubtful(),
+            spare: reading.spare(),
             cost: reading.cost,
             scattered: found.scattered,
         })

@@ -155,6 +155,7 @@ impl<'a> Lines<'a> {
                 || piece.full(self.usual) <= 0.0 && bodies[i].is_some(),
             above: false,
             below: false,
+            inside: false,
             body: bodies[i].map(|b| self.as_body(i, b)),
             within: bodies[i].is_some_and(|b| self.pieces[b.to].holds(piece)),
             dirt: dirt[i],
@@ -163,9 +164,10 @@ impl<'a> Lines<'a> {
         let mut seen: Vec<Seen> = self.pieces.iter().enumerate().map(seen).collect();
         for i in 0..seen.len() {
             if let Some(to) = bodies[i].filter(|_| seen[i].full < 1.0).map(|b| b.to) {
-                let above = self.is_above(i, to);
-                seen[to].above |= above;
-                seen[to].below |= !above;
+                let (above, within) = (self.is_above(i, to), seen[i].within);
+                seen[to].above |= above && !within;
+                seen[to].below |= !above && !within;
+                seen[to].inside |= within;
             }
         }
         seen

@@ -265,6 +265,46 @@ fn a_name_too_many_is_told() {
     }
 }
 
+/// Nor one of three dots, two of which lie below it, unless lines of names say that each row has as many letters.
+#[test]
+fn a_name_too_many_that_takes_one_of_three_dots_is_told() {
+    let rows = [
+        "uni0627 uni062B uni062D uni062B uni0646 uni062B uni0627 uni0628",
+        "uni062B uni062D uni062B.init uni0646 uni062B.medi uni0627 uni062B.medi uni062D",
+        "uni062D uni062B uni0628 uni062B uni0628 uni062D uni062B",
+    ];
+    let paper = page(&rows, 0.0, 0.0);
+    let cut = |names: &[&str], lines: &[usize]| {
+        let lines = lines.to_vec();
+        cut_page(&paper, &names.join(" "), &Options { lines, ..free() })
+    };
+    let all: Vec<&str> = rows.iter().flat_map(|r| r.split(' ')).collect();
+    assert_eq!(cut(&all, &[]).unwrap().warnings, []);
+    let mut spare = 0;
+    for at in 0..=all.len() {
+        let mut names = all.clone();
+        names.insert(at, "uni0648");
+        match cut(&names, &[]).unwrap_err() {
+            ScanError::Count { .. } => {}
+            ScanError::SpareName { number, .. } => {
+                assert!(number.abs_diff(at + 1) <= 2, "{number} for {}", at + 1);
+                spare += 1;
+                let mut lines = [8, 8, 7];
+                lines[at.min(all.len() - 1) / 8] += 1;
+                let asserted = cut(&names, &lines);
+                // near a row's end it may be the next one's
+                let is_clear = (1..7).contains(&(at % 8));
+                assert!(
+                    asserted.map_or(!is_clear, |cut| !cut.warnings.is_empty()),
+                    "{at}"
+                );
+            }
+            error => panic!("{error}"),
+        }
+    }
+    assert!(spare > 12, "{spare}");
+}
+
 #[test]
 fn letters_whose_place_is_said_stand_in_the_rows_of_their_neighbours() {
     let all: Vec<&str> = ROWS.iter().flat_map(|r| r.split(' ')).collect();
