@@ -7,13 +7,14 @@
 //! the page's letters of one dot say.
 
 use super::small::{SMALL, group};
-use super::{Layer, Reason, gap};
+use super::{Layer, Reason, Slot, gap};
 use crate::numeric::median::median;
 use crate::scan::components::Component;
 use crate::scan::letters::{Pieces, Shape};
 use crate::types::Label;
 use glyphs_reader::glyphdata::GlyphData;
 use kurbo::Rect;
+use std::collections::BTreeMap;
 use std::ptr;
 
 /// Area of a dot beside that of the largest of the letter's dots at least: two of three may touch.
@@ -42,53 +43,96 @@ const LEAST_GAP: f64 = 3.0;
 /// Compact dust beside a letter of one piece is this many times as thick as its strokes at least, as [`Component::stroke`] measures both: of a
 /// square that is two thirds of its side.
 const BLOT: f64 = 1.3;
+/// What all letters of one body have beside it is drawn where its area differs by this factor at most: dust is not the same everywhere.
+const SAME: f64 = 2.0;
 /// How far a dot stands off its letter, as a share of the height of the letter's body.
 const REACH: f64 = 0.75;
 
 /// Takes ink smaller than a dot out of the letters that have none, and what lies where no dot does out of those that have;
-/// what a user gave to a letter stays.
+/// what a user gave to a letter stays, and so does what all letters of one body have.
 pub(super) fn dust(layer: &mut Layer, all: &[Component], claims: &[(usize, Vec<usize>)], dot: f64) {
     let names = GlyphData::default();
     let drawn = layer.slots.iter().map(|s| (&s.label, s.parts.as_slice()));
     let in_pieces = in_pieces(drawn, all, &names);
     let usual = usual_dot(layer, all, &names);
-    for slot in &mut layer.slots {
-        if claims.iter().any(|c| c.0 == slot.index) {
-            continue;
-        }
-        let Some(body) = slot.parts.iter().copied().max_by_key(|&i| all[i].area) else {
-            continue;
-        };
-        let (shape, parts) = (Shape::of(&slot.label, &names), &slot.parts);
-        let is_dust = |i: usize| {
-            let (c, main) = (&all[i], &all[body]);
-            let dust = match shape.pieces {
-                _ if i == body => false,
-                Pieces::One => {
-                    let mote = (MOTE * main.upright.height()).powi(2);
-                    let small = (c.area as f64) < mote.max(dot);
-                    small && !torn(c, main) || blot(c, main) || apart(c, parts, all, 1.0)
-                }
-                Pieces::DotAbove | Pieces::DotBelow | Pieces::Marked => {
-                    astray(c, parts, all)
-                        || !in_pieces && surplus(c, &shape, (parts, all), usual)
-                        || opposite(c, &shape, parts, all)
-                }
-                Pieces::Within | Pieces::Bare => beside(c, main) && apart(c, parts, all, NEAR),
-                Pieces::Unknown => false,
-            };
-            dust && (!in_pieces || apart(c, parts, all, 1.0))
-        };
-        let surely = parts.iter().filter(|&&i| i != body && !is_dust(i));
-        let least = surely.map(|&i| all[i].area).min().filter(|_| in_pieces);
-        // of letters in pieces what is no smaller than a piece is one
-        let is_piece = |i: usize| least.is_some_and(|least| all[i].area >= least);
-        let (small, kept): (Vec<usize>, Vec<usize>) =
-            parts.iter().partition(|&&i| is_dust(i) && !is_piece(i));
-        slot.parts = kept;
+    let unclaimed = |s: &Slot| claims.iter().all(|c| c.0 != s.index);
+    let found = layer.slots.iter().map(|slot| {
+        let asked = unclaimed(slot).then_some(slot);
+        asked.map_or_else(Vec::new, |slot| {
+            beside_letter(slot, all, (&names, in_pieces, usual, dot))
+        })
+    });
+    let found: Vec<Vec<usize>> = found.collect();
+    let drawn = drawn_alike(&layer.slots, &found, all, &names);
+    for (slot, mut small) in layer.slots.iter_mut().zip(found) {
+        small.retain(|i| !drawn.contains(i));
+        slot.parts.retain(|i| !small.contains(i));
         let small = small.into_iter().map(|i| (i, Reason::Dirt));
         layer.rejected.extend(small);
     }
+}
+
+/// What seems to be dust in a letter's cell.
+fn beside_letter(
+    slot: &Slot,
+    all: &[Component],
+    (names, in_pieces, usual, dot): (&GlyphData, bool, Option<f64>, f64),
+) -> Vec<usize> {
+    let (shape, parts) = (Shape::of(&slot.label, names), &slot.parts);
+    let Some(body) = parts.iter().copied().max_by_key(|&i| all[i].area) else {
+        return Vec::new();
+    };
+    let is_dust = |i: usize| {
+        let (c, main) = (&all[i], &all[body]);
+        let dust = match shape.pieces {
+            _ if i == body => false,
+            Pieces::One => {
+                let mote = (MOTE * main.upright.height()).powi(2);
+                let small = (c.area as f64) < mote.max(dot);
+                small && !torn(c, main) || blot(c, main) || apart(c, parts, all, 1.0)
+            }
+            Pieces::DotAbove | Pieces::DotBelow | Pieces::Marked => {
+                astray(c, parts, all)
+                    || !in_pieces && surplus(c, &shape, (parts, all), usual)
+                    || opposite(c, &shape, parts, all)
+            }
+            Pieces::Within | Pieces::Bare => beside(c, main) && apart(c, parts, all, NEAR),
+            Pieces::Unknown => false,
+        };
+        dust && (!in_pieces || apart(c, parts, all, 1.0))
+    };
+    let surely = parts.iter().filter(|&&i| i != body && !is_dust(i));
+    let least = surely.map(|&i| all[i].area).min().filter(|_| in_pieces);
+    // of letters in pieces what is no smaller than a piece is one
+    let is_piece = |i: usize| least.is_some_and(|least| all[i].area >= least);
+    parts
+        .iter()
+        .copied()
+        .filter(|&i| is_dust(i) && !is_piece(i))
+        .collect()
+}
+
+/// What is no dust, since all letters of one body and its forms have about as much of it.
+fn drawn_alike(
+    slots: &[Slot],
+    found: &[Vec<usize>],
+    all: &[Component],
+    names: &GlyphData,
+) -> Vec<usize> {
+    let mut bodies: BTreeMap<usize, Vec<&[usize]>> = BTreeMap::new();
+    for (slot, small) in slots.iter().zip(found) {
+        if let Some(body) = Shape::of(&slot.label, names).skeleton() {
+            bodies.entry(body).or_default().push(small);
+        }
+    }
+    let area = |small: &[usize]| small.iter().map(|&i| all[i].area as f64).sum::<f64>();
+    let is_drawn = |letters: &Vec<&[usize]>| {
+        let usual = median(letters.iter().map(|s| area(s))).unwrap_or(0.0);
+        let is_alike = |small: &&[usize]| area(small) > usual / SAME && area(small) < usual * SAME;
+        letters.len() >= ENOUGH && letters.iter().all(is_alike)
+    };
+    let drawn = bodies.into_values().filter(is_drawn).flatten();
+    drawn.flatten().copied().collect()
 }
 
 /// Whether most letters that a pen draws in one piece are drawn in several that lie close together, like a stencil's or a clock's: then only

@@ -162,3 +162,36 @@ fn of_letters_in_pieces_what_is_no_smaller_than_a_piece_is_one() {
         .into();
     assert_eq!(heights, [34.0, 27.0, 27.0], "a piece, dust, and none");
 }
+
+/// Four forms of feh, each a body with a dot over it; in so many of them, a spot below.
+fn with_spots(spots: usize) -> Vec<f64> {
+    let mut paper = grid_page(0.0);
+    let mut names: Vec<&str> = NAMES.split(' ').collect();
+    let forms = ["uni0641", "uni0641.fina", "uni0641.init", "uni0641.medi"];
+    let cells = (0..names.len()).filter(|&i| names[i] == "i");
+    let cells: Vec<usize> = cells.collect();
+    for (&i, form) in cells.iter().zip(forms) {
+        names[i] = form;
+    }
+    for &i in &cells[..spots] {
+        let (x, y) = (
+            90.0 + 120.0 * (i % 5) as f64,
+            120.0 + 100.0 * (i / 5) as f64,
+        );
+        paper.bar(x, y + 4.0, 5.0, 5.0);
+    }
+    let cut = cut_page(&paper, &names.join(" "), &options(Layout::Grid(4, 5))).unwrap();
+    let height = |&i: &usize| cut.cells[i].in_sheet.height();
+    cells.iter().map(height).collect()
+}
+
+#[test]
+fn what_all_forms_of_a_letter_have_is_no_dust() {
+    let bare = with_spots(0);
+    let taller = |spots| -> Vec<bool> {
+        let pairs = with_spots(spots).into_iter().zip(&bare);
+        pairs.map(|(a, b)| a > b + 4.0).collect()
+    };
+    assert_eq!(taller(3), [false; 4]);
+    assert_eq!(taller(4), [true; 4]);
+}
