@@ -143,17 +143,17 @@ pub enum ScanError {
     },
     /// There is ink for every name, but it is likelier that one has none.
     #[error(
-        "{source_name} looks as if it had a letter less than the {names} names: “{name}”, number {number}, or one near it seems to have only a part          of another's ink; take the name away, or, where it has its letter, write the names in lines that are the page's rows, or say where          the letter stands: box under [cells.NAME]"
+        "{source_name} looks as if it had a letter less than the {names} names: {among}, seems to have only a part of another's ink; take \
+         the name away, or, where all have their letters, write the names in lines that are the page's rows, or say where one stands: box under \
+         [cells.NAME]"
     )]
     SpareName {
         /// the file
         source_name: String,
-        /// the name that is likeliest to be too many
-        name: String,
-        /// its place in the list, from 1
-        number: usize,
         /// names given
         names: usize,
+        /// the names of which one is likeliest to be too many
+        among: String,
     },
     /// The size of an em is to be measured in millimetres, and the file does not say its resolution.
     #[error(

@@ -202,8 +202,8 @@ def dust(x, y, ids, of, own):
 
 def forgotten(khatt, truth, forms, folder, times):
     """How often a page is refused where one name of its list is left out, and how often the place told is that or one next to it; how often
-    where the names stand in lines, a row each; how often as a grid, and as one in lines; and where a name has no letter, how often it is refused, the name
-    told then is that or one next to it, and how often letters are warned of for their signs."""
+    where the names stand in lines, a row each; how often as a grid, and as one in lines; and where a name has no letter, how often it is refused, that is
+    one of the names told then, and how often letters are warned of for their signs."""
     count = len(truth["cells"])
     told = near = many = spare = signs = 0
     refused = [0, 0, 0]
@@ -215,8 +215,8 @@ def forgotten(khatt, truth, forms, folder, times):
         found, said, _ = cut(khatt, truth, '"free"', forms, folder, more=at)
         many += found is None
         signs += found is not None and SIGNS in said
-        place = re.search(r"number (\d+), or one near it", said)
-        spare += bool(place) and abs(int(place[1]) - 1 - at) <= 1
+        place = [int(number) - 1 for number in re.findall(r"number (\d+)", said)]
+        spare += bool(place) and place[0] <= at <= place[-1]
         found, said, _ = cut(khatt, truth, '"free"', forms, folder, at)
         if found is not None:
             continue
@@ -292,7 +292,7 @@ def main():
     listed = open(args.pages).read().splitlines() if args.pages else []
     more = " in order | whole | pieces lost, others' | dusty | baselines | s |"
     build = " font: missing, wrong | mean, worst | baselines |" if args.build else ""
-    forget = " a name forgotten: told, at its place, in lines | as a grid, in lines | a name too many: refused, at its place, signs warned of |" if args.forget else ""
+    forget = " a name forgotten: told, at its place, in lines | as a grid, in lines | a name too many: refused, among those told, signs warned of |" if args.forget else ""
     print("| page | letters |" + "".join(more.replace(" in", f" {name}: in", 1) for name in args.layouts) + build + forget)
     print("|---|---|" + "---|" * (6 * len(args.layouts) + 3 * bool(build) + 2 * bool(forget)))
     for text in args.page + [line for line in listed if line.strip()]:

@@ -20,6 +20,7 @@ use crate::scan::options::{Direction, Options};
 use crate::types::Label;
 use glyphs_reader::glyphdata::GlyphData;
 use kurbo::Rect;
+use std::ops::RangeInclusive;
 
 /// Thickness of a ruled line or a piece of it at most, as a share of its length.
 const LINE_SHAPE: f64 = 0.06;
@@ -66,7 +67,7 @@ pub(super) fn place(
     let label = |k: usize| names.get(k).map_or("", |&i| labels[i].0.as_str());
     let (read, parted) =
         read(all, &shapes, plan).map_err(|unread| unread.error(plan.source, names.len(), label))?;
-    let spare = read.spare.map(|k| names[k]);
+    let spare = read.spare.map(|s| [*s.start(), *s.end()].map(|k| names[k]));
     let doubtful = read.doubtful.iter().map(|&k| names[k]).collect();
     let mut names = names.into_iter();
     let rows = read.rows.into_iter();
@@ -76,8 +77,8 @@ pub(super) fn place(
     let counts: Vec<usize> = rows.iter().map(Vec::len).collect();
     listed::check(&plan.options.lines, &counts, plan.source)?;
     // lines that are the page's rows say how many letters there are
-    if let Some(index) = spare.filter(|_| plan.options.lines != counts) {
-        return Err(spare_name(labels, index, plan.source));
+    if let Some(among) = spare.filter(|_| plan.options.lines != counts) {
+        return Err(spare_name(labels, among, plan.source));
     }
     let mut layer = layer(rows, labels);
     layer.rejected.extend(read.out);
@@ -86,12 +87,18 @@ pub(super) fn place(
     Ok(layer)
 }
 
-fn spare_name(labels: &[Label], index: usize, source: &str) -> ScanError {
+fn spare_name(labels: &[Label], among: [usize; 2], source: &str) -> ScanError {
+    let name = |i: usize| format!("“{}”, number {}", labels[i].0, i + 1);
+    let [first, last] = among;
+    let among = if first == last {
+        name(first)
+    } else {
+        format!("one of those from {} to {}", name(first), name(last))
+    };
     ScanError::SpareName {
         source_name: source.to_owned(),
-        name: labels[index].0.clone(),
-        number: index + 1,
         names: labels.len(),
+        among,
     }
 }
 
@@ -217,8 +224,8 @@ struct Read {
     out: Vec<(usize, Reason)>,
     /// Names that may be other letters'.
     doubtful: Vec<usize>,
-    /// A name that may be too many.
-    spare: Option<usize>,
+    /// Names of which one may be too many.
+    spare: Option<RangeInclusive<usize>>,
     cost: f64,
     /// How many pieces were joined that are not surely one.
     scattered: usize,

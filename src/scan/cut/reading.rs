@@ -5,6 +5,7 @@
 //! shortest path through pieces and names, as sequences are aligned. A cost of 1 is strong doubt.
 
 use crate::scan::letters::{Foot, Pieces, Shape};
+use std::ops::RangeInclusive;
 
 /// Cost of a piece as small as a dot for the name of a letter or a figure, and for any other name: commas are small.
 const SIZE: (f64, f64) = (1.2, 0.5);
@@ -102,8 +103,8 @@ pub(super) struct Reading {
     pub(super) cost: f64,
     /// How much likelier this reading is than the best one in which a piece is something else, of each piece.
     pub(super) margins: Vec<f64>,
-    /// The name without which it would be likeliest, and by how much likelier.
-    spare: Option<(usize, f64)>,
+    /// The names without one of which it would be likeliest, and by how much likelier.
+    spare: Option<(RangeInclusive<usize>, f64)>,
 }
 
 impl Reading {
@@ -120,9 +121,10 @@ impl Reading {
         self.cost > UNLIKE * letters as f64
     }
 
-    /// The name that seems to be too many, though a piece was found for each.
-    pub(super) fn spare(&self) -> Option<usize> {
-        self.spare.filter(|s| s.1 > SPARE.1).map(|s| s.0)
+    /// Names of which one seems to be too many, though a piece was found for each.
+    pub(super) fn spare(&self) -> Option<RangeInclusive<usize>> {
+        let spare = self.spare.as_ref().filter(|s| s.1 > SPARE.1);
+        spare.map(|s| s.0.clone())
     }
 
     /// The names of which it is not much likelier that each is a letter's than that this is something else, or that there is none.
@@ -132,7 +134,8 @@ impl Reading {
             Role::Letter(k) if *margin < DOUBT => Some(*k),
             _ => None,
         });
-        let spare = self.spare.filter(|s| s.1 > SPARE.0).map(|s| s.0);
+        let spare = self.spare.as_ref().filter(|s| s.1 > SPARE.0);
+        let spare = spare.map(|s| *s.0.start());
         doubtful.chain(spare).collect()
     }
 }
@@ -239,12 +242,19 @@ fn rest(pieces: &[Seen], names: &[Option<Shape>]) -> Vec<f64> {
     rest
 }
 
-/// The name without which pieces and names cost least, the first of those, and how much less that is.
-fn spare(table: &Table, rest: &[f64], cost: f64) -> Option<(usize, f64)> {
-    let width = table.width;
-    let without = (0..rest.len()).filter(|at| at % width + 1 < width);
-    let without = without.map(|at| (at % width, cost - table.cost[at] - rest[at + 1]));
-    without.max_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0)))
+/// The names without one of which pieces and names cost least, about as little without each, and how much less that is.
+fn spare(table: &Table, rest: &[f64], cost: f64) -> Option<(RangeInclusive<usize>, f64)> {
+    let names = table.width - 1;
+    let mut gains = vec![f64::NEG_INFINITY; names];
+    for at in (0..rest.len()).filter(|at| at % table.width < names) {
+        let gain = &mut gains[at % table.width];
+        *gain = gain.max(cost - table.cost[at] - rest[at + 1]);
+    }
+    let best = gains.iter().copied().reduce(f64::max)?;
+    let is_best = |gain: &f64| *gain > best - DOUBT;
+    let first = gains.iter().position(is_best)?;
+    let more = gains[first..].iter().take_while(|g| is_best(g)).count();
+    Some((first..=first + more - 1, best))
 }
 
 /// By how much each piece's role makes the reading likelier than the best one in which it is something else.
@@ -575,7 +585,8 @@ mod tests {
         let pieces = [under_signs(), dot, letter()];
         let reading = align(&pieces, &shapes("uni062B uni0645 uni062F"));
         assert!(reading.agrees());
-        assert_eq!(reading.spare(), Some(1));
+        // the last letter may be a meem as well
+        assert_eq!(reading.spare(), Some(1..=2));
         assert_eq!(align(&pieces, &shapes("uni062B uni062F")).spare(), None);
         // a letter of its own is as likely as none
         let reading = align(&[letter(); 3], &shapes("uni062F uni0631 uni062F"));
