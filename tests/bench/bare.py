@@ -200,10 +200,19 @@ def dust(x, y, ids, of, own):
     return int((~near[y - max(0, top), x - max(0, left)] & (ids == 0)).sum())
 
 
+def nameless(said, lengths):
+    """The letters that a message says have no name, by their first and last places on the page, from 0."""
+    place = lambda row, letter: sum(lengths[: int(row) - 1]) + int(letter) - 1
+    for a, b, row in re.findall(r"letters? (\d+)(?: to (\d+))? of row (\d+) seems? to have no name", said):
+        yield place(row, a), place(row, b or a)
+    for a, row, b, other in re.findall(r"from letter (\d+) of row (\d+) to letter (\d+) of row (\d+) seems to have no name", said):
+        yield place(row, a), place(other, b)
+
+
 def forgotten(khatt, truth, forms, folder, times):
-    """How often a page is refused where one name of its list is left out, and how often the place told is that or one next to it; how often
-    where the names stand in lines, a row each; how often as a grid, and as one in lines; and where a name has no letter, how often it is refused, that is
-    one of the names told then, and how often letters are warned of for their signs."""
+    """How often a page is refused where one name of its list is left out, and how often its letter is among those told; how often where the
+    names stand in lines, a row each; how often as a grid, and as one in lines; and where a name has no letter, how often it is refused, that is one
+    of the names told then, and how often letters are warned of for their signs."""
     count = len(truth["cells"])
     told = near = many = spare = signs = 0
     refused = [0, 0, 0]
@@ -221,9 +230,8 @@ def forgotten(khatt, truth, forms, folder, times):
         if found is not None:
             continue
         told += 1
-        place = re.search(r"letter (\d+) of row (\d+) seems to have no name", said)
         lengths = [min(truth["cols"], count - r * truth["cols"]) for r in range(truth["rows"])]
-        near += bool(place) and abs(sum(lengths[: int(place[2]) - 1]) + int(place[1]) - 1 - at) <= 1
+        near += any(first <= at <= last for first, last in nameless(said, lengths))
     return f" | {told}, {near}, {refused[0]} of {times} | {refused[1]}, {refused[2]} of {times} | {many}, {spare}, {signs} of {times}"
 
 
@@ -292,7 +300,7 @@ def main():
     listed = open(args.pages).read().splitlines() if args.pages else []
     more = " in order | whole | pieces lost, others' | dusty | baselines | s |"
     build = " font: missing, wrong | mean, worst | baselines |" if args.build else ""
-    forget = " a name forgotten: told, at its place, in lines | as a grid, in lines | a name too many: refused, among those told, signs warned of |" if args.forget else ""
+    forget = " a name forgotten: told, among those told, in lines | as a grid, in lines | a name too many: refused, among those told, signs warned of |" if args.forget else ""
     print("| page | letters |" + "".join(more.replace(" in", f" {name}: in", 1) for name in args.layouts) + build + forget)
     print("|---|---|" + "---|" * (6 * len(args.layouts) + 3 * bool(build) + 2 * bool(forget)))
     for text in args.page + [line for line in listed if line.strip()]:

@@ -22,11 +22,15 @@ pub(super) struct Unread {
 /// A place where names and letters part, from 1.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Doubt {
-    /// A letter without a name.
-    Nameless { row: usize, letter: usize },
-    /// A name without a letter, after so many letters of its row.
+    /// A letter without a name, one of those from one to another, each its row and its place there.
+    Nameless {
+        first: (usize, usize),
+        last: (usize, usize),
+    },
+    /// A name without a letter, one of those from one to another; after so many letters of a row.
     Missing {
-        name: usize,
+        first: usize,
+        last: usize,
         row: usize,
         letter: usize,
     },
@@ -44,12 +48,14 @@ impl Unread {
         let row_of = lengths.iter().enumerate();
         let row_of: Vec<usize> = row_of.flat_map(|(row, &n)| vec![row; n]).collect();
         let mut missing = reading.missing.iter().peekable();
-        let mut last = 0;
+        let (mut last, mut places) = (0, Vec::new());
         for i in 0..=reading.roles.len() {
             while let Some(&(name, _)) = missing.next_if(|m| m.1 <= i) {
                 let letter = rows.get(last).copied().unwrap_or(0);
+                let among = reading.letterless().unwrap_or(name..=name);
                 doubts.push(Doubt::Missing {
-                    name,
+                    first: *among.start(),
+                    last: *among.end(),
                     row: last + 1,
                     letter,
                 });
@@ -69,12 +75,20 @@ impl Unread {
             if let Role::Touching(name, letters) = *role {
                 doubts.push(Doubt::Touching { name, letters });
             }
+            let here = (row + 1, rows[row]);
+            places.push(here);
             if *role == Role::Nameless {
                 doubts.push(Doubt::Nameless {
-                    row: row + 1,
-                    letter: rows[row],
+                    first: here,
+                    last: here,
                 });
             }
+        }
+        if let Some(among) = reading.nameless() {
+            let place = |i: usize| places.get(i).copied().unwrap_or((1, 1));
+            let (first, last) = (place(*among.start()), place(*among.end()));
+            doubts.retain(|d| !matches!(d, Doubt::Nameless { .. }));
+            doubts.push(Doubt::Nameless { first, last });
         }
         Self {
             rows,
@@ -92,12 +106,12 @@ impl Unread {
         }
     }
 
-    /// The error of a page that has so many names; `label` says the text of one.
+    /// The error of a page that has so many names; `label` says the text of one, and its number on the page.
     pub(super) fn error<'a>(
         &self,
         source: &str,
         names: usize,
-        label: impl Fn(usize) -> &'a str,
+        label: impl Fn(usize) -> (&'a str, usize),
     ) -> ScanError {
         // places that only dirt makes are no rows
         let rows: Vec<usize> = self.rows.iter().copied().filter(|&n| n > 0).collect();
@@ -106,21 +120,38 @@ impl Unread {
             before.filter(|&&n| n > 0).count().max(1)
         };
         let told = self.doubts.iter().take(TOLD).map(|doubt| match *doubt {
-            Doubt::Nameless { row, letter } => {
-                format!(
-                    "letter {letter} of row {} seems to have no name",
-                    place(row)
-                )
+            Doubt::Nameless { first, last } => {
+                let (from, to) = (place(first.0), place(last.0));
+                let among = match (first, last) {
+                    (a, b) if a == b => format!("letter {} of row {from}", a.1),
+                    (a, b) if a.0 == b.0 => {
+                        format!("one of letters {} to {} of row {from}", a.1, b.1)
+                    }
+                    (a, b) => format!(
+                        "one of those from letter {} of row {from} to letter {} of row {to}",
+                        a.1, b.1
+                    ),
+                };
+                format!("{among} seems to have no name")
             }
-            Doubt::Missing { name, row, letter } => format!(
+            Doubt::Missing {
+                first,
+                last,
+                row,
+                letter,
+            } if first == last => format!(
                 "“{}” seems to have no letter after letter {letter} of row {}",
-                label(name),
+                label(first).0,
                 place(row)
             ),
+            Doubt::Missing { first, last, .. } => {
+                let [(a, from), (b, to)] = [first, last].map(&label);
+                format!("one of those from “{a}”, number {from}, to “{b}”, number {to}, seems to have no letter")
+            }
             Doubt::Touching { name, letters } => format!(
                 "“{}” and “{}” seem to touch",
-                label(name),
-                label(name + letters - 1)
+                label(name).0,
+                label(name + letters - 1).0
             ),
             Doubt::Unlike => {
                 "few letters look like their names, as where each is drawn in many pieces; layout = { grid = [rows, columns] } goes by \

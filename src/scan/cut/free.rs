@@ -64,7 +64,10 @@ pub(super) fn place(
     let known = |l: &&Label| l.0 != "_";
     let shape = |&i: &usize| Some(&labels[i]).filter(known).map(|l| Shape::of(l, &data));
     let shapes: Vec<Option<Shape>> = names.iter().map(shape).collect();
-    let label = |k: usize| names.get(k).map_or("", |&i| labels[i].0.as_str());
+    let label = |k: usize| {
+        let index = names.get(k).copied().unwrap_or_default();
+        (labels.get(index).map_or("", |l| l.0.as_str()), index + 1)
+    };
     let (read, parted) =
         read(all, &shapes, plan).map_err(|unread| unread.error(plan.source, names.len(), label))?;
     let spare = read.spare.map(|s| [*s.start(), *s.end()].map(|k| names[k]));

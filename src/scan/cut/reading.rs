@@ -105,6 +105,8 @@ pub(super) struct Reading {
     pub(super) margins: Vec<f64>,
     /// The names without one of which it would be likeliest, and by how much likelier.
     spare: Option<(RangeInclusive<usize>, f64)>,
+    /// The letters without one of which it would be likeliest: the first and the last piece.
+    extra: Option<RangeInclusive<usize>>,
 }
 
 impl Reading {
@@ -112,6 +114,19 @@ impl Reading {
     pub(super) fn agrees(&self) -> bool {
         let nameless = self.roles.contains(&Role::Nameless);
         self.missing.is_empty() && !nameless && !self.is_unlike()
+    }
+
+    /// The pieces from one to another of which one letter has no name, where that is all that does not agree.
+    pub(super) fn nameless(&self) -> Option<RangeInclusive<usize>> {
+        let nameless = self.roles.iter().filter(|r| **r == Role::Nameless).count();
+        let only = nameless == 1 && self.missing.is_empty();
+        self.extra.clone().filter(|_| only)
+    }
+
+    /// The names from one to another of which one has no letter, where that is all that does not agree.
+    pub(super) fn letterless(&self) -> Option<RangeInclusive<usize>> {
+        let only = self.missing.len() == 1 && !self.roles.contains(&Role::Nameless);
+        self.spare.as_ref().filter(|_| only).map(|s| s.0.clone())
     }
 
     /// Whether its letters hardly look like their names.
@@ -201,6 +216,7 @@ impl Table {
             cost: self.cost.last().copied().unwrap_or(0.0),
             margins: Vec::new(),
             spare: None,
+            extra: None,
         }
     }
 }
@@ -219,8 +235,31 @@ pub(super) fn align(pieces: &[Seen], names: &[Option<Shape>]) -> Reading {
     let mut reading = table.reading(pieces.len(), names.len());
     let rest = rest(pieces, names);
     reading.margins = margins((pieces, names), &table, &rest, &reading);
-    reading.spare = spare(&table, &rest, reading.cost);
+    let free = |at: usize, behind: usize| reading.cost - table.cost[at] - rest[behind];
+    let width = table.width;
+    let without_name = |j: usize| {
+        let all = (0..=pieces.len()).map(|i| free(i * width + j, i * width + j + 1));
+        (j, all.fold(f64::NEG_INFINITY, f64::max))
+    };
+    let without_letter = |i: usize| {
+        let all = (0..width).map(|j| free(i * width + j, (i + 1) * width + j));
+        (i, all.fold(f64::NEG_INFINITY, f64::max))
+    };
+    let is_letter = |i: &usize| !matches!(reading.roles[*i], Role::Part | Role::Dirt);
+    let spare = likeliest((0..names.len()).map(without_name));
+    let extra = likeliest((0..pieces.len()).filter(is_letter).map(without_letter));
+    (reading.spare, reading.extra) = (spare, extra.map(|e| e.0));
     reading
+}
+
+/// The run of what gains about as much as the best, from the first one on, and that gain.
+fn likeliest(gains: impl Iterator<Item = (usize, f64)>) -> Option<(RangeInclusive<usize>, f64)> {
+    let gains: Vec<(usize, f64)> = gains.collect();
+    let best = gains.iter().map(|g| g.1).reduce(f64::max)?;
+    let is_best = |g: &&(usize, f64)| g.1 > best - DOUBT;
+    let run = gains.iter().skip_while(|g| !is_best(g)).take_while(is_best);
+    let (first, last) = (run.clone().next()?.0, run.last()?.0);
+    Some((first..=last, best))
 }
 
 /// Costs of all ends, behind so many pieces and so many names.
@@ -240,21 +279,6 @@ fn rest(pieces: &[Seen], names: &[Option<Shape>]) -> Vec<f64> {
         }
     }
     rest
-}
-
-/// The names without one of which pieces and names cost least, about as little without each, and how much less that is.
-fn spare(table: &Table, rest: &[f64], cost: f64) -> Option<(RangeInclusive<usize>, f64)> {
-    let names = table.width - 1;
-    let mut gains = vec![f64::NEG_INFINITY; names];
-    for at in (0..rest.len()).filter(|at| at % table.width < names) {
-        let gain = &mut gains[at % table.width];
-        *gain = gain.max(cost - table.cost[at] - rest[at + 1]);
-    }
-    let best = gains.iter().copied().reduce(f64::max)?;
-    let is_best = |gain: &f64| *gain > best - DOUBT;
-    let first = gains.iter().position(is_best)?;
-    let more = gains[first..].iter().take_while(|g| is_best(g)).count();
-    Some((first..=first + more - 1, best))
 }
 
 /// By how much each piece's role makes the reading likelier than the best one in which it is something else.

@@ -218,6 +218,39 @@ fn a_forgotten_name_is_told() {
     );
 }
 
+/// Letters that look alike may each be the one without a name, and names of letters that look alike the one without a letter.
+#[test]
+fn all_places_where_a_name_may_be_forgotten_are_told() {
+    let rows = [
+        "uni0628 uni062D uni062D uni062D uni062D uni0628 uni0628 uni0628",
+        "uni0628 uni0628 uni062D uni0628 uni0628 uni0628 uni0628 uni0628",
+    ];
+    let paper = page(&rows, 0.0, 0.0);
+    let all: Vec<&str> = rows.iter().flat_map(|r| r.split(' ')).collect();
+    let told = |names: &[&str]| match cut_page(&paper, &names.join(" "), &free()) {
+        Err(ScanError::Count { doubts, .. }) => doubts,
+        other => panic!("{other:?}"),
+    };
+    let mut fewer = all.clone();
+    fewer.remove(3);
+    assert_eq!(
+        told(&fewer),
+        "one of letters 2 to 5 of row 1 seems to have no name"
+    );
+    let mut more = all.clone();
+    more.insert(3, "uni062D");
+    assert_eq!(
+        told(&more),
+        "one of those from “uni062D”, number 2, to “uni062D”, number 6, seems to have no letter"
+    );
+    let mut across = all;
+    across.remove(7);
+    assert_eq!(
+        told(&across),
+        "one of those from letter 6 of row 1 to letter 1 of row 2 seems to have no name"
+    );
+}
+
 /// A letter below one that hangs is no part of that, which would hide the name that is missing.
 #[test]
 fn a_letter_under_a_tail_hides_no_forgotten_name() {
