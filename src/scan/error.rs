@@ -143,7 +143,7 @@ pub enum ScanError {
     },
     /// There is ink for every name, but it is likelier that one has none.
     #[error(
-        "{source_name} looks as if it had a letter less than the {names} names: {among}, seems to have only a part of another's ink; take \
+        "{source_name} looks as if it had a letter less than the {names} names: {among} seems to have only a part of another's ink; take \
          the name away, or, where all have their letters, write the names in lines that are the page's rows, or say where one stands: box under \
          [cells.NAME]"
     )]

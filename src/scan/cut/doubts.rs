@@ -146,7 +146,7 @@ impl Unread {
             ),
             Doubt::Missing { first, last, .. } => {
                 let [(a, from), (b, to)] = [first, last].map(&label);
-                format!("one of those from “{a}”, number {from}, to “{b}”, number {to}, seems to have no letter")
+                format!("one of those from “{a}” (number {from}) to “{b}” (number {to}) seems to have no letter")
             }
             Doubt::Touching { name, letters } => format!(
                 "“{}” and “{}” seem to touch",

@@ -91,7 +91,7 @@ pub(super) fn place(
 }
 
 fn spare_name(labels: &[Label], among: [usize; 2], source: &str) -> ScanError {
-    let name = |i: usize| format!("“{}”, number {}", labels[i].0, i + 1);
+    let name = |i: usize| format!("“{}” (number {})", labels[i].0, i + 1);
     let [first, last] = among;
     let among = if first == last {
         name(first)

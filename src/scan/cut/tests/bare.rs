@@ -241,7 +241,7 @@ fn all_places_where_a_name_may_be_forgotten_are_told() {
     more.insert(3, "uni062D");
     assert_eq!(
         told(&more),
-        "one of those from “uni062D”, number 2, to “uni062D”, number 6, seems to have no letter"
+        "one of those from “uni062D” (number 2) to “uni062D” (number 6) seems to have no letter"
     );
     let mut across = all;
     across.remove(7);
@@ -321,7 +321,7 @@ fn a_name_too_many_that_takes_one_of_three_dots_is_told() {
             ScanError::Count { .. } => {}
             ScanError::SpareName { among, .. } => {
                 let told = among.split("number ").skip(1);
-                let told = told.filter_map(|s| s.split(' ').next()?.parse().ok());
+                let told = told.filter_map(|s| s.split(')').next()?.parse().ok());
                 let told: Vec<usize> = told.collect();
                 assert!(
                     told[0] <= at + 2 && at <= told[told.len() - 1],
