@@ -141,6 +141,18 @@ pub enum ScanError {
         /// where letters and names part
         doubts: String,
     },
+    /// Far less ink than names on a bare page.
+    #[error(
+        "{source_name} has {pieces} pieces of ink, too few for the letters of {names} names; take names away, or correct `image` if this is not their page"
+    )]
+    FewPieces {
+        /// the file
+        source_name: String,
+        /// connected pieces of ink
+        pieces: usize,
+        /// names given
+        names: usize,
+    },
     /// There is ink for every name, but it is likelier that one has none.
     #[error(
         "{source_name} looks as if it had a letter less than the {names} names: {among} seems to have only a part of another's ink; take \

@@ -42,6 +42,9 @@ const LONG: f64 = 2.0;
 /// Pieces of less ink than this share of a usual letter's may be dirt.
 const DIRT: f64 = 0.06;
 
+/// Letters of a piece of ink at most, in the mean: reading takes time and memory for every piece and every name.
+const HELD: usize = 8;
+
 /// What a bare page is read by.
 pub(super) struct Plan<'a> {
     pub(super) upright: View,
@@ -60,6 +63,13 @@ pub(super) fn place(
     let claims = plan.claims;
     let unclaimed = |index: &usize| claims.iter().all(|(c, _)| c != index);
     let names: Vec<usize> = (0..labels.len()).filter(unclaimed).collect();
+    if names.len() > HELD * all.len() {
+        return Err(ScanError::FewPieces {
+            source_name: plan.source.to_owned(),
+            pieces: all.len(),
+            names: names.len(),
+        });
+    }
     let data = GlyphData::default();
     let known = |l: &&Label| l.0 != "_";
     let shape = |&i: &usize| Some(&labels[i]).filter(known).map(|l| Shape::of(l, &data));

@@ -281,6 +281,17 @@ fn a_letter_under_a_tail_hides_no_forgotten_name() {
     }
 }
 
+/// Which would take minutes and gigabytes to find out by reading.
+#[test]
+fn far_more_names_than_ink_are_refused_before_they_are_read() {
+    let names = vec!["uni062D"; 20_000].join(" ");
+    let told = cut_page(&page(&ROWS, 0.0, 0.0), &names, &free());
+    assert!(matches!(
+        told,
+        Err(ScanError::FewPieces { names: 20_000, .. })
+    ));
+}
+
 /// A name whose letter was not drawn takes no other one's dot.
 #[test]
 fn a_name_too_many_is_told() {
