@@ -23,6 +23,7 @@ mod pins;
 mod reading;
 mod rows;
 mod ruling;
+mod seam;
 mod signs;
 mod small;
 mod stance;
@@ -329,7 +330,7 @@ fn placed(
     }
     match options.layout {
         Layout::Grid(rows, columns) => {
-            let plan = grid::Plan::new(page, options, (rows, columns), upright)?;
+            let plan = grid::Plan::new(page, options, (rows, columns), (upright, claims))?;
             grid::place(all, labels, &plan)
         }
         Layout::Free => {

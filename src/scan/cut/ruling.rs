@@ -13,6 +13,8 @@ use std::ops::Range;
 
 /// Share of the lattice's length that a line of it covers at least.
 const LONG: f64 = 0.5;
+/// So many times as thick as the lattice's other lines is a row of letters that touch.
+const THICK: f64 = 1.6;
 /// How far a line's blurred and ragged edge reaches beyond where it covers so much, px.
 const EDGE: f64 = 1.5;
 
@@ -32,10 +34,15 @@ pub(super) fn freed(lattice: &Component, upright: &View) -> Vec<Component> {
             }
         }
     }
-    let columns = stripes(&profiles[0], b.x0, b.height());
-    let rows = stripes(&profiles[1], b.y0, b.width());
-    let thick = columns.iter().chain(&rows).map(|s| s.end - s.start);
-    let Some(thick) = thick.reduce(f64::max) else {
+    let mut columns = stripes(&profiles[0], b.x0, b.height());
+    let mut rows = stripes(&profiles[1], b.y0, b.width());
+    let thick = |line: &Range<f64>| line.end - line.start;
+    let mut usual: Vec<f64> = columns.iter().chain(&rows).map(thick).collect();
+    usual.sort_by(f64::total_cmp);
+    let usual = usual.get(usual.len() / 2).copied().unwrap_or(0.0);
+    columns.retain(|line| thick(line) <= THICK * usual);
+    rows.retain(|line| thick(line) <= THICK * usual);
+    let Some(thick) = columns.iter().chain(&rows).map(thick).reduce(f64::max) else {
         return Vec::new();
     };
     let back = upright.inverse();

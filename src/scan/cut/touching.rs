@@ -2,35 +2,31 @@
 //!
 //! Which of the ink there is whose nobody knows: such letters are warned of.
 
+use super::seam::{Along, Seam};
 use super::{Component, Slot, Warning};
 use crate::numeric::view::View;
-use crate::scan::whole::floor;
-use kurbo::{Point, Rect};
+use kurbo::Rect;
 use std::ops::Range;
 
 /// Letters that touch are so unequal at most: each ends within this share of a mean width from where equal ones would.
 const UNEQUAL: f64 = 0.25;
-/// Strokes whose thickness differs by so many px are as thick: a scanner's grain takes one from each side.
-const GRAIN: usize = 2;
-
-/// The direction in which letters that touch follow each other.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Axis {
-    Across,
-    Down,
-}
 
 /// Ink that is of several letters.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Touch {
     /// Indices of its components.
     ink: Vec<usize>,
-    axis: Axis,
+    along: Along,
     /// Where one letter ends and the next one begins, upright px.
     ends: Vec<Range<f64>>,
 }
 
 impl Touch {
+    /// Letters of which one ends and the next one begins in each of some stretches of upright px.
+    pub(super) fn at(ends: Vec<Range<f64>>, (along, ink): (Along, Vec<usize>)) -> Self {
+        Self { ink, along, ends }
+    }
+
     /// Letters of one row, so many within `bounds`.
     pub(super) fn beside(ink: Vec<usize>, bounds: Rect, letters: usize) -> Self {
         let width = bounds.width() / letters as f64;
@@ -40,7 +36,7 @@ impl Touch {
         };
         Self {
             ink,
-            axis: Axis::Across,
+            along: Along::Row,
             ends: (1..letters).map(end).collect(),
         }
     }
@@ -51,28 +47,22 @@ impl Touch {
         let end = middle - UNEQUAL * pitch..middle + UNEQUAL * pitch;
         Self {
             ink,
-            axis: Axis::Down,
+            along: Along::Column,
             ends: vec![end],
         }
     }
 
     /// Cuts the ink in `all`, where new pieces go to the end, and says which pieces were cut from others.
     pub(super) fn part(&self, all: &mut Vec<Component>, upright: &View) -> Vec<usize> {
-        let along = |x: usize, y: usize| {
-            let at = upright.at(Point::new(x as f64 + 0.5, y as f64 + 0.5));
-            match self.axis {
-                Axis::Across => at.x,
-                Axis::Down => at.y,
-            }
-        };
-        let pixels = || self.ink.iter().flat_map(|&i| all[i].pixels());
-        let places: Vec<f64> = pixels().map(|(x, y)| along(x, y)).collect();
-        let cuts: Vec<f64> = self.ends.iter().map(|end| thinnest(&places, end)).collect();
+        let ink: Vec<&Component> = self.ink.iter().map(|&i| &all[i]).collect();
+        let seams = self.ends.iter();
+        let seams = seams.filter_map(|end| Seam::within(end, (self.along, &ink), upright));
+        let seams: Vec<Seam> = seams.collect();
         let mut parted = Vec::new();
         for &i in &self.ink {
             let mut pieces = vec![all[i].clone()];
-            for &cut in &cuts {
-                let parts = pieces.iter().map(|p| p.parted(|x, y| along(x, y) < cut));
+            for seam in &seams {
+                let parts = pieces.iter().map(|p| p.parted(|x, y| seam.is_before(x, y)));
                 pieces = parts.flatten().collect();
             }
             pieces.iter_mut().for_each(|p| p.stand(upright));
@@ -86,19 +76,6 @@ impl Touch {
         }
         parted
     }
-}
-
-/// Where least ink lies in a stretch of `places`, px: nearest to its middle where there is as little for long.
-fn thinnest(places: &[f64], stretch: &Range<f64>) -> f64 {
-    let mut ink = vec![0; floor(stretch.end - stretch.start) + 1];
-    for at in places.iter().filter(|p| stretch.contains(p)) {
-        ink[floor(at - stretch.start)] += 1;
-    }
-    let least = ink.iter().min().copied().unwrap_or(0);
-    let middle = ink.len() / 2;
-    let thin = (0..ink.len()).filter(|&k| ink[k] <= least + GRAIN);
-    let thin = thin.min_by_key(|k| k.abs_diff(middle)).unwrap_or(middle);
-    stretch.start + thin as f64 + 0.5
 }
 
 /// Warns of the letters that have some of the ink that was cut.

@@ -1,5 +1,6 @@
 //! Equal cells in rows and columns.
 
+mod across;
 mod axis;
 mod furniture;
 mod plan;
@@ -28,7 +29,7 @@ const LINE_WIDTH: f64 = 0.06;
 /// What a distance within the cell counts beside one to another cell's letter.
 const HOME: f64 = 0.6;
 
-/// Shares the ink out to the cells of a grid. Pieces that touch printed lines are cut free and appended to `all`.
+/// Shares the ink out to the cells of a grid. Pieces that touch printed lines, or letters of other cells, are cut free and appended to `all`.
 pub(super) fn place(
     all: &mut Vec<Component>,
     labels: &[Label],
@@ -43,7 +44,7 @@ pub(super) fn place(
         .flat_map(|&i| ruling::freed(&all[i], &plan.upright));
     let freed: Vec<Component> = freed.collect();
     all.extend(freed);
-    let letters: Vec<usize> = (0..all.len()).filter(|i| !lines.contains(i)).collect();
+    let mut letters: Vec<usize> = (0..all.len()).filter(|i| !lines.contains(i)).collect();
     let mut rejected: Vec<(usize, Reason)> = lines.iter().map(|&i| (i, Reason::Line)).collect();
     let blank = || ScanError::Blank {
         source_name: plan.source.to_owned(),
@@ -62,13 +63,11 @@ pub(super) fn place(
     };
     let printed = furniture::find(all, &shared, &asked);
     if !printed.is_empty() {
-        let rest: Vec<usize> = letters
-            .into_iter()
-            .filter(|i| !printed.contains(i))
-            .collect();
-        shared = share(all, &rest, labels, plan).ok_or_else(blank)?;
+        letters.retain(|i| !printed.contains(i));
+        shared = share(all, &letters, labels, plan).ok_or_else(blank)?;
         rejected.extend(printed.into_iter().map(|i| (i, Reason::Furniture)));
     }
+    let parted = across::part(all, &mut letters, &mut shared, (labels, plan));
     let Shared {
         x,
         y,
@@ -93,7 +92,7 @@ pub(super) fn place(
         rows: plan.rows,
         ruled: is_lined,
         rejected,
-        parted: Vec::new(),
+        parted,
         doubtful: Vec::new(),
     })
 }

@@ -17,6 +17,8 @@ pub(in crate::scan::cut) struct Plan<'a> {
     pub(super) source: &'a str,
     pub(super) options: &'a Options,
     pub(super) upright: View,
+    /// The letters whose places a user says, and their ink.
+    pub(super) claims: &'a [(usize, Vec<usize>)],
 }
 
 impl<'a> Plan<'a> {
@@ -24,7 +26,7 @@ impl<'a> Plan<'a> {
         page: &'a Page,
         options: &'a Options,
         (rows, columns): (usize, usize),
-        upright: View,
+        (upright, claims): (View, &'a [(usize, Vec<usize>)]),
     ) -> Result<Self, ScanError> {
         let source = page.sheet.source.as_str();
         let gray = &page.sheet.gray;
@@ -36,6 +38,7 @@ impl<'a> Plan<'a> {
             source,
             options,
             upright,
+            claims,
         })
         .ok_or(ScanError::NoGrid { rows, columns })
     }

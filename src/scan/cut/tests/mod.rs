@@ -1,3 +1,4 @@
+mod across;
 mod bare;
 mod dust;
 mod signs;

@@ -26,8 +26,9 @@ fn ink_that_reaches_the_next_row_is_told() {
             .collect::<Vec<_>>()
     };
     assert_eq!(told(&cut(&paper)), []);
-    // the tail of the p in the second row touches the letter under it
-    paper.bar(210.0, 220.0, 6.0, 80.0);
+    // a tail of the letter in the second row ends beside the one under it
+    paper.bar(236.0, 214.0, 14.0, 6.0);
+    paper.bar(244.0, 214.0, 6.0, 110.0);
     let told = told(&cut(&paper));
     assert!(!told.is_empty(), "{told:?}");
     assert!(

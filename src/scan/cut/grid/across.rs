@@ -1,0 +1,104 @@
+//! Letters of cells side by side, or one below the other, that touch: their ink is cut apart near the border of the cells.
+//!
+//! Such ink lies in the cell of its centre; in each of the others, whose middles it reaches, there is more of it than of other ink.
+
+use super::axis::Axis;
+use super::plan::Plan;
+use super::shared::{Shared, share};
+use crate::scan::components::Component;
+use crate::scan::cut::named::COUNTS;
+use crate::scan::cut::seam::Along;
+use crate::scan::cut::touching::Touch;
+use crate::types::Label;
+use std::ops::Range;
+
+/// The border of two letters lies within this share of a cell from that of their cells.
+const UNEQUAL: f64 = 0.3;
+
+/// Cuts apart in `all` what is of several cells' letters, shares the ink out anew, and says which pieces were cut from others. New pieces go to the end of `all` and of `letters`.
+pub(super) fn part(
+    all: &mut Vec<Component>,
+    letters: &mut Vec<usize>,
+    shared: &mut Shared,
+    (labels, plan): (&[Label], &Plan<'_>),
+) -> Vec<usize> {
+    let mut parted = Vec::new();
+    loop {
+        let before = all.len();
+        for touch in touching(all, shared, (labels, plan)) {
+            parted.extend(touch.part(all, &plan.upright));
+        }
+        letters.extend(before..all.len());
+        match share(all, letters, labels, plan).filter(|_| all.len() > before) {
+            Some(anew) => *shared = anew,
+            None => return parted,
+        }
+    }
+}
+
+/// Letters of neighbouring cells that touch.
+fn touching(
+    all: &[Component],
+    shared: &Shared,
+    (labels, plan): (&[Label], &Plan<'_>),
+) -> Vec<Touch> {
+    let own = |cell: &Vec<usize>| cell.iter().map(|&i| all[i].area).sum::<usize>();
+    let own: Vec<usize> = shared.cells.iter().map(own).collect();
+    let mut usual: Vec<usize> = own.iter().copied().filter(|&a| a > 0).collect();
+    usual.sort_unstable();
+    let least = COUNTS * usual.get(usual.len() / 2).copied().unwrap_or(0) as f64;
+    let mut named = vec![false; shared.cells.len()];
+    let names = labels.iter().enumerate().filter(|(_, l)| l.0 != "_");
+    for index in names.map(|(index, _)| index) {
+        let (row, column) = plan.place(index);
+        named[row * plan.columns + column] = plan.claims.iter().all(|(k, _)| *k != index);
+    }
+    let claimed = |i: usize| plan.claims.iter().any(|(_, parts)| parts.contains(&i));
+    let touch = |cell: usize, i: usize| {
+        let (row, column) = (cell / plan.columns, cell % plan.columns);
+        [Along::Row, Along::Column].into_iter().find_map(|along| {
+            let (cells, home, reach) = match along {
+                Along::Row => (&shared.x, column, (all[i].upright.x0, all[i].upright.x1)),
+                Along::Column => (&shared.y, row, (all[i].upright.y0, all[i].upright.y1)),
+            };
+            // more of it than of what lies there alone, be it dots
+            let holds = |k: usize| {
+                let cell = match along {
+                    Along::Row => row * plan.columns + k,
+                    Along::Column => k * plan.columns + column,
+                };
+                let here = |p: &(usize, usize)| cells.cell(along.at(*p, &plan.upright)) == Some(k);
+                let ink = || all[i].pixels().filter(here).count();
+                named[cell] && (least.max(own[cell] as f64)..).contains(&(ink() as f64))
+            };
+            let ends = borders(cells, home, reach, holds);
+            (!ends.is_empty()).then(|| Touch::at(ends, (along, vec![i])))
+        })
+    };
+    let ink = shared.cells.iter().enumerate();
+    let ink = ink.flat_map(|(cell, ink)| ink.iter().map(move |&i| (cell, i)));
+    ink.filter(|(_, i)| !claimed(*i))
+        .filter_map(|(cell, i)| touch(cell, i))
+        .collect()
+}
+
+/// Where the letters of the cells around `home` may be cut apart that ink from one place to another reaches the middles of.
+fn borders(
+    cells: &Axis,
+    home: usize,
+    (from, to): (f64, f64),
+    holds: impl Fn(usize) -> bool,
+) -> Vec<Range<f64>> {
+    let middle = |k: usize| cells.begin(k) + cells.pitch / 2.0;
+    let is_in = |k: &usize| (from..to).contains(&middle(*k)) && holds(*k);
+    let first = (0..home).rev().take_while(is_in).last().unwrap_or(home);
+    let last = (home + 1..cells.count)
+        .take_while(is_in)
+        .last()
+        .unwrap_or(home);
+    let end = |k: usize| {
+        let border = cells.begin(k);
+        border - UNEQUAL * cells.pitch..border + UNEQUAL * cells.pitch
+    };
+    (first + 1..=last).map(end).collect()
+}

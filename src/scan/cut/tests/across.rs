@@ -1,0 +1,82 @@
+//! Letters of neighbouring cells of a grid that touch.
+
+use super::*;
+
+fn touched(paper: &Paper, told: &[usize]) -> Cut {
+    let cut = cut_page(paper, NAMES, &options(Layout::Grid(4, 5))).unwrap();
+    assert_eq!(cut.cells.len(), 20);
+    let warned = cut.warnings.iter();
+    let warned = warned.filter(|w| w.message.starts_with("it touches a letter"));
+    let warned: Vec<usize> = warned.filter_map(|w| w.index).collect();
+    assert_eq!(warned, told, "{:?}", cut.warnings);
+    cut
+}
+
+/// The left and the right end of a cell's ink on the upright page of [`grid_page`].
+fn ends(cut: &Cut, i: usize) -> (f64, f64) {
+    (cut.cells[i].in_sheet.x0, cut.cells[i].in_sheet.x1)
+}
+
+#[test]
+fn letters_of_one_row_that_touch_are_cut_apart_and_told() {
+    for lined in [false, true] {
+        let mut paper = grid_page(0.0);
+        if lined {
+            rule(&mut paper, 1.0);
+        }
+        // the feet of the sixth and the seventh letter, and of the seventh and the eighth
+        paper.bar(90.0, 214.0, 240.0, 6.0);
+        let cut = touched(&paper, &[5, 6, 7]);
+        let (left, middle, right) = (ends(&cut, 5), ends(&cut, 6), ends(&cut, 7));
+        assert!((left.0 - 90.0).abs() < 2.0 && (right.1 - 356.0).abs() < 2.0);
+        for (a, b) in [(left, middle), (middle, right)] {
+            assert!((a.1 - b.0).abs() < 2.0, "{a:?} {b:?}");
+        }
+        assert!(
+            (left.1 - 169.0).abs() < 8.0,
+            "at the border of the cells: {left:?}"
+        );
+    }
+}
+
+#[test]
+fn letters_of_one_column_that_touch_are_cut_apart_and_told() {
+    let mut paper = grid_page(0.0);
+    // the tail of p in the first row reaches down to the letter below it
+    paper.bar(330.0, 120.0, 6.0, 75.0);
+    let cut = touched(&paper, &[2, 7]);
+    let (upper, lower) = (cut.cells[2].in_sheet, cut.cells[7].in_sheet);
+    assert!((upper.y1 - lower.y0).abs() < 2.0, "{upper:?} {lower:?}");
+    assert!(upper.y1 > 140.0 && lower.y0 < 190.0, "{upper:?} {lower:?}");
+}
+
+/// Its letter was not drawn: what reaches into its cell is its neighbour's.
+#[test]
+fn a_letter_that_reaches_into_an_empty_cell_is_left_whole() {
+    let mut paper = grid_page(0.0);
+    paper
+        .bars
+        .retain(|(b, _)| !(b.y0 > 150.0 && b.y0 < 230.0 && b.x0 > 200.0 && b.x0 < 250.0));
+    paper.bar(118.0, 214.0, 60.0, 6.0);
+    let cut = cut_page(&paper, NAMES, &options(Layout::Grid(4, 5))).unwrap();
+    assert_eq!(cut.cells.len(), 19);
+    assert!((ends(&cut, 5).1 - 178.0).abs() < 2.0);
+    let empty = cut
+        .warnings
+        .iter()
+        .any(|w| w.index == Some(6) && w.message.contains("is empty"));
+    assert!(empty, "{:?}", cut.warnings);
+}
+
+/// Their feet make a line as long as the printed ones, and twice as thick.
+#[test]
+fn a_row_of_letters_that_touch_is_no_printed_line() {
+    let mut paper = grid_page(0.0);
+    rule(&mut paper, 1.0);
+    paper.bar(90.0, 211.0, 508.0, 9.0);
+    let cut = touched(&paper, &[5, 6, 7, 8, 9]);
+    for i in 5..10 {
+        let foot = cut.cells[i].in_sheet.y1;
+        assert!((foot - 220.0).abs() < 2.0 || i == 7, "{i}: {foot}");
+    }
+}
