@@ -15,6 +15,7 @@
 use super::joining::{self, Height, Method, Options};
 use super::{AssembleError, Drawn};
 use crate::numeric::median::median;
+use kurbo::Affine;
 use std::collections::BTreeMap;
 
 /// Letters with joining strokes from which a row's baseline is told.
@@ -44,7 +45,7 @@ pub fn strays(
     em: f64,
     options: &Options,
 ) -> Result<Vec<f64>, AssembleError> {
-    let drafts = super::drafts(drawn.to_vec(), &[])?;
+    let mut drafts = super::drafts(drawn.to_vec(), &[])?;
     if options.method == Method::Cursive {
         return Ok(vec![0.0; drafts.len()]);
     }
@@ -55,7 +56,15 @@ pub fn strays(
     }
     let hand = Hand::of(&heights, em);
     let stray = |(height, row): (&Height, f64)| row + hand.map_or(0.0, |hand| hand.stray(*height));
-    Ok(heights.iter().zip(rows).map(stray).collect())
+    let mut strays: Vec<f64> = heights.iter().zip(rows).map(stray).collect();
+    for (draft, stray) in drafts.iter_mut().zip(&strays) {
+        draft.outline = draft.outline.transformed(Affine::translate((0.0, -stray)));
+    }
+    // where strokes do not meet even so, they were not meant to
+    if joining::settled(&drafts, em, options).0 == Method::Cursive {
+        strays.fill(0.0);
+    }
+    Ok(strays)
 }
 
 /// What the ends of each letter's row have in common.
@@ -118,8 +127,9 @@ impl Hand {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::assemble::drafts;
     use crate::types::{Label, Outline};
-    use kurbo::BezPath;
+    use kurbo::{BezPath, PathEl};
 
     /// Letters that join on both sides.
     const LETTERS: [&str; 10] = [
@@ -211,5 +221,38 @@ mod tests {
             strays(&page, &rows, 1000.0, &options).unwrap(),
             vec![0.0; page.len()]
         );
+    }
+
+    #[test]
+    fn strokes_at_many_heights_are_joined_where_they_lie() {
+        let method = |page: &[Drawn]| {
+            let drafts = drafts(page.to_vec(), &[]).unwrap();
+            joining::settled(&drafts, 1000.0, &Options::default()).0
+        };
+        let slanted = medials(|i| (40.0 * i, -40.0 * i));
+        assert_eq!(method(&slanted), Method::Cursive);
+        assert_eq!(alone(&slanted), vec![0.0; slanted.len()]);
+        // a hand that strays, whose letters are moved first
+        let strayed = medials(|i| (10.0 * i, 10.0 * i));
+        assert!(alone(&strayed).iter().any(|stray| stray.abs() > 40.0));
+        assert_eq!(method(&medials(|i| (2.0 * i, -2.0 * i))), Method::Contract);
+    }
+
+    /// Below a body that no stroke leaves, and its outermost ink.
+    #[test]
+    fn a_dot_is_no_joining_stroke() {
+        let mut page = medials(|_| (0.0, 0.0));
+        let mut bow = drawn("uni0628.fina", 200.0, 0.0);
+        let svg = "M0 100L300 100L300 500L0 500Z M250 -300L400 -300L400 -200L250 -200Z";
+        let contours = BezPath::from_svg(svg).unwrap();
+        let contours = contours
+            .elements()
+            .split_inclusive(|e| *e == PathEl::ClosePath);
+        bow.outline =
+            Outline::new(contours.map(|c| c.iter().copied().collect()).collect()).unwrap();
+        page.push(bow);
+        let drafts = drafts(page, &[]).unwrap();
+        let heights = joining::heights(&drafts, 1000.0, &Options::default());
+        assert_eq!(heights.last(), Some(&(None, None)));
     }
 }
