@@ -249,6 +249,11 @@ impl Shape {
         }
     }
 
+    /// The same number for Arabic letters that differ by their signs alone.
+    pub(super) const fn alike(&self) -> Option<usize> {
+        self.body
+    }
+
     /// The same number for Arabic letters that differ by their signs and forms alone.
     pub(super) fn skeleton(&self) -> Option<usize> {
         self.body.map(|b| b / FORMS.len())

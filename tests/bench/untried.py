@@ -4,7 +4,7 @@
     python3 tests/bench/untried.py --khatt target/release/khatt --bench ../shared/bench --fonts /usr/share/fonts \\
         'FreeSans.ttf --rows 8 --cols 9 --skew 2' 'KacstBook.ttf --forms --rows 12 --cols 10 --condition rough'
 
-A page is a font's file, found below --fonts, and options of make_sheet.py. What stands behind `::` goes to the project's end, as in
+A page is a font's file, found below one of --fonts, and options of make_sheet.py; --pages FILE reads one a line, as untried.txt has them. What stands behind `::` goes to the project's end, as in
 `:: [spacing.joining] method = "cursive"`. Of Arabic pages the last column counts the words of words.txt, shaped by HarfBuzz in the
 built font, in which two letters that join share no ink. --keep FOLDER keeps pages, projects and fonts.
 """
@@ -69,9 +69,10 @@ def parted(path):
 def row(args, text, folder):
     text, _, more = text.partition("::")
     name, *options = shlex.split(text)
-    found = [name] if os.path.exists(name) else sorted(glob.glob(os.path.join(args.fonts, "**", name), recursive=True))
+    below = [sorted(glob.glob(os.path.join(folder, "**", name), recursive=True)) for folder in args.fonts]
+    found = [name] if os.path.exists(name) else sum(below, [])
     if not found:
-        return f"| {text} | no such font below {args.fonts} |"
+        return f"| {text} | no such font below {', '.join(args.fonts)} |"
     path = found[0]
     truth, project = page(args.bench, path, options, more.strip().replace("] ", "]\n"), folder)
     build = subprocess.run([args.khatt, "build", "--no-cache", "--quiet", project], capture_output=True, text=True)
@@ -97,13 +98,15 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--khatt", required=True)
     parser.add_argument("--bench", required=True, help="folder of make_sheet.py and font_bench.py")
-    parser.add_argument("--fonts", default="/usr/share/fonts", help="folder of the fonts")
+    parser.add_argument("--fonts", nargs="+", default=["/usr/share/fonts"], help="folders of the fonts")
     parser.add_argument("--keep", help="folder where pages and fonts stay")
-    parser.add_argument("pages", nargs="+", metavar="PAGE")
+    parser.add_argument("--pages", metavar="FILE", help="file with a page a line")
+    parser.add_argument("page", nargs="*", metavar="PAGE")
     args = parser.parse_args()
+    pages = args.page + (open(args.pages, encoding="utf-8").read().splitlines() if args.pages else [])
     print("| page | cells | missing, wrong | mean | median max | worst | baseline, its scatter | advance error | OTS | parted |")
     print("|---|---|---|---|---|---|---|---|---|---|")
-    for text in args.pages:
+    for text in pages:
         with tempfile.TemporaryDirectory() as spare:
             folder = os.path.join(args.keep, "".join(text.split()).replace("--", "-").replace("/", "_").partition("::")[0]) if args.keep else spare
             os.makedirs(folder, exist_ok=True)

@@ -13,7 +13,7 @@ use crate::scan::components::Component;
 use crate::scan::letters::{Pieces, Shape};
 use crate::types::Label;
 use glyphs_reader::glyphdata::GlyphData;
-use kurbo::Rect;
+use kurbo::{Rect, Vec2};
 use std::collections::BTreeMap;
 use std::ptr;
 
@@ -45,11 +45,13 @@ const LEAST_GAP: f64 = 3.0;
 const BLOT: f64 = 1.3;
 /// What all letters of one body have beside it is drawn where its area differs by this factor at most: dust is not the same everywhere.
 const SAME: f64 = 2.0;
+/// What another letter of the same body and form has beside it lies at the same place from the body's middle up to this share of its height.
+const PLACE: f64 = 0.1;
 /// How far a dot stands off its letter, as a share of the height of the letter's body.
 const REACH: f64 = 0.75;
 
 /// Takes ink smaller than a dot out of the letters that have none, and what lies where no dot does out of those that have;
-/// what a user gave to a letter stays, and so does what all letters of one body have.
+/// what a user gave to a letter stays, and so does what letters of one body have in common.
 pub(super) fn dust(layer: &mut Layer, all: &[Component], claims: &[(usize, Vec<usize>)], dot: f64) {
     let names = GlyphData::default();
     let drawn = layer.slots.iter().map(|s| (&s.label, s.parts.as_slice()));
@@ -63,7 +65,8 @@ pub(super) fn dust(layer: &mut Layer, all: &[Component], claims: &[(usize, Vec<u
         })
     });
     let found: Vec<Vec<usize>> = found.collect();
-    let drawn = drawn_alike(&layer.slots, &found, all, &names);
+    let mut drawn = drawn_alike(&layer.slots, &found, all, &names);
+    drawn.extend(drawn_again(&layer.slots, &found, all, &names));
     for (slot, mut small) in layer.slots.iter_mut().zip(found) {
         small.retain(|i| !drawn.contains(i));
         slot.parts.retain(|i| !small.contains(i));
@@ -133,6 +136,41 @@ fn drawn_alike(
     };
     let drawn = bodies.into_values().filter(is_drawn).flatten();
     drawn.flatten().copied().collect()
+}
+
+/// What is no dust, since another letter of the same body and form has as much at the same place, where it is none.
+fn drawn_again(
+    slots: &[Slot],
+    found: &[Vec<usize>],
+    all: &[Component],
+    names: &GlyphData,
+) -> Vec<usize> {
+    // each piece beside a letter's body: which it is, how far from the body's middle in heights, and whether it seems to be dust
+    let mut bodies: BTreeMap<usize, Vec<(usize, Vec2, bool)>> = BTreeMap::new();
+    for (slot, small) in slots.iter().zip(found) {
+        let main = slot.parts.iter().copied().max_by_key(|&i| all[i].area);
+        let alike = Shape::of(&slot.label, names).alike();
+        let Some((alike, main)) = alike.zip(main) else {
+            continue;
+        };
+        let body = all[main].upright;
+        let off = |i: usize| (all[i].upright.center() - body.center()) / body.height().max(1.0);
+        let beside = slot.parts.iter().copied().filter(|&i| i != main);
+        let beside = beside.map(|i| (i, off(i), small.contains(&i)));
+        bodies.entry(alike).or_default().extend(beside);
+    }
+    let is_again = |(i, at): (usize, Vec2), pieces: &[(usize, Vec2, bool)]| {
+        let mut drawn = pieces.iter().filter(|p| !p.2);
+        drawn.any(|(other, place, _)| {
+            let times = all[i].area as f64 / all[*other].area as f64;
+            (*place - at).hypot() < PLACE && (1.0 / SAME..SAME).contains(&times)
+        })
+    };
+    let again = bodies.values().flat_map(|pieces| {
+        let small = pieces.iter().filter(|p| p.2);
+        small.filter(|p| is_again((p.0, p.1), pieces)).map(|p| p.0)
+    });
+    again.collect()
 }
 
 /// Whether most letters that a pen draws in one piece are drawn in several that lie close together, like a stencil's or a clock's: then only
