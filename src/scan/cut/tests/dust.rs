@@ -196,23 +196,21 @@ fn what_all_forms_of_a_letter_have_is_no_dust() {
     assert_eq!(taller(4), [true; 4]);
 }
 
-/// Of hah and khah, in one form, the second as wide as its ink; a spot as large as a dot lies beside khah, and beside hah if `both`.
-fn with_a_spot(both: bool) -> f64 {
+/// How wide khah is where a spot as large as a dot lies beside it, and one at the same place beside so many letters hah of the same form.
+fn with_spots_beside(others: usize) -> f64 {
     let mut paper = grid_page(0.0);
     let mut names: Vec<&str> = NAMES.split(' ').collect();
     (names[8], names[1]) = ("uni062D.medi", "uni062E.medi");
     let is_dot_of_hah = |b: &Rect| (440.0..460.0).contains(&b.x0) && (170.0..180.0).contains(&b.y0);
     paper.bars.retain(|(b, _)| !is_dot_of_hah(b));
     paper.bar(218.0, 102.0, 6.0, 6.0);
-    if both {
-        paper.bar(458.0, 202.0, 6.0, 6.0);
-    }
+    (0..others).for_each(|_| paper.bar(458.0, 202.0, 6.0, 6.0));
     let cut = cut_page(&paper, &names.join(" "), &options(Layout::Grid(4, 5))).unwrap();
     cut.cells[1].in_sheet.width()
 }
 
 #[test]
 fn what_another_letter_of_the_same_body_has_at_the_same_place_is_no_dust() {
-    let widths = [false, true].map(with_a_spot);
+    let widths = [0, 1].map(with_spots_beside);
     assert!(widths[0] < 8.0 && widths[1] > 12.0, "{widths:?}");
 }
