@@ -19,8 +19,6 @@ use std::f64::consts::PI;
 const MARGIN: f64 = 12.0;
 /// How far a stroke's blurred edge reaches, px.
 const HALO: u16 = 8;
-/// How far from ink its blurred edge stands out of the noise, px: what is faint and lies farther off is a printed line.
-const EDGE: u16 = 3;
 /// Standard deviations of noise above which paper far from the cell's ink is somebody else's.
 const NOISE: f32 = 4.0;
 /// Coverage at which ink ends.
@@ -173,39 +171,16 @@ impl Patch {
             distances(&mut other, width);
         }
         let loud = NOISE * shutter.page.noise;
-        let reached = new.reached(&own, loud);
         let judged = new.samples.iter_mut().zip(own.iter().zip(&other));
-        for ((v, (&own, &other)), reached) in judged.zip(reached) {
+        for (v, (&own, &other)) in judged {
             let near = own <= 3 * HALO;
-            let edge = reached && own <= 3 * EDGE;
-            if (near && other < own) || (!edge && *v > loud) {
+            if (near && other < own) || (!near && *v > loud) {
                 *v = 0.0;
             }
         }
         let body = parts.iter().max_by_key(|c| c.area);
         new.heal((PINHOLE * body.map_or(0.0, |c| c.stroke())).powi(2));
         new
-    }
-
-    /// Whether each pixel hangs together with its own ink, from which `own` is far, by such as stand out of the noise: a faint printed line beside
-    /// a letter does not.
-    fn reached(&self, own: &[u16], loud: f32) -> Vec<bool> {
-        let mut reached: Vec<bool> = own.iter().map(|&far| far == 0).collect();
-        let mut open: Vec<usize> = (0..own.len()).filter(|&i| reached[i]).collect();
-        while let Some(i) = open.pop() {
-            let (x, y) = (i % self.width, i / self.width);
-            let columns = x.saturating_sub(1)..(x + 2).min(self.width);
-            for y in y.saturating_sub(1)..(y + 2).min(self.height) {
-                for next in columns.clone().map(|x| y * self.width + x) {
-                    let is_new = !reached[next] && self.samples[next] > loud;
-                    if is_new && own[next] <= 3 * EDGE {
-                        reached[next] = true;
-                        open.push(next);
-                    }
-                }
-            }
-        }
-        reached
     }
 
     /// Fills the paper that ink encloses where it has less than so many px².
