@@ -1,4 +1,4 @@
-//! Ink of several letters that touch → a piece of ink for each, cut where least ink joins them.
+//! Ink of several letters that touch → a piece of ink for each, cut along borders between them.
 //!
 //! Which of the ink there is whose nobody knows: such letters are warned of.
 
