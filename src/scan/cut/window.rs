@@ -8,7 +8,7 @@ use super::Slot;
 use crate::numeric::view::View;
 use crate::scan::chamfer::distances;
 use crate::scan::clean::Page;
-use crate::scan::components::{Component, Run, enclosed};
+use crate::scan::components::{Component, Run, components, enclosed};
 use crate::scan::separation::{self, Separation};
 use crate::scan::whole::{floor, narrow};
 use crate::types::{Cell, Gray, Guides, Plate};
@@ -19,6 +19,10 @@ use std::f64::consts::PI;
 const MARGIN: f64 = 12.0;
 /// How far a stroke's blurred edge reaches, px.
 const HALO: u16 = 8;
+/// How far from ink its blurred edge stays its own where it runs on into what is somebody else's, px.
+const EDGE: u16 = 3;
+/// Coverage from which on somebody else's ink is followed as far as that edge: of what is fainter nothing is traced.
+const FAINT: f32 = 0.1;
 /// Standard deviations of noise above which paper far from the cell's ink is somebody else's.
 const NOISE: f32 = 4.0;
 /// Coverage at which ink ends.
@@ -171,6 +175,7 @@ impl Patch {
             distances(&mut other, width);
         }
         let loud = NOISE * shutter.page.noise;
+        new.clear_passing(&own, loud.max(FAINT));
         let judged = new.samples.iter_mut().zip(own.iter().zip(&other));
         for (v, (&own, &other)) in judged {
             let near = own <= 3 * HALO;
@@ -181,6 +186,26 @@ impl Patch {
         let body = parts.iter().max_by_key(|c| c.area);
         new.heal((PINHOLE * body.map_or(0.0, |c| c.stroke())).powi(2));
         new
+    }
+
+    /// Clears what is as dark as `least` and runs from beside a cell's own ink, from which each pixel is `own` thirds of one away, to far from it:
+    /// a faint printed line is not the letter's where it passes it, either. The end of a stroke that fades out does not run on so far.
+    fn clear_passing(&mut self, own: &[u16], least: f32) {
+        let width = self.width;
+        let beyond = |reach: u16, x: usize, y: usize| own[y * width + x] > 3 * reach;
+        let passing = Gray::from_fn(width, self.height, |x, y| {
+            if beyond(EDGE, x, y) {
+                self.samples[y * width + x]
+            } else {
+                0.0
+            }
+        });
+        let long = |c: &Component| c.bounds.width().max(c.bounds.height()) > MARGIN;
+        let far = |c: &Component| c.pixels().any(|(x, y)| beyond(HALO, x, y));
+        let lines = components(&passing, least, least).into_iter();
+        for r in lines.filter(|c| long(c) && far(c)).flat_map(|c| c.runs) {
+            self.samples[r.y * width..][r.start..r.end].fill(0.0);
+        }
     }
 
     /// Fills the paper that ink encloses where it has less than so many px².

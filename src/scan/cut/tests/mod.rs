@@ -239,6 +239,36 @@ fn printed_lines_are_no_ink() {
 }
 
 #[test]
+fn faint_printed_lines_beside_a_letter_are_no_ink_of_its() {
+    let mut paper = grid_page(0.0);
+    // one runs by below the first row's feet, one through the second row's letters
+    for at in [125.0, 205.0] {
+        let line = Rect::new(48.0, at, 651.0, at + 3.0);
+        paper.bars.push((line, 0.25));
+    }
+    let cut = cut_page(&paper, NAMES, &options(Layout::Grid(4, 5))).unwrap();
+    for i in [0, 5] {
+        let cell = &cut.cells[i];
+        let (w, h) = (cell.gray.width(), cell.gray.height());
+        let ink = |x: usize, y: usize| cell.gray.at(x, y);
+        // the margin is 12 px wide
+        let faint = |x: usize, y: usize| ink(x, y) > 0.15;
+        assert!(!(0..w).any(|x| faint(x, h - 7)), "{i}: below");
+        assert!(!(0..h).any(|y| faint(7, y)), "{i}: beside");
+    }
+}
+
+#[test]
+fn the_end_of_a_stroke_that_fades_out_is_its_own() {
+    let mut paper = grid_page(0.0);
+    paper.bars.push((Rect::new(90.0, 120.0, 96.0, 130.0), 0.25));
+    let cut = cut_page(&paper, NAMES, &options(Layout::Grid(4, 5))).unwrap();
+    let gray = &cut.cells[0].gray;
+    let below = gray.height() - 12 + 5;
+    assert!((0..gray.width()).any(|x| gray.at(x, below) > 0.15));
+}
+
+#[test]
 fn letters_that_touch_printed_lines_are_cut_free() {
     let mut paper = grid_page(1.0);
     rule(&mut paper, 1.0);
