@@ -107,6 +107,10 @@ pub(super) enum Kind {
     Arabic,
     /// A small letter.
     Small,
+    /// A capital.
+    Capital,
+    /// A figure.
+    Figure,
     /// All else.
     Other,
 }
@@ -226,10 +230,11 @@ impl Shape {
             body: None,
             foot,
             head: head.map_or(Head::None, |h| h.1),
-            kind: if letter.is_some_and(char::is_lowercase) {
-                Kind::Small
-            } else {
-                Kind::Other
+            kind: match letter {
+                Some(c) if c.is_lowercase() => Kind::Small,
+                Some(c) if c.is_uppercase() => Kind::Capital,
+                Some(c) if c.is_ascii_digit() => Kind::Figure,
+                _ => Kind::Other,
             },
             pieces,
             dots,

@@ -7,8 +7,11 @@ use std::iter;
 
 /// How far bows reach past a flat edge, as a share of the letter's height.
 pub(super) const OVERSHOOT: f64 = 0.015;
-/// A row's own letters weigh against the whole page as this many letters of it do.
+/// A row's own letters weigh against the whole page as this many letters of it do, or more where they scatter by more than rows do.
 const SHRINK: f64 = 2.0;
+/// A standard deviation in medians of the distance, and the variance of a median in that of a mean, where values are normal ones.
+pub(super) const NORMAL: f64 = 1.4826;
+const OF_MEDIAN: f64 = 1.57;
 /// How far a foot may lie off the page's common line and still be one, as a share of the usual letter's
 /// height: a hand's rows drift by less, a letter that hangs is farther off.
 const ASTRAY: f64 = 0.1;
@@ -26,9 +29,16 @@ pub(super) struct Letter {
     pub(super) whole: Rect,
     /// Where strokes that join it to its neighbours end.
     pub(super) joins: Vec<f64>,
+    /// How far letters of its kind hang below the line, px.
+    pub(super) hangs: f64,
 }
 
 impl Letter {
+    /// Where its row's line lies if it stands as letters of its kind do, px below its level.
+    pub(super) fn foot(&self) -> f64 {
+        self.body.y1 - self.hangs - self.level
+    }
+
     /// Upright px.
     pub(super) fn baseline(&self, drop: &[f64]) -> f64 {
         self.level + drop[self.row]
@@ -51,12 +61,32 @@ pub(super) fn near(letters: &[Letter]) -> f64 {
 pub(super) fn drops(mut off: Vec<(usize, f64)>, near: f64, strays: &[f64]) -> Vec<f64> {
     off.iter_mut().for_each(|o| o.1 -= strays[o.0]);
     let (common, steady) = Line::steady(&off, near);
+    let own = |r: usize| -> Vec<f64> { of_row(&steady, r).map(|o| o - common.at(r)).collect() };
+    let own: Vec<Vec<f64>> = (0..strays.len()).map(own).collect();
+    let shrink = shrink(&own);
     let row = |(r, stray): (usize, &f64)| {
-        let own: Vec<f64> = of_row(&steady, r).map(|o| o - common.at(r)).collect();
-        let n = own.len() as f64;
-        stray + common.at(r) + median(own).unwrap_or(0.0) * n / (n + SHRINK)
+        let n = own[r].len() as f64;
+        let off = median(own[r].iter().copied());
+        stray + common.at(r) + off.map_or(0.0, |off| off * n / (n + shrink))
     };
     strays.iter().enumerate().map(row).collect()
+}
+
+/// As how many letters of a row the whole page weighs: the variance of one letter's foot about its row's line, over that of the rows about
+/// theirs. `own` are the feet of each row about the page's line, px.
+fn shrink(own: &[Vec<f64>]) -> f64 {
+    let medians = own
+        .iter()
+        .filter_map(|o| Some((median(o.iter().copied())?, o)));
+    let medians: Vec<(f64, &Vec<f64>)> = medians.collect();
+    let about = medians.iter().filter(|(_, o)| o.len() > 1);
+    let about = about.flat_map(|(m, o)| o.iter().map(move |v| (v - m).abs()));
+    let letters = (NORMAL * median(about).unwrap_or(0.0)).powi(2) * OF_MEDIAN;
+    let by_chance: f64 = medians.iter().map(|(_, o)| letters / o.len() as f64).sum();
+    let seen: f64 = medians.iter().map(|(m, _)| m * m).sum();
+    let rows = (seen - by_chance).max(0.0) / medians.len().max(1) as f64;
+    // nothing over nothing counts as little
+    (letters / rows).max(SHRINK)
 }
 
 /// Row, and distance from the level, of the feet that tell where rows stand: flat ones, else bows, else all there are.
@@ -67,10 +97,7 @@ pub(super) fn feet_on_line(letters: &[Letter], rows: usize) -> Vec<(usize, f64)>
         off.extend(bows.map(|(row, off, height)| (row, off - OVERSHOOT * height)));
     }
     if off.is_empty() {
-        off = letters
-            .iter()
-            .map(|l| (l.row, l.body.y1 - l.level))
-            .collect();
+        off = letters.iter().map(|l| (l.row, l.foot())).collect();
     }
     off
 }
@@ -120,8 +147,7 @@ impl Line {
 /// Row, how far the lowest ink lies below the level, and height of the body, of every letter that meets the baseline so.
 fn feet(letters: &[Letter], foot: Foot, of: impl Fn(&Letter) -> bool) -> Vec<(usize, f64, f64)> {
     let such = letters.iter().filter(|l| l.shape.foot == foot && of(l));
-    such.map(|l| (l.row, l.body.y1 - l.level, l.body.height()))
-        .collect()
+    such.map(|l| (l.row, l.foot(), l.body.height())).collect()
 }
 
 /// Row, and distance of the foot from the level, of the letters that stand flat. Where small letters reach as deep as
@@ -196,6 +222,7 @@ mod tests {
                 body,
                 whole: body,
                 joins: Vec::new(),
+                hangs: 0.0,
             }
         }
     }
@@ -244,6 +271,31 @@ mod tests {
             drop[0].abs() < 0.5 && (drop[1] - 9.0).abs() < 0.5,
             "{drop:?}"
         );
+    }
+
+    #[test]
+    fn letters_that_bounce_move_no_row() {
+        let bounce = [12.0, -9.0, 4.0, -13.0, 8.0, -2.0, 14.0, -6.0, 3.0, -11.0];
+        let names = ["H", "E", "T", "M", "N"];
+        let row = |r: usize, line: f64, wide: f64| -> Vec<(&str, f64)> {
+            let depth = |i: usize| line + wide * bounce[(3 * r + i) % bounce.len()];
+            names
+                .iter()
+                .enumerate()
+                .map(|(i, n)| (*n, depth(i)))
+                .collect()
+        };
+        let lines = [0.0, 6.0, -5.0, 7.0, -4.0, 3.0];
+        let of = |strays: f64, wide: f64| {
+            let rows: Vec<_> = (0..6).map(|r| row(r, strays * lines[r], wide)).collect();
+            let rows: Vec<&[_]> = rows.iter().map(Vec::as_slice).collect();
+            let drop = ruled(&letters(&rows), rows.len());
+            let mean = drop.iter().sum::<f64>() / 6.0;
+            drop.iter().map(|d| (d - mean).abs()).fold(0.0, f64::max)
+        };
+        let (bouncing, straying) = (of(0.0, 1.0), of(1.0, 0.1));
+        assert!(bouncing < 2.0, "{bouncing}");
+        assert!(straying > 4.0, "{straying}");
     }
 
     #[test]

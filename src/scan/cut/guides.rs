@@ -4,7 +4,7 @@ use super::baselines::{Letter, OVERSHOOT, ruled};
 use super::ends::ends;
 use super::joins::joins;
 use super::strays::unruled;
-use super::{Layer, Slot, Warning};
+use super::{Layer, Slot, Warning, hanging};
 use crate::numeric::median::median;
 use crate::numeric::view::View;
 use crate::scan::clean::Page;
@@ -51,8 +51,9 @@ pub(super) fn measure(
         letter.joins = joins(&all[*largest], letter.shape.joined, &view);
         Some(letter)
     };
-    let letters: Vec<Letter> = layer.slots.iter().filter_map(letter).collect();
-    let drop = if layer.ruled {
+    let mut letters: Vec<Letter> = layer.slots.iter().filter_map(letter).collect();
+    let is_even = hanging::tell(&mut letters, layer.rows) || layer.ruled;
+    let drop = if is_even {
         ruled(&letters, layer.rows)
     } else {
         unruled(&letters, layer.rows)
@@ -83,6 +84,7 @@ fn letter(slot: &Slot, parts: &[(usize, Rect)], names: &GlyphData) -> Option<Let
         body,
         whole,
         joins: Vec::new(),
+        hangs: 0.0,
     })
 }
 

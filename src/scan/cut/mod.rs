@@ -9,6 +9,7 @@ mod ends;
 mod free;
 mod grid;
 mod guides;
+mod hanging;
 mod hidden;
 mod joins;
 mod lines;

@@ -10,7 +10,7 @@
 //!
 //! On a page whose rows are even `s` is next to nothing, so that letters of an odd style move no row; nor do few votes anywhere.
 
-use super::baselines::{Letter, Line, drops, feet_on_line, near};
+use super::baselines::{Letter, Line, NORMAL, drops, feet_on_line, near};
 use super::votes::{MAY_STAND, Poll, Vote};
 use crate::numeric::median::median;
 
@@ -29,8 +29,6 @@ const HANG: f64 = 1.5;
 const LEAST: f64 = 0.05;
 /// Times that votes are counted: what the rows tell first tells depths and joins, by which they vote again.
 const ROUNDS: usize = 3;
-/// A standard deviation in medians of the distance, where it is a normal one.
-const NORMAL: f64 = 1.4826;
 
 /// How far each row's baseline lies below its slots' levels, px, on a page where no line guided the hand.
 pub(super) fn unruled(letters: &[Letter], rows: usize) -> Vec<f64> {

@@ -64,7 +64,7 @@ impl<'a> Poll<'a> {
     }
 
     fn foot(&self, letter: &Letter) -> f64 {
-        letter.body.y1 - letter.level - self.even.at(letter.row)
+        letter.foot() - self.even.at(letter.row)
     }
 
     /// The ends of a letter's joining strokes.

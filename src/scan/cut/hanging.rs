@@ -1,0 +1,157 @@
+//! Letters → how far capitals and figures hang: in scripts and display styles they end below the small letters' line.
+//!
+//! Only rows at even distances tell, since uneven ones of one kind each look alike: with the feet of the letters of kind `k` in row `r`
+//! at
+//!
+//! ```text
+//! a + b r + h(k)
+//! ```
+//!
+//! px below their levels, least squares over the rows' medians, what is left must be far less than `h`.
+
+use super::baselines::{Letter, OVERSHOOT, near};
+use crate::numeric::median::median;
+use crate::scan::letters::{Foot, Kind};
+use nalgebra::{DMatrix, DVector};
+
+/// The kinds that stand on a line of their own; where the first has letters it is the page's.
+const KINDS: [Kind; 3] = [Kind::Small, Kind::Capital, Kind::Figure];
+/// Letters of a kind that tell where they stand in a row, and rows of those that hang, at least.
+const ENOUGH: usize = 2;
+/// Medians that are more than enough to tell all lines, at least.
+const SPARE: usize = 2;
+/// How far a kind hangs at least that does, as a share of what letters stray: more than an italic's hooks.
+const FAR: f64 = 0.5;
+/// What is left at most, as a share of how far letters hang: strays of uneven rows are as small by chance on one page in a thousand.
+const LEFT: f64 = 0.15;
+
+/// Where letters of a kind end in a row, px below their level.
+struct Feet {
+    row: usize,
+    kind: usize,
+    at: f64,
+    letters: usize,
+}
+
+/// Tells letters of kinds that hang by how much they do; whether there are any, so that the rows are known to stand at even distances.
+pub(super) fn tell(letters: &mut [Letter], rows: usize) -> bool {
+    let Some(depths) = depths(letters, rows) else {
+        return false;
+    };
+    for letter in letters {
+        let kind = KINDS.iter().position(|k| *k == letter.shape.kind);
+        letter.hangs = kind.map_or(0.0, |k| depths[k]);
+    }
+    true
+}
+
+/// How far the letters of each kind hang, px; `None` where the rows do not tell, or nothing hangs.
+fn depths(letters: &[Letter], rows: usize) -> Option<[f64; KINDS.len()]> {
+    let feet = feet(letters, rows);
+    let present = (0..KINDS.len()).filter(|&k| feet.iter().any(|f| f.kind == k));
+    let kinds: Vec<usize> = present.collect();
+    let numbers = 1 + kinds.len();
+    let spare = feet.len().checked_sub(numbers)?;
+    if kinds.len() < 2 || spare < SPARE {
+        return None;
+    }
+    // a line for each kind, all of one slope
+    let column = |f: &Feet, i: usize| match i {
+        0 => f.row as f64,
+        i => f64::from(u8::from(kinds[i - 1] == f.kind)),
+    };
+    let weight = |f: &Feet| (f.letters as f64).sqrt();
+    let rows = DMatrix::from_fn(feet.len(), numbers, |i, j| {
+        weight(&feet[i]) * column(&feet[i], j)
+    });
+    let at = DVector::from_iterator(feet.len(), feet.iter().map(|f| weight(f) * f.at));
+    let lines = (rows.transpose() * &rows).cholesky()?;
+    let lines = lines.solve(&(rows.transpose() * &at));
+    let left = (&rows * &lines - &at).norm_squared() / spare as f64;
+    let usual = feet.iter().map(|f| f.letters as f64).sum::<f64>() / feet.len() as f64;
+    let mut depths = [0.0; KINDS.len()];
+    for (i, &k) in kinds.iter().enumerate() {
+        depths[k] = lines[1 + i] - lines[1];
+    }
+    let most = |k: usize| feet.iter().filter(|f| f.kind == k).count() >= ENOUGH;
+    let hangs = (0..KINDS.len())
+        .filter(|&k| most(k))
+        .map(|k| depths[k].abs());
+    let far = hangs
+        .reduce(f64::max)
+        .filter(|far| *far > FAR * near(letters))?;
+    ((left / usual).sqrt() <= LEFT * far).then_some(depths)
+}
+
+/// The median foot of each kind in each row that has some of its letters.
+fn feet(letters: &[Letter], rows: usize) -> Vec<Feet> {
+    let foot = |l: &Letter| match l.shape.foot {
+        Foot::Flat => Some(l.foot()),
+        Foot::Round => Some(l.foot() - OVERSHOOT * l.body.height()),
+        Foot::Tail | Foot::None => None,
+    };
+    let places = (0..rows).flat_map(|row| (0..KINDS.len()).map(move |kind| (row, kind)));
+    let feet = places.filter_map(|(row, kind)| {
+        let own = letters
+            .iter()
+            .filter(|l| l.row == row && l.shape.kind == KINDS[kind]);
+        let all: Vec<f64> = own.filter_map(foot).collect();
+        let letters = all.len();
+        let at = median(all).filter(|_| letters >= ENOUGH)?;
+        Some(Feet {
+            row,
+            kind,
+            at,
+            letters,
+        })
+    });
+    feet.collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scan::cut::baselines::ruled;
+
+    const CAPITALS: &[(&str, f64)] = &[("H", 60.0), ("E", 63.0), ("T", 58.0), ("O", 61.0)];
+    const SMALL: &[(&str, f64)] = &[("n", 0.0), ("i", 2.0), ("m", -1.0), ("a", 1.0), ("g", 90.0)];
+    const FIGURES: &[(&str, f64)] = &[("1", 30.0), ("2", 32.0), ("8", 30.0), ("0", 31.0)];
+    const ROWS: [&[(&str, f64)]; 7] =
+        [CAPITALS, CAPITALS, CAPITALS, SMALL, SMALL, FIGURES, FIGURES];
+
+    /// Letters of 100 px that end so far below the lines of their rows.
+    fn page(rows: &[&[(&str, f64)]], lines: impl Fn(usize) -> f64) -> Vec<Letter> {
+        let all = rows.iter().enumerate();
+        let letters = all.flat_map(|(r, row)| row.iter().map(move |&(l, d)| (r, l, d)));
+        letters
+            .map(|(r, l, d)| Letter::ending(r, l, lines(r) + d))
+            .collect()
+    }
+
+    #[test]
+    fn capitals_and_figures_that_hang_leave_the_rows_even() {
+        let mut letters = page(&ROWS, |r| 3.0 * r as f64);
+        assert!(tell(&mut letters, ROWS.len()));
+        let drop = ruled(&letters, ROWS.len());
+        for (r, drop) in drop.iter().enumerate() {
+            assert!((drop - 3.0 * r as f64).abs() < 2.0, "{drop:?}");
+        }
+    }
+
+    #[test]
+    fn rows_that_stray_hang_by_nothing() {
+        let strays = [0.0, 41.0, -27.0, 12.0, 38.0, -16.0, 25.0];
+        for rows in [ROWS, [CAPITALS; 7], [SMALL; 7]] {
+            let mut letters = page(&rows, |r| strays[r]);
+            assert!(!tell(&mut letters, rows.len()));
+            assert!(letters.iter().all(|l| l.hangs.abs() < 1e-9));
+        }
+    }
+
+    #[test]
+    fn few_rows_do_not_tell() {
+        for rows in [vec![CAPITALS, SMALL], vec![CAPITALS, SMALL, SMALL, SMALL]] {
+            assert!(!tell(&mut page(&rows, |_| 0.0), rows.len()));
+        }
+    }
+}
