@@ -33,6 +33,8 @@ const ENOUGH: usize = 3;
 const WHOLE: f64 = 0.6;
 /// What is more times as large as all dots of its letter is no dust beside them.
 const EXTRA: f64 = 2.5;
+/// Letters of one piece that have specks by dust alone, of all of them at most.
+const FEW: f64 = 0.25;
 /// What is torn off a letter that has dots, or a sign within it, lies nearer than this share of its length.
 const NEAR: f64 = 0.5;
 /// The longer side of a stroke's piece beside its shorter one at least, and how far from it it lies at most, in strokes.
@@ -56,13 +58,16 @@ pub(super) fn dust(layer: &mut Layer, all: &[Component], claims: &[(usize, Vec<u
     let names = GlyphData::default();
     let drawn = layer.slots.iter().map(|s| (&s.label, s.parts.as_slice()));
     let in_pieces = in_pieces(drawn, all, &names);
-    let usual = usual_dot(layer, all, &names);
+    let page = Usual {
+        in_pieces,
+        with_specks: in_pieces || with_specks(layer, all, &names),
+        a_dot: usual_dot(layer, all, &names),
+        least: dot,
+    };
     let unclaimed = |s: &Slot| claims.iter().all(|c| c.0 != s.index);
     let found = layer.slots.iter().map(|slot| {
         let asked = unclaimed(slot).then_some(slot);
-        asked.map_or_else(Vec::new, |slot| {
-            beside_letter(slot, all, (&names, in_pieces, usual, dot))
-        })
+        asked.map_or_else(Vec::new, |slot| beside_letter(slot, all, &names, &page))
     });
     let found: Vec<Vec<usize>> = found.collect();
     let mut drawn = drawn_alike(&layer.slots, &found, all, &names);
@@ -75,12 +80,20 @@ pub(super) fn dust(layer: &mut Layer, all: &[Component], claims: &[(usize, Vec<u
     }
 }
 
+/// What is usual among a page's letters.
+struct Usual {
+    /// They are drawn in pieces, or have specks beside them, that are no dust.
+    in_pieces: bool,
+    with_specks: bool,
+    /// The area of a dot, px².
+    a_dot: Option<f64>,
+    /// The area below which ink is no larger than dust, px².
+    least: f64,
+}
+
 /// What seems to be dust in a letter's cell.
-fn beside_letter(
-    slot: &Slot,
-    all: &[Component],
-    (names, in_pieces, usual, dot): (&GlyphData, bool, Option<f64>, f64),
-) -> Vec<usize> {
+fn beside_letter(slot: &Slot, all: &[Component], names: &GlyphData, usual: &Usual) -> Vec<usize> {
+    let in_pieces = usual.in_pieces;
     let (shape, parts) = (Shape::of(&slot.label, names), &slot.parts);
     let Some(body) = parts.iter().copied().max_by_key(|&i| all[i].area) else {
         return Vec::new();
@@ -91,13 +104,19 @@ fn beside_letter(
             _ if i == body => false,
             Pieces::One => {
                 let mote = (MOTE * main.upright.height()).powi(2);
-                let small = (c.area as f64) < mote.max(dot);
-                small && !torn(c, main) || blot(c, main) || apart(c, parts, all, 1.0)
+                let small = (c.area as f64) < mote.max(usual.least);
+                small && !torn(c, main)
+                    || blot(c, main)
+                    || apart(c, parts, all, 1.0)
+                    || !usual.with_specks && speck(c, main)
             }
             Pieces::DotAbove | Pieces::DotBelow | Pieces::Marked => {
                 astray(c, parts, all)
-                    || !in_pieces && surplus(c, &shape, (parts, all), usual)
+                    || !in_pieces && surplus(c, &shape, (parts, all), usual.a_dot)
                     || opposite(c, &shape, parts, all)
+                    || !usual.with_specks
+                        && shape.pieces == Pieces::Marked
+                        && aside(c, (main, parts), all)
             }
             Pieces::Within | Pieces::Bare => beside(c, main) && apart(c, parts, all, NEAR),
             Pieces::Unknown => false,
@@ -191,6 +210,22 @@ pub(super) fn in_pieces<'a>(
     parted.len() >= ENOUGH && 2 * most > parted.len()
 }
 
+/// Whether many letters of one piece have specks: then the style has them, or these are other letters than their names say.
+fn with_specks(layer: &Layer, all: &[Component], names: &GlyphData) -> bool {
+    let one = |s: &&Slot| Shape::of(&s.label, names).pieces == Pieces::One;
+    let asked = layer.slots.iter().filter(one).filter_map(|s| {
+        let body = s.parts.iter().copied().max_by_key(|&i| all[i].area)?;
+        Some(
+            s.parts
+                .iter()
+                .any(|&i| i != body && speck(&all[i], &all[body])),
+        )
+    });
+    let asked: Vec<bool> = asked.collect();
+    let specks = asked.iter().filter(|a| **a).count();
+    specks as f64 > FEW * asked.len() as f64
+}
+
 /// The usual area of a dot, px²: the median of those letters of one dot that have one piece where it may be.
 fn usual_dot(layer: &Layer, all: &[Component], names: &GlyphData) -> Option<f64> {
     let areas = layer.slots.iter().filter_map(|slot| {
@@ -219,6 +254,22 @@ fn is_close(c: &Component, body: &Component) -> bool {
 /// Whether a compact piece is thicker than any piece of its letter's strokes could be.
 fn blot(c: &Component, body: &Component) -> bool {
     is_dot(c) && c.stroke() > BLOT * body.stroke()
+}
+
+/// Whether a small compact piece lies outside a letter's body and clear of it: what a pen's lift parts from a stroke lies close to it.
+fn speck(c: &Component, body: &Component) -> bool {
+    is_dot(c) && beside(c, body) && !is_close(c, body)
+}
+
+/// Whether such a piece lies to the left or right of a letter whose sign, which is larger, lies over or under it.
+fn aside(c: &Component, (body, parts): (&Component, &[usize]), all: &[Component]) -> bool {
+    let beyond = |o: &Component| {
+        let middle = o.upright.center().y;
+        middle < body.upright.y0 || middle > body.upright.y1
+    };
+    let signs = parts.iter().map(|&i| &all[i]);
+    let mut signs = signs.filter(|o| o.area > c.area && !ptr::eq(*o, body));
+    speck(c, body) && !beyond(c) && signs.any(beyond)
 }
 
 /// Whether a small piece lies beside a letter, over or under it, where a sign within its box does not.

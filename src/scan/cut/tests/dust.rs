@@ -214,3 +214,31 @@ fn what_another_letter_of_the_same_body_has_at_the_same_place_is_no_dust() {
     let widths = [0, 1].map(with_spots_beside);
     assert!(widths[0] < 8.0 && widths[1] > 12.0, "{widths:?}");
 }
+
+/// How wide the first two letters are, n and alef with hamza, where so large a spot lies so far to their left.
+fn with_a_spot(side: f64, gap: f64) -> [f64; 2] {
+    let mut paper = grid_page(0.0);
+    for x in [90.0, 210.0] {
+        paper.bar(x - gap - side, 105.0, side, side);
+    }
+    let names = NAMES.replacen("n i", "n uni0623", 1);
+    let cut = cut_page(&paper, &names, &options(Layout::Grid(4, 5))).unwrap();
+    [0, 1].map(|i| cut.cells[i].in_sheet.width().round())
+}
+
+#[test]
+fn a_spot_that_lies_clear_of_a_letter_is_dust() {
+    let bare = with_a_spot(2.0, 20.0);
+    let clear = with_a_spot(5.5, 5.0);
+    assert!((0..2).all(|i| clear[i] < bare[i] + 1.0), "{clear:?}");
+    let parted = with_a_spot(5.5, 2.0);
+    assert!(
+        parted[0] > bare[0] + 6.0 && parted[1] > bare[1] + 6.0,
+        "{parted:?}"
+    );
+    let larger = with_a_spot(8.0, 5.0);
+    assert!(
+        larger[1] > bare[1] + 12.0,
+        "larger than the sign: {larger:?}"
+    );
+}

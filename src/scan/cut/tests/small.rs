@@ -19,7 +19,7 @@ fn two_dots_stay_together_and_leave_their_neighbours_alone() {
     paper.letter('n', 500.0, 100.0);
     paper.letter('n', 532.0, 100.0);
     (0..4).for_each(|i| dot(&mut paper, 501.0 + 16.0 * f64::from(i), 106.0));
-    let cut = cut_page(&paper, "a b c ت y y p q r s .", &options(Layout::Free)).unwrap();
+    let cut = cut_page(&paper, "a b c ت ي ي p q r s .", &options(Layout::Free)).unwrap();
     let size = |i: usize| {
         (
             cut.cells[i].in_sheet.width().round(),
