@@ -20,8 +20,8 @@ const KINDS: [Kind; 3] = [Kind::Small, Kind::Capital, Kind::Figure];
 const ENOUGH: usize = 2;
 /// Medians that are more than enough to tell all lines, at least.
 const SPARE: usize = 2;
-/// How far a kind hangs at least that does, as a share of what letters stray: more than an italic's hooks.
-const FAR: f64 = 0.5;
+/// How far a kind hangs at least and at most that does, in times of what letters stray: more than an italic's hooks, less than half a letter.
+const FAR: (f64, f64) = (0.5, 5.0);
 /// What is left at most, as a share of how far letters hang: strays of uneven rows are as small by chance on one page in a thousand.
 const LEFT: f64 = 0.15;
 
@@ -73,13 +73,14 @@ fn depths(letters: &[Letter], rows: usize) -> Option<[f64; KINDS.len()]> {
     for (i, &k) in kinds.iter().enumerate() {
         depths[k] = lines[1 + i] - lines[1];
     }
-    let most = |k: usize| feet.iter().filter(|f| f.kind == k).count() >= ENOUGH;
+    let stands = |k: usize| feet.iter().filter(|f| f.kind == k).count() >= ENOUGH;
     let hangs = (0..KINDS.len())
-        .filter(|&k| most(k))
+        .filter(|&k| stands(k))
         .map(|k| depths[k].abs());
-    let far = hangs
-        .reduce(f64::max)
-        .filter(|far| *far > FAR * near(letters))?;
+    let (far, near) = (hangs.reduce(f64::max)?, near(letters));
+    if !(FAR.0 * near..FAR.1 * near).contains(&far) {
+        return None;
+    }
     ((left / usual).sqrt() <= LEFT * far).then_some(depths)
 }
 
@@ -113,7 +114,7 @@ mod tests {
     use super::*;
     use crate::scan::cut::baselines::ruled;
 
-    const CAPITALS: &[(&str, f64)] = &[("H", 60.0), ("E", 63.0), ("T", 58.0), ("O", 61.0)];
+    const CAPITALS: &[(&str, f64)] = &[("H", 40.0), ("E", 43.0), ("T", 38.0), ("O", 41.0)];
     const SMALL: &[(&str, f64)] = &[("n", 0.0), ("i", 2.0), ("m", -1.0), ("a", 1.0), ("g", 90.0)];
     const FIGURES: &[(&str, f64)] = &[("1", 30.0), ("2", 32.0), ("8", 30.0), ("0", 31.0)];
     const ROWS: [&[(&str, f64)]; 7] =
@@ -146,6 +147,13 @@ mod tests {
             assert!(!tell(&mut letters, rows.len()));
             assert!(letters.iter().all(|l| l.hangs.abs() < 1e-9));
         }
+    }
+
+    #[test]
+    fn a_page_on_its_side_hangs_by_nothing() {
+        let far: &[_] = &[("H", 160.0), ("E", 163.0), ("T", 158.0), ("O", 161.0)];
+        let rows = ROWS.map(|r| if r == CAPITALS { far } else { r });
+        assert!(!tell(&mut page(&rows, |_| 0.0), rows.len()));
     }
 
     #[test]
