@@ -27,6 +27,8 @@ const MOTE: f64 = 0.03;
 /// The longer side of a dot beside its shorter one at most, and the share of its box that it covers at least: 0.5 where it
 /// stands on its point.
 const COMPACT: (f64, f64) = (2.0, 0.4);
+/// The same of dust beside a letter that has no dots: what is longer may be a short stroke of it.
+const ROUND: f64 = 1.5;
 /// Letters that say how large dots are on a page, or whether letters are drawn in pieces, at least.
 const ENOUGH: usize = 3;
 /// Dots are all that a letter has from this share of their usual area on: some are drawn smaller, or as one stroke.
@@ -258,7 +260,7 @@ fn blot(c: &Component, body: &Component) -> bool {
 
 /// Whether a small compact piece lies outside a letter's body and clear of it: what a pen's lift parts from a stroke lies close to it.
 fn speck(c: &Component, body: &Component) -> bool {
-    is_dot(c) && beside(c, body) && !is_close(c, body)
+    is_compact(c, ROUND) && beside(c, body) && !is_close(c, body)
 }
 
 /// Whether such a piece lies to the left or right of a letter whose sign, which is larger, lies over or under it.

@@ -217,9 +217,13 @@ fn what_another_letter_of_the_same_body_has_at_the_same_place_is_no_dust() {
 
 /// How wide the first two letters are, n and alef with hamza, where so large a spot lies so far to their left.
 fn with_a_spot(side: f64, gap: f64) -> [f64; 2] {
+    with_a_spot_of(side, side, gap)
+}
+
+fn with_a_spot_of(width: f64, height: f64, gap: f64) -> [f64; 2] {
     let mut paper = grid_page(0.0);
     for x in [90.0, 210.0] {
-        paper.bar(x - gap - side, 105.0, side, side);
+        paper.bar(x - gap - width, 105.0, width, height);
     }
     let names = NAMES.replacen("n i", "n uni0623", 1);
     let cut = cut_page(&paper, &names, &options(Layout::Grid(4, 5))).unwrap();
@@ -236,6 +240,8 @@ fn a_spot_that_lies_clear_of_a_letter_is_dust() {
         parted[0] > bare[0] + 6.0 && parted[1] > bare[1] + 6.0,
         "{parted:?}"
     );
+    let long = with_a_spot_of(5.5, 9.5, 5.0);
+    assert!(long[0] > bare[0] + 9.0, "a short stroke: {long:?}");
     let larger = with_a_spot(8.0, 5.0);
     assert!(
         larger[1] > bare[1] + 12.0,
