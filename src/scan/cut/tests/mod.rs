@@ -259,6 +259,29 @@ fn faint_printed_lines_beside_a_letter_are_no_ink_of_its() {
 }
 
 #[test]
+fn capitals_that_hang_stand_on_the_line_of_the_small_letters() {
+    let mut paper = Paper::new(620, 760, 0.0);
+    let rows = ["HETM", "NKLX", "IDFA", "nhmi", "rkxz", "nmhk"];
+    for (r, row) in rows.iter().enumerate() {
+        let hang = if r < 3 { 10.0 } else { 0.0 };
+        for i in 0..row.len() {
+            let x = 90.0 + 140.0 * i as f64;
+            paper.letter('n', x, 100.0 + 110.0 * r as f64 + hang);
+        }
+    }
+    let names: Vec<String> = rows.concat().chars().map(String::from).collect();
+    let layout = options(Layout::Grid(6, 4));
+    let cut = cut_page(&paper, &names.join(" "), &layout).unwrap();
+    for (i, cell) in cut.cells.iter().enumerate() {
+        // the letters end 12 px above the lower border of their pictures
+        let foot = (cell.gray.height() - 12) as f64;
+        let hang = if i < 12 { 10.0 } else { 0.0 };
+        let below = foot - cell.guides.baseline_px;
+        assert!((below - hang).abs() < 1.5, "cell {i}: {below}");
+    }
+}
+
+#[test]
 fn the_end_of_a_stroke_that_fades_out_is_its_own() {
     let mut paper = grid_page(0.0);
     paper.bars.push((Rect::new(90.0, 120.0, 96.0, 130.0), 0.25));
