@@ -6,7 +6,7 @@ mod small;
 mod told;
 
 use super::super::clean::clean;
-use super::super::options::Scale;
+use super::super::options::{Direction, Layout, Order, Scale};
 use super::super::whole::floor;
 use super::*;
 use crate::numeric::view::View;

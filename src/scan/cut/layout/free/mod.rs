@@ -3,23 +3,32 @@
 //! Ink that is surely one makes a piece (`pieces`), pieces are read in rows, and one choice for the whole page says which of them
 //! are letters, parts of letters or dirt, so that letters and names agree (`reading`).
 
-use super::doubts::Unread;
-use super::lines::Lines;
-use super::nearest::{Gathered, gather};
-use super::order::{across, in_rows};
-use super::pieces::{Joined, Piece, Tie, Usual, pieces, ties};
+mod doubts;
+mod lines;
+mod nearest;
+mod order;
+mod pieces;
+mod reading;
+
+use super::listed;
 use super::rows::{nearest, rows};
 use super::touching::Touch;
-use super::{Layer, Reason, Slot, listed, stroke_width};
 use crate::numeric::median::median;
 use crate::numeric::view::View;
 use crate::scan::components::Component;
+use crate::scan::cut::sieve::stroke_width;
+use crate::scan::cut::{Layer, Reason, Slot};
 use crate::scan::error::ScanError;
 use crate::scan::letters::{Pieces, Shape};
 use crate::scan::options::{Direction, Options};
 use crate::types::Label;
+use doubts::Unread;
 use glyphs_reader::glyphdata::GlyphData;
 use kurbo::Rect;
+use lines::Lines;
+use nearest::{Gathered, gather};
+use order::{across, in_rows};
+use pieces::{Joined, Piece, Tie, Usual, pieces, ties};
 use std::ops::RangeInclusive;
 
 /// Thickness of a ruled line or a piece of it at most, as a share of its length.

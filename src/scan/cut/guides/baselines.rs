@@ -213,7 +213,7 @@ mod tests {
 
     impl Letter {
         /// A letter of a row that is 100 px high and ends at `foot`, px from the level.
-        pub(in crate::scan::cut) fn ending(row: usize, label: &str, foot: f64) -> Self {
+        pub(in crate::scan::cut::guides) fn ending(row: usize, label: &str, foot: f64) -> Self {
             let body = Rect::new(0.0, foot - 100.0, 50.0, foot);
             Self {
                 row,

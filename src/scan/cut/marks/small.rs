@@ -1,14 +1,14 @@
 //! Small parts of letters: dots and accents.
 
-use super::gap;
 use crate::scan::components::Component;
+use crate::scan::cut::gap;
 
 /// A part smaller than this share of the largest part of its cell is a dot or an accent.
-pub(super) const SMALL: f64 = 0.4;
+pub(in crate::scan::cut) const SMALL: f64 = 0.4;
 
 /// The small parts that belong together with one of them, as two or three dots do: each nearer to another than
 /// it is large.
-pub(super) fn group<'a>(
+pub(in crate::scan::cut) fn group<'a>(
     all: &[Component],
     part: usize,
     others: impl Iterator<Item = &'a usize>,

@@ -118,7 +118,7 @@ pub(super) fn misfit(piece: &Seen, shape: &Shape) -> f64 {
     clippy::fn_params_excessive_bools,
     reason = "the side of a sign, as seen"
 )]
-pub(in crate::scan::cut) fn unwanted(shape: &Shape, above: bool) -> f64 {
+pub(in crate::scan::cut::layout) fn unwanted(shape: &Shape, above: bool) -> f64 {
     match shape.pieces {
         Pieces::One | Pieces::Bare => SIGNS.1,
         Pieces::DotAbove if !above => SIGNS.1,

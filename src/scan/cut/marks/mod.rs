@@ -6,7 +6,10 @@
 //! and one that is drawn in one piece has none of them, but a thin end that is parted from its stroke. How large a dot is,
 //! the page's letters of one dot say.
 
-use super::small::{SMALL, group};
+mod small;
+
+pub(super) use small::{SMALL, group};
+
 use super::{Layer, Reason, Slot, gap};
 use crate::numeric::median::median;
 use crate::scan::components::Component;

@@ -1,7 +1,8 @@
 //! Ink of a bare page → letters where names say nothing of them: pieces are joined from the most to the least obvious pair until there
 //! are as many letters as names.
 
-use super::{Component, Reason};
+use crate::scan::components::Component;
+use crate::scan::cut::Reason;
 
 /// A part that is joined to something above or below is lower than this share of a usual letter.
 const SMALL: f64 = 0.35;

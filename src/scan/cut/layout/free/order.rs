@@ -1,8 +1,8 @@
 //! Pieces of ink → rows, as they are read.
 
 use super::pieces::{Piece, Tie, Usual};
-use super::rows::rows;
 use crate::numeric::median::median;
+use crate::scan::cut::layout::rows::rows;
 use kurbo::Rect;
 use std::ops::Range;
 

@@ -2,10 +2,14 @@
 //!
 //! Which of the ink there is whose nobody knows: such letters are warned of.
 
-use super::seam::{Along, Seam};
-use super::{Component, Slot, Warning};
+mod seam;
+
+pub(super) use seam::Along;
+
 use crate::numeric::view::View;
+use crate::scan::components::Component;
 use kurbo::Rect;
+use seam::Seam;
 use std::ops::Range;
 
 /// Letters that touch are so unequal at most: each ends within this share of a mean width from where equal ones would.
@@ -76,14 +80,4 @@ impl Touch {
         }
         parted
     }
-}
-
-/// Warns of the letters that have some of the ink that was cut.
-pub(super) fn warnings(slots: &[&Slot], parted: &[usize]) -> Vec<Warning> {
-    let cut = slots
-        .iter()
-        .filter(|s| s.parts.iter().any(|i| parted.contains(i)));
-    let message = "it touches a letter beside it and was cut off where least ink joins the two: draw them clear of each other, or say \
-        where it ends by `polygon` under [cells.NAME]";
-    cut.map(|s| Warning::of(s, message)).collect()
 }

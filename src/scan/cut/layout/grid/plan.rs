@@ -2,7 +2,7 @@
 
 use crate::numeric::view::View;
 use crate::scan::clean::Page;
-use crate::scan::cut::position;
+use crate::scan::cut::layout::position;
 use crate::scan::error::ScanError;
 use crate::scan::options::{Options, Order};
 use crate::types::Label;
@@ -11,7 +11,7 @@ use crate::types::Label;
 const LEAST_CELL: usize = 4;
 
 /// The grid that a user said.
-pub(in crate::scan::cut) struct Plan<'a> {
+pub(in crate::scan::cut::layout) struct Plan<'a> {
     pub(super) rows: usize,
     pub(super) columns: usize,
     pub(super) source: &'a str,
@@ -22,7 +22,7 @@ pub(in crate::scan::cut) struct Plan<'a> {
 }
 
 impl<'a> Plan<'a> {
-    pub(in crate::scan::cut) fn new(
+    pub(in crate::scan::cut::layout) fn new(
         page: &'a Page,
         options: &'a Options,
         (rows, columns): (usize, usize),

@@ -6,9 +6,8 @@ use super::axis::Axis;
 use super::plan::Plan;
 use super::shared::{Shared, share};
 use crate::scan::components::Component;
-use crate::scan::cut::named::COUNTS;
-use crate::scan::cut::seam::Along;
-use crate::scan::cut::touching::Touch;
+use crate::scan::cut::layout::named::COUNTS;
+use crate::scan::cut::layout::touching::{Along, Touch};
 use crate::types::Label;
 use std::ops::Range;
 

@@ -1,6 +1,7 @@
 //! The ink of a bare page → pieces that are surely one, and how likely each is a part of another.
 
-use super::{Component, gap};
+use crate::scan::components::Component;
+use crate::scan::cut::gap;
 use crate::scan::whole::floor;
 use kurbo::Rect;
 

@@ -113,7 +113,7 @@ fn feet(letters: &[Letter], rows: usize) -> Vec<Feet> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scan::cut::baselines::ruled;
+    use crate::scan::cut::guides::baselines::ruled;
 
     const CAPITALS: &[(&str, f64)] = &[("H", 40.0), ("E", 43.0), ("T", 38.0), ("O", 41.0)];
     const SMALL: &[(&str, f64)] = &[("n", 0.0), ("i", 2.0), ("m", -1.0), ("a", 1.0), ("g", 90.0)];

@@ -1,7 +1,7 @@
 //! Where the joining strokes of Arabic letters end.
 
-use super::Component;
 use crate::numeric::view::View;
+use crate::scan::components::Component;
 use kurbo::Point;
 
 /// The outermost ink that counts as a stroke's end, in widths of the letter's stroke.

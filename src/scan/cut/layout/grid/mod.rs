@@ -3,15 +3,18 @@
 mod across;
 mod axis;
 mod furniture;
+mod hidden;
 mod plan;
+mod ruling;
 mod shared;
 
 pub(super) use plan::Plan;
 
+use super::listed;
 use super::named::{Place, named};
-use super::small::{SMALL, group};
-use super::{Layer, Reason, gap, listed, marks, ruling};
 use crate::scan::components::Component;
+use crate::scan::cut::marks::{self, SMALL, group};
+use crate::scan::cut::{Layer, Reason, gap};
 use crate::scan::error::ScanError;
 use crate::scan::letters::{Pieces, Shape};
 use crate::types::Label;

@@ -1,8 +1,7 @@
 //! What is said of a bare page whose letters and names do not agree: how many letters each row has, and where in doubt.
 
 use super::reading::{Reading, Role};
-use super::touching::Touch;
-use super::{Layer, Slot, Warning, touching};
+use crate::scan::cut::layout::touching::Touch;
 use crate::scan::error::ScanError;
 
 /// So many places are told; where more are in doubt, it is not one name that was forgotten.
@@ -173,15 +172,4 @@ impl Unread {
             doubts: doubts.join(", "),
         }
     }
-}
-
-/// Warns of the letters that were cut off others, and of those whose names are hardly likelier than the ones beside them.
-pub(super) fn warnings(slots: &[&Slot], layer: &Layer) -> Vec<Warning> {
-    let doubtful = slots.iter().filter(|s| layer.doubtful.contains(&s.index));
-    let message =
-        "is this its letter, or one beside it? Its size and dots fit their names nearly as well";
-    let doubtful = doubtful.map(|s| Warning::of(s, message));
-    doubtful
-        .chain(touching::warnings(slots, &layer.parted))
-        .collect()
 }

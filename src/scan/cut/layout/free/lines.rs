@@ -2,8 +2,8 @@
 
 use super::pieces::{Piece, Tie, Usual};
 use super::reading::{Body, Reading, Role, Seen, align, unwanted};
-use super::rows::beside;
-use super::touching::Touch;
+use crate::scan::cut::layout::rows::beside;
+use crate::scan::cut::layout::touching::Touch;
 use crate::scan::letters::Shape;
 use std::iter;
 

@@ -21,7 +21,7 @@ const ASIDE: f64 = 2.0;
 
 /// How letters that touch follow each other.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Along {
+pub(in crate::scan::cut::layout) enum Along {
     /// Beside each other: lanes are rows of pixels.
     Row,
     /// Below each other: lanes are columns.
@@ -38,7 +38,7 @@ impl Along {
     }
 
     /// How far a pixel is along it, upright px.
-    pub(super) fn at(self, (x, y): (usize, usize), upright: &View) -> f64 {
+    pub(in crate::scan::cut::layout) fn at(self, (x, y): (usize, usize), upright: &View) -> f64 {
         let at = upright.at(Point::new(x as f64 + 0.5, y as f64 + 0.5));
         match self {
             Self::Row => at.x,

@@ -1,11 +1,16 @@
 //! What a user should look at: letters that may be torn, joined or cut off.
 
-use super::{Slot, Warning, signs};
+mod signs;
+
+use super::{Layer, Slot, Warning};
 use crate::numeric::median::median;
+use crate::scan::clean::Page;
 use crate::scan::components::Component;
 use crate::scan::letters::Shape;
+use crate::scan::options::Options;
 use glyphs_reader::glyphdata::GlyphData;
 use kurbo::Rect;
+use std::ops::Range;
 
 /// A letter larger than this many usual letters may be two, or hold a line.
 const LARGE: f64 = 2.5;
@@ -26,8 +31,31 @@ pub fn is_full(c: char) -> bool {
     c.is_alphanumeric() && c != 'ء'
 }
 
-/// Warns of the cells whose ink is odd; `is_freed` says which pieces were cut off a printed box.
+/// What is odd about the letters of a page whose picture has these bounds. Pieces `freed` were cut off printed lines, unless they
+/// were off letters; baselines lie by `drop` below the levels of each row.
 pub(super) fn warnings(
+    layer: &Layer,
+    all: &[Component],
+    picture: Rect,
+    freed: Range<usize>,
+    drop: &[f64],
+) -> Vec<Warning> {
+    let inked = layer.slots.iter().filter(|s| !s.parts.is_empty());
+    let inked: Vec<&Slot> = inked.collect();
+    let is_freed = |i: usize| freed.contains(&i) && !layer.parted.contains(&i);
+    let baseline = |s: &Slot| s.level + drop[s.row];
+    let mut out = odd(&inked, all, picture, is_freed);
+    out.extend(signs::warnings(&inked, all));
+    out.extend(doubtful(&inked, layer));
+    out.extend(parted(&inked, layer));
+    out.extend(across(&inked, all, baseline));
+    let empty = layer.slots.iter().filter(|s| s.parts.is_empty());
+    out.extend(empty.map(|s| Warning::of(s, "the cell is empty: draw the letter or name it _")));
+    out
+}
+
+/// Warns of the cells whose ink is odd; `is_freed` says which pieces were cut off a printed box.
+fn odd(
     slots: &[&Slot],
     all: &[Component],
     picture: Rect,
@@ -77,16 +105,11 @@ pub(super) fn warnings(
             ));
         }
     }
-    out.extend(signs::warnings(slots, all));
     out
 }
 
 /// Warns of the letters whose ink reaches the baseline of the row above or below, upright px: they may touch a letter there.
-pub(super) fn across(
-    slots: &[&Slot],
-    all: &[Component],
-    baseline: impl Fn(&Slot) -> f64,
-) -> Vec<Warning> {
+fn across(slots: &[&Slot], all: &[Component], baseline: impl Fn(&Slot) -> f64) -> Vec<Warning> {
     let row = |r: usize| median(slots.iter().filter(|s| s.row == r).map(|s| baseline(s)));
     let rows = slots.iter().map(|s| s.row + 1).max().unwrap_or(0);
     let lines: Vec<Option<f64>> = (0..rows).map(row).collect();
@@ -106,4 +129,32 @@ pub(super) fn across(
         Some(Warning::of(slot, message))
     };
     slots.iter().filter_map(reaches).collect()
+}
+
+/// A remark where inks are to be told apart in a picture without colours.
+pub(super) fn colourless(page: &Page, options: &Options) -> Option<Warning> {
+    let useless = options.ink.choose() && page.sheet.colours.is_none();
+    useless.then(|| Warning {
+        index: None,
+        label: None,
+        message: "the picture has no colours, so `ink` tells nothing apart; scan it in colour, or leave `ink` out"
+            .to_owned(),
+    })
+}
+
+/// Warns of the letters whose names are hardly likelier than the ones beside them.
+fn doubtful(slots: &[&Slot], layer: &Layer) -> Vec<Warning> {
+    let doubtful = slots.iter().filter(|s| layer.doubtful.contains(&s.index));
+    let message =
+        "is this its letter, or one beside it? Its size and dots fit their names nearly as well";
+    doubtful.map(|s| Warning::of(s, message)).collect()
+}
+
+/// Warns of the letters that were cut off others.
+fn parted(slots: &[&Slot], layer: &Layer) -> Vec<Warning> {
+    let is_parted = |s: &&&Slot| s.parts.iter().any(|i| layer.parted.contains(i));
+    let message = "it touches a letter beside it and was cut off where least ink joins the two: draw them clear of each other, or say \
+        where it ends by `polygon` under [cells.NAME]";
+    let parted = slots.iter().filter(is_parted);
+    parted.map(|s| Warning::of(s, message)).collect()
 }

@@ -4,7 +4,7 @@ use super::axis::Axis;
 use super::plan::Plan;
 use crate::scan::components::Component;
 use crate::scan::cut::gap;
-use crate::scan::cut::named::COUNTS;
+use crate::scan::cut::layout::named::COUNTS;
 use crate::types::Label;
 use std::collections::BTreeSet;
 use std::ops::Range;

@@ -3,9 +3,9 @@
 //!
 //! What a hand's dots are like, its own letters tell: where two or three are drawn as one dash, no dash may be missing.
 
-use super::{Slot, Warning};
 use crate::numeric::median::median;
 use crate::scan::components::Component;
+use crate::scan::cut::{Slot, Warning};
 use crate::scan::letters::{Kind, Pieces, Shape};
 use glyphs_reader::glyphdata::GlyphData;
 

@@ -3,11 +3,12 @@
 //! A box is seen by its inside: paper that ink encloses. Slanted, warped and touched boxes enclose their
 //! paper all the same; gaps in a line close at the reduced size at which they are looked for.
 
+use super::listed;
 use super::named::{Place, named};
 use super::rows::rows;
-use super::{Layer, Reason, listed};
 use crate::numeric::view::View;
 use crate::scan::components::{Component, Run, enclosed};
+use crate::scan::cut::{Layer, Reason};
 use crate::scan::error::ScanError;
 use crate::scan::options::{Direction, Options};
 use crate::types::{Gray, Label};

@@ -1,10 +1,13 @@
 //! Baselines and scale of a page.
 
-use super::baselines::{Letter, OVERSHOOT, ruled};
-use super::ends::ends;
-use super::joins::joins;
-use super::strays::unruled;
-use super::{Layer, Slot, Warning, hanging};
+mod baselines;
+mod ends;
+mod hanging;
+mod joins;
+mod strays;
+mod votes;
+
+use super::{Layer, Slot, Warning};
 use crate::numeric::median::median;
 use crate::numeric::view::View;
 use crate::scan::clean::Page;
@@ -12,8 +15,12 @@ use crate::scan::components::Component;
 use crate::scan::error::ScanError;
 use crate::scan::letters::{Head, Kind, Shape};
 use crate::scan::options::{Options, Scale};
+use baselines::{Letter, OVERSHOOT, ruled};
+use ends::ends;
 use glyphs_reader::glyphdata::GlyphData;
+use joins::joins;
 use kurbo::Rect;
+use strays::unruled;
 
 /// Millimetres an inch.
 const MM_PER_INCH: f64 = 25.4;

@@ -1,7 +1,7 @@
 //! Places on a page and the ink in them → letters with their labels.
 
-use super::{Reason, Slot};
 use crate::scan::components::Component;
+use crate::scan::cut::{Reason, Slot};
 use crate::scan::error::ScanError;
 use crate::types::Label;
 

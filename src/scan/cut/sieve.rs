@@ -1,0 +1,123 @@
+//! A page's pieces of ink → those that may be letters, what cannot be, and what is too small.
+
+use super::{Reason, Rejected};
+use crate::scan::clean::Page;
+use crate::scan::components::{Component, Run};
+use crate::scan::error::ScanError;
+use crate::scan::options::Options;
+
+/// Ink smaller than a square of this many stroke widths is a speck: the dot of a letter is a disc of at least one
+/// stroke (0.89 of its side as a square), and loses a little to the threshold.
+const SPECK: f64 = 0.7;
+/// Ink smaller than a square of this many stroke widths is no dot of any style: those of `DejaVu Sans Bold`, the smallest of
+/// a hundred fonts, have 0.52.
+const DOT: f64 = 0.4;
+/// A printed line or lattice: its length at least and its thickness at most, as shares of the longer side of all ink, and the
+/// share of its box that it covers at most.
+const LINE: (f64, f64, f64) = (0.5, 0.02, 0.12);
+/// Share of a piece of ink that lies on the page at least.
+const ON_PAPER: f64 = 0.8;
+
+/// A page's ink.
+pub(super) struct Inks {
+    /// What may be letters.
+    pub(super) letters: Vec<Component>,
+    /// What cannot.
+    pub(super) rejected: Vec<Rejected>,
+    /// What may be dots of heavy letters.
+    pub(super) small: Vec<Component>,
+    /// Pieces too small to be either.
+    pub(super) specks: usize,
+}
+
+/// Parts the letters' ink from dust, from what lies beside the paper or runs along its edge, and from other inks.
+pub(super) fn sort(all: Vec<Component>, page: &Page, options: &Options) -> Result<Inks, ScanError> {
+    let gray = &page.sheet.gray;
+    let (found, mut beyond): (Vec<_>, Vec<_>) = all.into_iter().partition(|c| on_paper(c, page));
+    let (mut letters, mut other) = options.ink.part(found, page.sheet.colours.as_ref());
+    if letters.is_empty() && !other.is_empty() {
+        return Err(other_ink(page, options.ink.to_string()));
+    }
+    let least = speck_limit(&letters);
+    let mut specks = 0;
+    let mut take = |pieces: &mut Vec<Component>| -> Vec<Component> {
+        let (large, small) = pieces.drain(..).partition(|c| c.area as f64 >= least);
+        *pieces = large;
+        specks += small.len();
+        small
+    };
+    let mut small = take(&mut letters);
+    small.retain(|c| c.area as f64 >= least * (DOT / SPECK).powi(2));
+    take(&mut other);
+    take(&mut beyond);
+    let borders = take_borders(&mut letters, gray.width(), gray.height());
+    let borders = borders.iter().map(|c| Rejected::of(c, Reason::Border));
+    let other = other.iter().map(|c| Rejected::of(c, Reason::OtherInk));
+    let beyond = beyond.iter().map(|c| Rejected::of(c, Reason::OffPage));
+    Ok(Inks {
+        rejected: borders.chain(other).chain(beyond).collect(),
+        letters,
+        small,
+        specks,
+    })
+}
+
+pub(super) fn other_ink(page: &Page, ink: String) -> ScanError {
+    ScanError::OtherInk {
+        source_name: page.sheet.source.clone(),
+        ink,
+    }
+}
+
+/// Whether most of a piece of ink lies on the paper.
+fn on_paper(c: &Component, page: &Page) -> bool {
+    let Some(paper) = &page.paper else {
+        return true;
+    };
+    let on = |r: &Run| (r.start..r.end).filter(|&x| paper.holds(x, r.y)).count();
+    let inside: usize = c.runs.iter().map(on).sum();
+    inside as f64 >= ON_PAPER * c.area as f64
+}
+
+/// Area of the smallest piece of ink that may be a dot, px².
+pub(super) fn speck_limit(all: &[Component]) -> f64 {
+    (SPECK * stroke_width(all)).powi(2).max(2.0)
+}
+
+/// The page's usual stroke width, px: the median over the ink, each piece by its area. Printed lines can have more ink than
+/// all letters, so what is long for the page and hollow or thin does not count.
+pub(super) fn stroke_width(all: &[Component]) -> f64 {
+    let page = all.iter().map(|c| c.bounds).reduce(|a, b| a.union(b));
+    let side = page.map_or(0.0, |p| p.width().max(p.height()));
+    let is_line = |c: &Component| {
+        let (long, short) = (
+            c.bounds.width().max(c.bounds.height()),
+            c.bounds.width().min(c.bounds.height()),
+        );
+        long > LINE.0 * side && (short < LINE.1 * side || (c.area as f64) < LINE.2 * long * short)
+    };
+    let letters = all.iter().filter(|c| !is_line(c));
+    let mut widths: Vec<(f64, usize)> = letters.map(|c| (c.stroke(), c.area)).collect();
+    widths.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let half = widths.iter().map(|w| w.1).sum::<usize>() / 2;
+    let mut sum = 0;
+    let middle = widths.iter().find(|w| {
+        sum += w.1;
+        sum > half
+    });
+    middle.map_or(1.0, |w| w.0)
+}
+
+/// Takes out ink that touches the picture's border and reaches along half of a side.
+fn take_borders(all: &mut Vec<Component>, width: usize, height: usize) -> Vec<Component> {
+    let (w, h) = (width as f64, height as f64);
+    let at_edge = |c: &Component| {
+        c.bounds.x0 <= 0.0 || c.bounds.y0 <= 0.0 || c.bounds.x1 >= w || c.bounds.y1 >= h
+    };
+    let long = |c: &Component| c.bounds.width() > w / 2.0 || c.bounds.height() > h / 2.0;
+    let (out, kept) = std::mem::take(all)
+        .into_iter()
+        .partition(|c| at_edge(c) && long(c));
+    *all = kept;
+    out
+}
