@@ -1,9 +1,10 @@
 //! Letters that came out the same: one drawing in two cells, or one page cut twice.
 
 use super::letter::Letter;
+use crate::assemble::names::{self, Form};
 use crate::assemble::{Drawn, Note};
 use crate::numeric::distance::Polyline;
-use crate::types::Outline;
+use crate::types::{Label, Outline};
 use kurbo::{Affine, BezPath, Point, Rect, Vec2, flatten};
 use rayon::prelude::*;
 
@@ -12,23 +13,45 @@ use rayon::prelude::*;
 const SAME: f64 = 0.004;
 /// How far the points that are compared lie apart at most, as a share of the outline's longer side.
 const STEP: f64 = 0.02;
+/// Letters that look the same where another follows, and those that do where none does: who has drawn one may copy it.
+const WITHIN_WORDS: [&str; 4] = ["ٯڡ", "ٮںى", "كک", "يی"];
+const AT_ENDS: [&str; 2] = ["هہ", "ىی"];
 
 /// Remarks on letters whose outlines coincide once they stand on one place.
 pub(super) fn notes(letters: &[Letter], drawn: &[Drawn], units_per_em: u16) -> Vec<Note> {
     let near = SAME * f64::from(units_per_em);
     let shapes: Vec<Option<Shape>> = drawn.par_iter().map(|d| Shape::of(&d.outline)).collect();
     let note = |(i, shape): (usize, &Option<Shape>)| {
-        let twin = shapes[..i].iter().position(|other| {
+        let letter = letters.get(i)?;
+        let twin = shapes[..i].iter().zip(letters).position(|(other, twin)| {
             let pair = shape.as_ref().zip(other.as_ref());
             pair.is_some_and(|(a, b)| a.lies_on(b, near) && b.lies_on(a, near))
+                && !look_the_same(&letter.label, &twin.label)
         });
         let place = letters.get(twin?)?.spot();
         Some(Note {
-            glyph: letters.get(i)?.label.0.clone(),
+            glyph: letter.label.0.clone(),
             message: format!("its outline is that of {place}: is one of them in the wrong cell?"),
         })
     };
     shapes.par_iter().enumerate().filter_map(note).collect()
+}
+
+/// Whether two letters look the same in the forms that they name.
+fn look_the_same(a: &Label, b: &Label) -> bool {
+    let read = |label: &Label| {
+        let read = names::identify(label).ok()?;
+        let form = read.form().unwrap_or(Form::Isol);
+        Some((*read.chars.first()?, form))
+    };
+    let Some(((a, form), (b, other))) = read(a).zip(read(b)) else {
+        return false;
+    };
+    let sets: &[&str] = match form {
+        Form::Init | Form::Medi => &WITHIN_WORDS,
+        Form::Isol | Form::Fina => &AT_ENDS,
+    };
+    form == other && sets.iter().any(|set| set.contains(a) && set.contains(b))
 }
 
 /// An outline as points and as lines between them, its box's corner at the origin.
@@ -90,6 +113,14 @@ fn ring(contour: &BezPath, step: f64) -> Vec<Point> {
 mod tests {
     use super::*;
     use kurbo::Shape as _;
+
+    #[test]
+    fn letters_look_the_same_in_their_forms() {
+        let same = |a: &str, b: &str| look_the_same(&Label(a.to_owned()), &Label(b.to_owned()));
+        assert!(same("uni066F.init", "uni06A1.init") && !same("uni066F", "uni06A1"));
+        assert!(same("uni06C1", "uni0647") && !same("uni06C1.fina", "uni0647.init"));
+        assert!(!same("uni0628.init", "uni062A.init") && !same("l", "I"));
+    }
 
     #[test]
     fn a_stem_is_not_a_stem_with_a_dot() {
