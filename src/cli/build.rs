@@ -295,7 +295,4 @@ fn say(built: &Built, total: Duration, times: &Times) {
         .collect();
     let (glyphs, seconds) = (built.letters.len(), total.as_secs_f64());
     eprintln!("{glyphs} glyphs in {seconds:.2} s ({})", stages.join(", "));
-    if let Some(times) = per_decoding(times) {
-        eprintln!("cleaning and cutting took {times:.1} times as long as decoding");
-    }
 }
