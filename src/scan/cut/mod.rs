@@ -248,12 +248,12 @@ pub fn cut_with(
     let whole = all.len();
     let mut layer = layout::place(&mut all, labels, (page, low, upright), options, &claims)?;
     pins::settle(&mut layer, &claims);
-    let dot = (DUST * stroke_width(&all)).powi(2);
+    let stroke = stroke_width(&all);
     marks::reclaim(&mut layer, &all);
     let freed = whole..all.len();
     small.iter_mut().for_each(|c| c.stand(&upright));
-    let specks = specks - marks::give(&mut layer, &mut all, &small);
-    marks::dust(&mut layer, &all, &claims, dot);
+    let specks = specks - marks::give(&mut layer, &mut all, small, sieve::dot_limit(stroke));
+    marks::dust(&mut layer, &all, &claims, (DUST * stroke).powi(2));
     let seen = |slot: &Slot| pins::stance(slot.index, pins, &upright).0;
     let guides = guides::measure(&layer, &all, page, options, seen)?;
     let stance = Stance::of(&layer, &all, &guides.drop);

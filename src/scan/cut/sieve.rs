@@ -9,12 +9,15 @@ use crate::scan::options::Options;
 /// Ink smaller than a square of this many stroke widths is a speck: the dot of a letter is a disc of at least one
 /// stroke (0.89 of its side as a square), and loses a little to the threshold.
 const SPECK: f64 = 0.7;
-/// Ink smaller than a square of this many stroke widths is no dot of any style: those of `DejaVu Sans Bold`, the smallest of
-/// a hundred fonts, have 0.52.
+/// Ink smaller than a square of this many stroke widths is hardly a dot: those of `DejaVu Sans Bold`, the smallest of
+/// a hundred fonts, have 0.52, and 0.35 where strokes are as thick as letters are high.
 const DOT: f64 = 0.4;
-/// A printed line or lattice: its length at least and its thickness at most, as shares of the longer side of all ink, and the
-/// share of its box that it covers at most.
-const LINE: (f64, f64, f64) = (0.5, 0.02, 0.12);
+/// And smaller than of this many it is dust in any style.
+const LEAST_DOT: f64 = 0.25;
+/// A printed line or lattice: its length at least and its thickness at most, as shares of the longer side of all ink.
+const LINE: (f64, f64) = (0.5, 0.02);
+/// Share of its box that a printed lattice covers at most.
+pub(super) const LATTICE_COVER: f64 = 0.12;
 /// Share of a piece of ink that lies on the page at least.
 const ON_PAPER: f64 = 0.8;
 
@@ -47,7 +50,7 @@ pub(super) fn sort(all: Vec<Component>, page: &Page, options: &Options) -> Resul
         small
     };
     let mut small = take(&mut letters);
-    small.retain(|c| c.area as f64 >= least * (DOT / SPECK).powi(2));
+    small.retain(|c| c.area as f64 >= least * (LEAST_DOT / SPECK).powi(2));
     take(&mut other);
     take(&mut beyond);
     let borders = take_borders(&mut letters, gray.width(), gray.height());
@@ -84,6 +87,11 @@ pub(super) fn speck_limit(all: &[Component]) -> f64 {
     (SPECK * stroke_width(all)).powi(2).max(2.0)
 }
 
+/// Area of the smallest dot of a usual style, px².
+pub(super) fn dot_limit(stroke: f64) -> f64 {
+    (DOT * stroke).powi(2)
+}
+
 /// The page's usual stroke width, px: the median over the ink, each piece by its area. Printed lines can have more ink than
 /// all letters, so what is long for the page and hollow or thin does not count.
 pub(super) fn stroke_width(all: &[Component]) -> f64 {
@@ -94,7 +102,8 @@ pub(super) fn stroke_width(all: &[Component]) -> f64 {
             c.bounds.width().max(c.bounds.height()),
             c.bounds.width().min(c.bounds.height()),
         );
-        long > LINE.0 * side && (short < LINE.1 * side || (c.area as f64) < LINE.2 * long * short)
+        long > LINE.0 * side
+            && (short < LINE.1 * side || (c.area as f64) < LATTICE_COVER * long * short)
     };
     let letters = all.iter().filter(|c| !is_line(c));
     let mut widths: Vec<(f64, usize)> = letters.map(|c| (c.stroke(), c.area)).collect();

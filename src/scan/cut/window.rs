@@ -27,7 +27,7 @@ const FAINT: f32 = 0.1;
 const NOISE: f32 = 4.0;
 /// Coverage at which ink ends.
 const HALF: f32 = 0.5;
-/// Paper inside ink that is smaller than a square of this many stroke widths is a pinhole: the smallest counter of a
+/// Paper inside ink that lies within a square of this many stroke widths is a pinhole: the smallest counter of a
 /// hundred fonts, in Amiri Bold's لا, has 0.40.
 const PINHOLE: f64 = 0.25;
 /// Lobes of the kernel.
@@ -184,7 +184,7 @@ impl Patch {
             }
         }
         let body = parts.iter().max_by_key(|c| c.area);
-        new.heal((PINHOLE * body.map_or(0.0, |c| c.stroke())).powi(2));
+        new.heal(PINHOLE * body.map_or(0.0, |c| c.stroke()));
         new
     }
 
@@ -208,8 +208,8 @@ impl Patch {
         }
     }
 
-    /// Fills the paper that ink encloses where it has less than so many px².
-    fn heal(&mut self, least: f64) {
+    /// Fills the paper that ink encloses where it lies within a square of that side, px.
+    fn heal(&mut self, side: f64) {
         let mut paper = Vec::new();
         for (y, row) in self.samples.chunks(self.width.max(1)).enumerate() {
             let mut start = 0;
@@ -222,10 +222,8 @@ impl Patch {
             }
         }
         let holes = enclosed(&paper, self.width, self.height).into_iter();
-        for r in holes
-            .filter(|c| (c.area as f64) < least)
-            .flat_map(|c| c.runs)
-        {
+        let is_pinhole = |c: &Component| c.bounds.width().max(c.bounds.height()) < side;
+        for r in holes.filter(is_pinhole).flat_map(|c| c.runs) {
             self.samples[r.y * self.width..][r.start..r.end].fill(1.0);
         }
     }

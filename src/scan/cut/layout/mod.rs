@@ -6,6 +6,7 @@ mod grid;
 mod listed;
 mod named;
 mod rows;
+mod ruling;
 mod touching;
 
 use super::Layer;

@@ -13,7 +13,7 @@ pub(super) use small::{SMALL, group};
 use super::{Layer, Reason, Slot, gap};
 use crate::numeric::median::median;
 use crate::scan::components::Component;
-use crate::scan::letters::{Pieces, Shape};
+use crate::scan::letters::{Kind, Pieces, Shape};
 use crate::types::Label;
 use glyphs_reader::glyphdata::GlyphData;
 use kurbo::{Rect, Vec2};
@@ -54,6 +54,8 @@ const BLOT: f64 = 1.3;
 const SAME: f64 = 2.0;
 /// What another letter of the same body and form has beside it lies at the same place from the body's middle up to this share of its height.
 const PLACE: f64 = 0.1;
+/// How far the dot of a zero lies from its middle at most, as a share of its width and height.
+const MIDDLE: f64 = 0.1;
 /// How far a dot stands off its letter, as a share of the height of the letter's body.
 const REACH: f64 = 0.75;
 
@@ -66,6 +68,7 @@ pub(super) fn dust(layer: &mut Layer, all: &[Component], claims: &[(usize, Vec<u
     let page = Usual {
         in_pieces,
         with_specks: in_pieces || with_specks(layer, all, &names),
+        side: usual_side(layer, all),
         a_dot: usual_dot(layer, all, &names),
         least: dot,
     };
@@ -90,6 +93,8 @@ struct Usual {
     /// They are drawn in pieces, or have specks beside them, that are no dust.
     in_pieces: bool,
     with_specks: bool,
+    /// The longer side of a letter's body, px: no sign lies farther off.
+    side: f64,
     /// The area of a dot, px².
     a_dot: Option<f64>,
     /// The area below which ink is no larger than dust, px².
@@ -107,6 +112,8 @@ fn beside_letter(slot: &Slot, all: &[Component], names: &GlyphData, usual: &Usua
         let (c, main) = (&all[i], &all[body]);
         let dust = match shape.pieces {
             _ if i == body => false,
+            // a zero may have a dot
+            Pieces::One if shape.kind == Kind::Figure && centred(c, main) => false,
             Pieces::One => {
                 let mote = (MOTE * main.upright.height()).powi(2);
                 let small = (c.area as f64) < mote.max(usual.least);
@@ -116,7 +123,8 @@ fn beside_letter(slot: &Slot, all: &[Component], names: &GlyphData, usual: &Usua
                     || !usual.with_specks && speck(c, main)
             }
             Pieces::DotAbove | Pieces::DotBelow | Pieces::Marked => {
-                astray(c, parts, all)
+                gap(c.upright, main.upright) > side(main).max(usual.side)
+                    || astray(c, parts, all)
                     || !in_pieces && surplus(c, &shape, (parts, all), usual.a_dot)
                     || opposite(c, &shape, parts, all)
                     || !usual.with_specks
@@ -231,6 +239,17 @@ fn with_specks(layer: &Layer, all: &[Component], names: &GlyphData) -> bool {
     specks as f64 > FEW * asked.len() as f64
 }
 
+/// The usual longer side of the letters' bodies, px.
+fn usual_side(layer: &Layer, all: &[Component]) -> f64 {
+    let body = |s: &Slot| s.parts.iter().copied().max_by_key(|&i| all[i].area);
+    let bodies = layer.slots.iter().filter_map(body);
+    median(bodies.map(|i| side(&all[i]))).unwrap_or(0.0)
+}
+
+fn side(c: &Component) -> f64 {
+    c.upright.width().max(c.upright.height())
+}
+
 /// The usual area of a dot, px²: the median of those letters of one dot that have one piece where it may be.
 fn usual_dot(layer: &Layer, all: &[Component], names: &GlyphData) -> Option<f64> {
     let areas = layer.slots.iter().filter_map(|slot| {
@@ -275,6 +294,12 @@ fn aside(c: &Component, (body, parts): (&Component, &[usize]), all: &[Component]
     let signs = parts.iter().map(|&i| &all[i]);
     let mut signs = signs.filter(|o| o.area > c.area && !ptr::eq(*o, body));
     speck(c, body) && !beyond(c) && signs.any(beyond)
+}
+
+/// Whether a piece lies in the middle of a letter's body.
+fn centred(c: &Component, body: &Component) -> bool {
+    let (off, around) = (c.upright.center() - body.upright.center(), body.upright);
+    off.x.abs() < MIDDLE * around.width() && off.y.abs() < MIDDLE * around.height()
 }
 
 /// Whether a small piece lies beside a letter, over or under it, where a sign within its box does not.
@@ -438,8 +463,36 @@ pub(super) fn reclaim(layer: &mut Layer, all: &[Component]) {
     }
 }
 
-/// Gives small pieces of ink, in no slot so far, to the letters that want them: they go to the end of `all`. Returns how many.
-pub(super) fn give(layer: &mut Layer, all: &mut Vec<Component>, small: &[Component]) -> usize {
+/// Gives small pieces of ink, in no slot so far, to the letters that want them: they go to the end of `all`. Returns how many. Those
+/// below `least` px² are dots only where most letters that have dots have none else.
+pub(super) fn give(
+    layer: &mut Layer,
+    all: &mut Vec<Component>,
+    small: Vec<Component>,
+    least: f64,
+) -> usize {
+    let before = all.len();
+    let (small, smaller): (Vec<_>, Vec<_>) =
+        small.into_iter().partition(|c| c.area as f64 >= least);
+    share_out(layer, all, &small);
+    if lack_dots(layer) {
+        share_out(layer, all, &smaller);
+    }
+    all.len() - before
+}
+
+/// Whether most letters of a body and dots are bodies alone.
+fn lack_dots(layer: &Layer) -> bool {
+    let names = GlyphData::default();
+    let dotted = |s: &&Slot| !s.parts.is_empty() && Shape::of(&s.label, &names).dots > 0;
+    let dotted = layer.slots.iter().filter(dotted);
+    let bare: Vec<bool> = dotted.map(|s| s.parts.len() == 1).collect();
+    let most = bare.iter().filter(|b| **b).count();
+    bare.len() >= ENOUGH && 2 * most > bare.len()
+}
+
+/// Gives pieces of ink to the letters beside which they lie and that want them.
+fn share_out(layer: &mut Layer, all: &mut Vec<Component>, small: &[Component]) {
     let names = GlyphData::default();
     let bodies: Vec<Option<Rect>> = (layer.slots.iter())
         .map(|s| s.parts.iter().max_by_key(|&&i| all[i].area))
@@ -462,7 +515,6 @@ pub(super) fn give(layer: &mut Layer, all: &mut Vec<Component>, small: &[Compone
             wanted[s].extend(dots.iter().map(|&i| small[i].clone()));
         }
     }
-    let before = all.len();
     for (slot, pieces) in layer.slots.iter_mut().zip(wanted) {
         let shape = Shape::of(&slot.label, &names).pieces;
         let Some(body) = slot.parts.iter().copied().max_by_key(|&i| all[i].area) else {
@@ -486,5 +538,4 @@ pub(super) fn give(layer: &mut Layer, all: &mut Vec<Component>, small: &[Compone
             }
         }
     }
-    all.len() - before
 }

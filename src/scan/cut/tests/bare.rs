@@ -555,3 +555,23 @@ fn a_letter_drawn_in_pieces_is_one() {
     let alefs = cut.cells.iter().filter(|c| c.label.0 == "uni0627");
     assert!(alefs.clone().count() > 0 && alefs.clone().all(|c| c.in_sheet.height() > 38.0));
 }
+
+#[test]
+fn letters_on_a_printed_lattice_are_read() {
+    let mut paper = grid_page(0.0);
+    for i in 0..6 {
+        paper.bar(45.0 + 120.0 * f64::from(i), 50.0, 2.0, 402.0);
+    }
+    for i in 0..5 {
+        paper.bar(45.0, 50.0 + 100.0 * f64::from(i), 602.0, 2.0);
+    }
+    // one that reaches over a line
+    paper.bar(150.0, 92.0, 24.0, 6.0);
+    paper.bar(118.0, 92.0, 40.0, 6.0);
+    let cut = cut_page(&paper, NAMES, &options(Layout::Free)).unwrap();
+    assert_eq!(cut.cells.len(), 20);
+    let lines = cut.rejected.iter().filter(|r| r.reason == Reason::Line);
+    assert_eq!(lines.count(), 1, "{:?}", cut.rejected);
+    let large = cut.cells.iter().filter(|c| c.in_sheet.width() > 90.0);
+    assert_eq!(large.count(), 0);
+}

@@ -248,3 +248,60 @@ fn a_spot_that_lies_clear_of_a_letter_is_dust() {
         "larger than the sign: {larger:?}"
     );
 }
+
+/// The grid page with a ring in place of its second letter, 30 × 44 px with a stroke of 6.
+fn with_a_ring() -> Paper {
+    let mut paper = grid_page(0.0);
+    let second = Rect::new(200.0, 60.0, 240.0, 130.0);
+    paper.bars.retain(|b| !second.contains(b.0.center()));
+    for (x, y, w, h) in [
+        (205.0, 76.0, 30.0, 6.0),
+        (205.0, 114.0, 30.0, 6.0),
+        (205.0, 76.0, 6.0, 44.0),
+        (229.0, 76.0, 6.0, 44.0),
+    ] {
+        paper.bar(x, y, w, h);
+    }
+    paper
+}
+
+#[test]
+fn a_zero_keeps_the_dot_in_its_middle() {
+    for (name, off, keeps) in [("0", 0.0, true), ("0", 9.0, false), ("O", 0.0, false)] {
+        let mut paper = with_a_ring();
+        paper.bar(217.5, 95.5 + off, 5.0, 5.0);
+        let names = NAMES.replacen('i', name, 1);
+        let cut = cut_page(&paper, &names, &options(Layout::Grid(4, 5))).unwrap();
+        let gray = &cut.cells[1].gray;
+        let (x, y) = (gray.width() / 2, gray.height() / 2 + floor(off));
+        assert_eq!(gray.at(x, y) > 0.5, keeps, "{name}, {off} px off");
+    }
+}
+
+#[test]
+fn a_sign_lies_no_farther_off_than_its_letter_is_large() {
+    for (gap, keeps) in [(12.0, true), (56.0, false)] {
+        let mut paper = grid_page(0.0);
+        // over the l of the fifth cell, whose foot is at 120
+        paper.bar(571.0, 75.0 - gap - 8.0, 8.0, 8.0);
+        let names = NAMES.replacen(" l", " uni0623", 1);
+        let cut = cut_page(&paper, &names, &options(Layout::Grid(4, 5))).unwrap();
+        let high = cut.cells[4].in_sheet.height() > 54.0;
+        assert_eq!(high, keeps, "{gap} px: {:?}", cut.cells[4].in_sheet);
+    }
+}
+
+#[test]
+fn dust_beside_a_grid_does_not_move_it() {
+    let letters = |paper: &Paper| {
+        let cut = cut_page(paper, NAMES, &options(Layout::Grid(4, 5))).unwrap();
+        let boxes = cut.cells.iter().map(|c| c.in_sheet);
+        boxes.collect::<Vec<_>>()
+    };
+    let paper = grid_page(0.0);
+    for (x, y) in [(8.0, 120.0), (600.0, 8.0), (684.0, 300.0), (300.0, 486.0)] {
+        let mut dusty = paper.clone();
+        dusty.bar(x, y, 8.0, 8.0);
+        assert_eq!(letters(&dusty), letters(&paper), "dust at {x}, {y}");
+    }
+}

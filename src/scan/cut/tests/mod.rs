@@ -14,6 +14,7 @@ use crate::types::{Gray, Sheet};
 use kurbo::Vec2;
 
 /// Paper on which letters are drawn as bars, turned, unevenly lit and noisy.
+#[derive(Clone)]
 struct Paper {
     width: usize,
     height: usize,

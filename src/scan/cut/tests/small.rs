@@ -33,6 +33,42 @@ fn two_dots_stay_together_and_leave_their_neighbours_alone() {
 }
 
 #[test]
+fn dots_far_thinner_than_strokes_are_dots_where_letters_have_no_others() {
+    // letters of 48 px whose strokes are 40 thick, with a dot of 12, and dust as large beside the last one
+    for (names, high) in [("ن ن ن ن", 4), ("د د د د", 0)] {
+        let mut paper = Paper::new(560, 200, 0.0);
+        for i in 0..4 {
+            let x = 60.0 + 120.0 * f64::from(i);
+            paper.bar(x, 80.0, 48.0, 48.0);
+            paper.bar(x + 18.0, 60.0, 12.0, 12.0);
+        }
+        let cut = cut_page(&paper, names, &options(Layout::Grid(1, 4))).unwrap();
+        let heights = cut.cells.iter().map(|c| c.in_sheet.height());
+        assert_eq!(heights.filter(|h| *h > 66.0).count(), high, "{names}");
+    }
+}
+
+#[test]
+fn slits_are_no_pinholes() {
+    for (width, open) in [(8.0, false), (26.0, true)] {
+        let mut paper = Paper::new(420, 200, 0.0);
+        for x in [60.0, 180.0] {
+            paper.bar(x, 60.0, 60.0, 60.0);
+        }
+        // a block with a slit of 3 px in it
+        let rest = (60.0 - width) / 2.0;
+        paper.bar(300.0, 60.0, 60.0, 28.0);
+        paper.bar(300.0, 91.0, 60.0, 29.0);
+        paper.bar(300.0, 60.0, rest, 60.0);
+        paper.bar(360.0 - rest, 60.0, rest, 60.0);
+        let cut = cut_page(&paper, "n n e", &options(Layout::Grid(1, 3))).unwrap();
+        let gray = &cut.cells[2].gray;
+        let ink = gray.at(gray.width() / 2, gray.height() / 2);
+        assert_eq!(ink < 0.5, open, "a slit of {width} px: {ink}");
+    }
+}
+
+#[test]
 fn pinholes_are_filled() {
     for (side, open) in [(4.0, false), (12.0, true)] {
         let mut paper = Paper::new(420, 200, 1.0);

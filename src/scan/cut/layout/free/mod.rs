@@ -12,11 +12,12 @@ mod reading;
 
 use super::listed;
 use super::rows::{nearest, rows};
+use super::ruling;
 use super::touching::Touch;
 use crate::numeric::median::median;
 use crate::numeric::view::View;
 use crate::scan::components::Component;
-use crate::scan::cut::sieve::stroke_width;
+use crate::scan::cut::sieve::{LATTICE_COVER, stroke_width};
 use crate::scan::cut::{Layer, Reason, Slot};
 use crate::scan::error::ScanError;
 use crate::scan::letters::{Pieces, Shape};
@@ -33,6 +34,8 @@ use std::ops::RangeInclusive;
 
 /// Thickness of a ruled line or a piece of it at most, as a share of its length.
 const LINE_SHAPE: f64 = 0.06;
+/// A letter's box holds the centres of so many pieces at most: its own and those of its dots.
+const FEW: usize = 5;
 /// Length of a piece of a ruled line at least, in usual letters' heights: a dash is shorter.
 const LINE_LENGTH: f64 = 1.5;
 /// Thickness of a faint line's scraps at most, in the page's stroke widths, and their length at least, in
@@ -63,7 +66,8 @@ pub(super) struct Plan<'a> {
     pub(super) source: &'a str,
 }
 
-/// Gathers the ink of a bare page into letters and names them. Letters that touch are cut apart in `all`.
+/// Gathers the ink of a bare page into letters and names them. Letters that touch are cut apart in `all`, and those that touch a printed
+/// lattice are cut free of it.
 pub(super) fn place(
     all: &mut Vec<Component>,
     labels: &[Label],
@@ -79,6 +83,10 @@ pub(super) fn place(
             names: names.len(),
         });
     }
+    let freed = lattices(all).into_iter();
+    let freed = freed.flat_map(|i| ruling::freed(&all[i], &plan.upright));
+    let freed: Vec<Component> = freed.collect();
+    all.extend(freed);
     let data = GlyphData::default();
     let known = |l: &&Label| l.0 != "_";
     let shape = |&i: &usize| Some(&labels[i]).filter(known).map(|l| Shape::of(l, &data));
@@ -274,10 +282,12 @@ struct Found {
 
 impl<'a> Bare<'a> {
     fn new(all: &'a [Component], parted: &'a [usize], plan: &Plan<'_>) -> Self {
-        let (height, stroke) = (usual_height(all), stroke_width(all));
+        let lattices = lattices(all);
+        let (height, stroke) = (usual_height(all, &lattices), stroke_width(all));
         let claimed = |i: &usize| plan.claims.iter().any(|(_, parts)| parts.contains(i));
         let free = (0..all.len()).filter(|i| !claimed(i));
-        let (lines, ink) = free.partition(|&i| is_line(&all[i], height, stroke));
+        let (lines, ink) =
+            free.partition(|&i| lattices.contains(&i) || is_line(&all[i], height, stroke));
         Self {
             all,
             ink,
@@ -458,9 +468,23 @@ fn bounds(all: &[Component], group: &[usize]) -> Rect {
     boxes.reduce(|a, b| a.union(b)).unwrap_or(Rect::ZERO)
 }
 
-/// Height of a usual letter, px: the median over the ink, each piece by its area.
-fn usual_height(all: &[Component]) -> f64 {
-    let mut sizes: Vec<(f64, usize)> = all.iter().map(|c| (c.upright.height(), c.area)).collect();
+/// Printed lines that cross: hollow pieces in whose box most of the others lie.
+fn lattices(all: &[Component]) -> Vec<usize> {
+    let is_lattice = |c: &Component| {
+        let holds = |other: &&Component| c.upright.contains(other.centre);
+        (c.area as f64) < LATTICE_COVER * c.upright.area()
+            && all.iter().filter(holds).count() > FEW.max(all.len() / 2)
+    };
+    let pieces = all.iter().enumerate();
+    let lattices = pieces.filter(|(_, c)| is_lattice(c));
+    lattices.map(|(i, _)| i).collect()
+}
+
+/// Height of a usual letter, px: the median over the ink without `lattices`, each piece by its area.
+fn usual_height(all: &[Component], lattices: &[usize]) -> f64 {
+    let letters = all.iter().enumerate();
+    let letters = letters.filter(|(i, _)| !lattices.contains(i));
+    let mut sizes: Vec<(f64, usize)> = letters.map(|(_, c)| (c.upright.height(), c.area)).collect();
     sizes.sort_by(|a, b| a.0.total_cmp(&b.0));
     let half = sizes.iter().map(|s| s.1).sum::<usize>() / 2;
     let mut sum = 0;

@@ -3,17 +3,17 @@
 mod across;
 mod axis;
 mod furniture;
-mod hidden;
 mod plan;
-mod ruling;
 mod shared;
 
 pub(super) use plan::Plan;
 
 use super::listed;
 use super::named::{Place, named};
+use super::ruling;
 use crate::scan::components::Component;
 use crate::scan::cut::marks::{self, SMALL, group};
+use crate::scan::cut::sieve::LATTICE_COVER;
 use crate::scan::cut::{Layer, Reason, gap};
 use crate::scan::error::ScanError;
 use crate::scan::letters::{Pieces, Shape};
@@ -25,8 +25,6 @@ use shared::{NEAR, Shared, neighbours, share};
 
 /// A piece longer than this many cells is no letter if it is thin or hollow.
 const LINE_LENGTH: f64 = 1.4;
-/// Share of its box that a printed lattice covers at most.
-const LINE_COVER: f64 = 0.12;
 /// Thickness of a printed line at most, as a share of a cell.
 const LINE_WIDTH: f64 = 0.06;
 /// What a distance within the cell counts beside one to another cell's letter.
@@ -113,7 +111,7 @@ fn lines(all: &[Component], plan: &Plan<'_>) -> Vec<usize> {
         let b = c.upright;
         let long = b.width() > LINE_LENGTH * w || b.height() > LINE_LENGTH * h;
         let thin = b.width() < LINE_WIDTH * w || b.height() < LINE_WIDTH * h;
-        long && (thin || (c.area as f64) < LINE_COVER * b.area())
+        long && (thin || (c.area as f64) < LATTICE_COVER * b.area())
     };
     (0..all.len()).filter(|&i| is_line(&all[i])).collect()
 }

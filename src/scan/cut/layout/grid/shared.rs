@@ -11,6 +11,8 @@ use std::ops::Range;
 
 /// Small parts this near to a border of cells, as a share of the pitch, go to the nearer letter.
 pub(super) const NEAR: f64 = 0.2;
+/// Ink from this share of a usual letter's on is not dust beside the grid, not even where letters are small and dust is large.
+const LARGE: f64 = 0.3;
 /// Letters without names at least that tell of a row or a column whose names are missing.
 const NAMELESS: usize = 2;
 
@@ -71,7 +73,7 @@ pub(super) fn share(
 }
 
 /// Columns and rows: of the cells that have names those of all ink, unless more of these cells have a letter in those of the ink that is no
-/// dust; of all cells where as many have one then and about as many others do, whose names are missing.
+/// dust, or no small letter; of all cells where as many have one then and about as many others do, whose names are missing.
 fn axes(
     all: &[Component],
     letters: &[usize],
@@ -98,9 +100,13 @@ fn axes(
         Some((x, y))
     };
     let ink: usize = letters.iter().map(|&i| all[i].area).sum();
-    let least = COUNTS * ink as f64 / places.len().max(1) as f64;
-    let large = letters.iter().copied();
-    let large: Vec<usize> = large.filter(|&i| all[i].area as f64 >= least).collect();
+    let usual = ink as f64 / places.len().max(1) as f64;
+    let above = |share: f64| -> Vec<usize> {
+        let pieces = letters.iter().copied();
+        let above = pieces.filter(|&i| all[i].area as f64 >= share * usual);
+        above.collect()
+    };
+    let large = above(COUNTS);
     // cells with a letter: those that have names, and others
     let held = |(x, y): &(Axis, Axis)| {
         let cells = large.iter().map(|&i| all[i].centre);
@@ -109,9 +115,11 @@ fn axes(
         let named = places.iter().filter(|p| cells.contains(p)).count();
         (named, cells.len() - named)
     };
-    let ours = fit(letters, false)?;
-    let clean = fit(&large, false).filter(|axes| held(axes).0 > held(&ours).0);
-    let ours = clean.unwrap_or(ours);
+    let mut ours = fit(letters, false)?;
+    for clean in [COUNTS, LARGE].map(above) {
+        let clean = fit(&clean, false).filter(|axes| held(axes).0 > held(&ours).0);
+        ours = clean.unwrap_or(ours);
+    }
     let whole = fit(letters, true).filter(|axes| {
         let (named, others) = held(axes);
         named >= held(&ours).0 && others >= NAMELESS.max(named / 2)

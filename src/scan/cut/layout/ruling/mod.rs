@@ -4,10 +4,12 @@
 //! lines', and so for its columns. What lies there goes, unless it has ink on both sides of the line, straight across or aslant:
 //! there the line crosses a letter. What a letter's edge encloses that runs along within the line stays too.
 
-use super::hidden::{self, Hidden};
+mod hidden;
+
 use crate::numeric::view::View;
 use crate::scan::components::Component;
 use crate::scan::whole::floor;
+use hidden::Hidden;
 use kurbo::Point;
 use std::ops::Range;
 
