@@ -246,6 +246,7 @@ fn usual_side(layer: &Layer, all: &[Component]) -> f64 {
     median(bodies.map(|i| side(&all[i]))).unwrap_or(0.0)
 }
 
+/// Its longer side, px.
 fn side(c: &Component) -> f64 {
     c.upright.width().max(c.upright.height())
 }
@@ -310,9 +311,8 @@ fn beside(c: &Component, body: &Component) -> bool {
 /// Whether a compact piece lies farther from all that is larger than so many times its length: what a pen's lift tears off a
 /// letter lies close to the rest, or is a stroke.
 fn apart(c: &Component, parts: &[usize], all: &[Component], times: f64) -> bool {
-    let length = c.upright.width().max(c.upright.height());
     let mut others = parts.iter().map(|&i| &all[i]).filter(|o| o.area > c.area);
-    is_dot(c) && !others.any(|o| c.is_near(o, times * length))
+    is_dot(c) && !others.any(|o| c.is_near(o, times * side(c)))
 }
 
 /// Whether a piece is hardly larger than the dots of its letter, and lies neither over, under nor in what is larger.

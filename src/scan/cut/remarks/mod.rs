@@ -54,7 +54,7 @@ pub(super) fn warnings(
     out
 }
 
-/// Warns of the cells whose ink is odd; `is_freed` says which pieces were cut off a printed box.
+/// Warns of the cells whose ink is odd; `is_freed` says which pieces were cut off printed lines.
 fn odd(
     slots: &[&Slot],
     all: &[Component],
