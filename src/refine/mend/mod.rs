@@ -36,7 +36,7 @@ use kurbo::{BezPath, Point, Rect, Shape};
 use part::changed;
 use place::{CHORD_PX, Look, Mended, NEAR_PX, Place};
 use std::mem;
-use tips::{ONE_PX, beyond, tip, trim};
+use tips::{ONE_PX, beyond, tip, trimmed};
 
 /// Directions that differ by less are one, radians.
 const SMOOTH: f64 = 0.0175;
@@ -58,6 +58,10 @@ const HINT: f64 = 0.3;
 const PASSES: usize = 4;
 /// One that was tried in vain is looked at again beside a change, or where the squares have changed by such a part.
 const NEW: f64 = 0.01;
+/// What is cut off a tip may leave so many squares more: a loop that no pixel holds leaves 0.2 at most, a lobe behind a narrow
+/// neck two and more. Where it leaves more the cut is tried so many steps nearer to the tip.
+const LOBE: f64 = 0.5;
+const LESS: usize = 4;
 /// How far the nodes around move, px, and what each px of the lens' deviation adds; and times this where that mends little.
 const REACH_PX: f64 = 6.0;
 const REACH_LENS: f64 = 2.0;
@@ -66,23 +70,19 @@ const WIDE: f64 = 2.0;
 /// The paths, changed where a few nodes explain the picture better, and with nodes at all extrema in the end.
 pub(super) fn mended(residual: &Residual<'_>, paths: &[BezPath]) -> Vec<BezPath> {
     let read = |p: &BezPath| Chain::from_path(p, SMOOTH);
-    let mut chains: Vec<Option<Chain>> = paths.iter().map(read).collect();
-    let ring = |(chain, path): (&mut Option<Chain>, &BezPath)| {
-        let trimmed = chain
-            .as_mut()
-            .and_then(|c| trim(c, ONE_PX).then(|| c.to_path()));
-        Ring::new(trimmed.unwrap_or_else(|| path.clone()))
-    };
-    let rings: Vec<Ring> = chains.iter_mut().zip(paths).map(ring).collect();
+    let rings: Vec<Ring> = paths.iter().map(|p| Ring::new(p.clone())).collect();
     let residual = residual.against(rings.iter().map(|r| r.chords.as_slice()));
     let mut work = Work {
         wrong: Wrong::new(&residual),
         reach: REACH_PX + REACH_LENS * residual.lens_px(),
         residual,
-        chains,
+        chains: paths.iter().map(read).collect(),
         rings,
         vain: Vec::new(),
     };
+    if work.trim(ONE_PX) {
+        work.wrong = Wrong::new(&work.residual);
+    }
     let mut more = work.pass() || !work.vain.is_empty();
     for _ in 1..PASSES {
         if !more {
@@ -96,15 +96,15 @@ pub(super) fn mended(residual: &Residual<'_>, paths: &[BezPath]) -> Vec<BezPath>
     work.sharpen();
     work.blunt();
     work.settle();
+    // sides that run close together do so for the pixels' sake now
+    work.trim(0.0);
     let finished = |(chain, ring): (Option<Chain>, Ring)| {
         let Some(mut chain) = chain else {
             return ring.path;
         };
-        // sides that run close together do so for the pixels' sake now
-        let trimmed = trim(&mut chain, 0.0);
         let before = chain.kinds.len();
         divide_at_extrema(&mut chain, 0.0);
-        if trimmed || chain.kinds.len() > before {
+        if chain.kinds.len() > before {
             chain.to_path()
         } else {
             ring.path
@@ -130,6 +130,42 @@ struct Work<'a> {
 }
 
 impl Work<'_> {
+    /// Cuts the ends off tips whose sides are no more than `one_px` apart or have crossed, where the picture does not ask for them.
+    /// Whether there were any.
+    fn trim(&mut self, one_px: f64) -> bool {
+        let mut trimmed = false;
+        for k in 0..self.chains.len() {
+            let mut kept = Vec::new();
+            let mut i = 0;
+            while let Some(chain) = self.chains[k].as_ref().filter(|c| i < c.nodes.len()) {
+                let at = chain.nodes[i].point;
+                if kept.contains(&at) {
+                    i += 1;
+                } else if self.shorten(k, i, one_px) {
+                    // the ring begins elsewhere now
+                    (i, trimmed) = (0, true);
+                } else {
+                    kept.push(at);
+                    i += 1;
+                }
+            }
+        }
+        trimmed
+    }
+
+    /// Cuts off as much of the end of corner `i` of ring `k` as is nothing to the picture; whether there is such.
+    fn shorten(&mut self, k: usize, i: usize, one_px: f64) -> bool {
+        let mut steps = usize::MAX;
+        let cut = |work: &Self, steps| trimmed(work.chains[k].as_ref()?, i, one_px, steps);
+        while let Some((shorter, last)) = cut(self, steps) {
+            if self.put(k, shorter, LOBE) {
+                return true;
+            }
+            steps = last.saturating_sub(LESS);
+        }
+        false
+    }
+
     /// Tries the places that are wrong, but not again where nothing is new; whether any was changed.
     fn pass(&mut self) -> bool {
         let near = |points: &[Point], p: Point, px: f64| points.iter().any(|q| q.distance(p) < px);
@@ -239,16 +275,25 @@ impl Work<'_> {
             Look::Bend | Look::Corner | Look::Tip => &reaches[..1],
         };
         let Mended { chain, moved } = reaches.iter().find_map(|r| place.mended(look, *r))?;
-        let bounds = changed(place.chain, &chain)?;
+        // what held it beyond its window may have been wrong
+        self.put(k, chain, look.more(self.wrong.grain))
+            .then_some(moved)
+    }
+
+    /// Puts a chain in the place of ring `k`, unless the squares grow by `more` or it is the same; whether it is there now.
+    fn put(&mut self, k: usize, chain: Chain, more: f64) -> bool {
+        let old = self.chains[k].as_ref();
+        let Some(bounds) = old.and_then(|old| changed(old, &chain)) else {
+            return false;
+        };
         let old = mem::replace(&mut self.rings[k], Ring::new(chain.to_path()));
-        if self.redraw(bounds) >= look.more(self.wrong.grain) {
-            // what held it beyond its window was wrong
-            self.rings[k] = old;
-            self.redraw(bounds);
-            return None;
+        if self.redraw(bounds) < more {
+            self.chains[k] = Some(chain);
+            return true;
         }
-        self.chains[k] = Some(chain);
-        Some(moved)
+        self.rings[k] = old;
+        self.redraw(bounds);
+        false
     }
 
     /// The worst of the nodes that went far from a place and left something wrong.

@@ -70,21 +70,11 @@ pub(super) fn is_needle(chain: &Chain, i: usize) -> bool {
     u.dot(v) > 0.0 && u.cross(v).abs() < NEEDLE
 }
 
-/// Cuts the ends off a ring's tips where their sides are no more than `one_px` apart or have crossed. Whether there were any.
-pub(super) fn trim(ring: &mut Chain, one_px: f64) -> bool {
-    let mut trimmed = false;
-    let mut i = 0;
-    while i < ring.nodes.len() {
-        match parting(ring, i, one_px) {
-            Some((before, after)) => {
-                *ring = cut(ring, i, (before, after));
-                // the ring begins elsewhere now
-                (i, trimmed) = (0, true);
-            }
-            None => i += 1,
-        }
-    }
-    trimmed
+/// The ring without the end of its corner `i`, cut off where its sides are no more than `one_px` apart last or cross, among their
+/// first `steps`; and the step of that place.
+pub(super) fn trimmed(ring: &Chain, i: usize, one_px: f64, steps: usize) -> Option<(Chain, usize)> {
+    let (last, ends) = parting(ring, i, one_px, steps)?;
+    Some((cut(ring, i, ends), last))
 }
 
 /// A place on a side: segments before it, counted from the tip, and the parameter in its own, away from the tip.
@@ -95,8 +85,8 @@ struct Place {
     at: Point,
 }
 
-/// Where the sides of corner `i` part, if they run on as one before or cross.
-fn parting(ring: &Chain, i: usize, one_px: f64) -> Option<(Place, Place)> {
+/// Where the sides of corner `i` part, if they run on as one before or cross; among their first `most` steps.
+fn parting(ring: &Chain, i: usize, one_px: f64, most: usize) -> Option<(usize, (Place, Place))> {
     let acute = tip(ring, i).is_some();
     if ring.nodes[i].join != Join::Corner {
         return None;
@@ -118,13 +108,13 @@ fn parting(ring: &Chain, i: usize, one_px: f64) -> Option<(Place, Place)> {
                 || cross((p, q), (a.at, b.at))
         })
     };
-    let count = before.len().saturating_sub(1).min(longest);
-    let first = || (acute && turns(ring, i, (&before, &after))).then_some(0);
+    let count = before.len().saturating_sub(1).min(longest).min(most);
+    let first = || (most > 0 && acute && turns(ring, i, (&before, &after))).then_some(0);
     let last = (0..count).rev().find(touches).or_else(first)?;
     let parted = before[last + 1];
     let off = |o: &&Place| o.at.distance(parted.at);
     let near = after.iter().min_by(|a, b| off(a).total_cmp(&off(b)))?;
-    Some((parted, *near))
+    Some((last, (parted, *near)))
 }
 
 /// Whether the sides of corner `i` have changed places after their first step.
