@@ -14,6 +14,7 @@
 mod blunt;
 mod comparison;
 mod corners;
+mod crossings;
 mod curves;
 mod mend;
 mod nodes;

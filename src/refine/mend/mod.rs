@@ -5,6 +5,8 @@
 //! | here | paths and the picture | places that are wrong, the worst first; levels read again between looks |
 //! | [`place`] | a place | the part of its path whose nodes are near, put back where that explains enough more |
 //! | [`structure`] | an open part | the [`variants`] of its nodes and corners that leave least |
+//! | [`beside`] | a structure | whether it crosses what is around it |
+//! | [`tangle`] | paths as they came and are | those that cross now mended once more, without that |
 //! | [`window`] | a structure | its nodes by least squares of the pixels around |
 //! | [`ends`] | a path's corner | whether its end may be cut off |
 //! | [`bends`] | a path | its tight bends, and the corners that may stand in their place |
@@ -16,12 +18,14 @@
 //! lose their ends, where the pixels ask for it; tips come last.
 
 mod bends;
+mod beside;
 mod ends;
 mod fair;
 mod part;
 mod place;
 mod side;
 mod structure;
+mod tangle;
 #[cfg(test)]
 mod tests;
 mod tips;
@@ -36,6 +40,7 @@ use kurbo::{BezPath, Point, Rect, Shape};
 use part::changed;
 use place::{CHORD_PX, Look, Mended, NEAR_PX, Place};
 use std::mem;
+use tangle::Crossing;
 use tips::{ONE_PX, beyond, tip, trimmed};
 
 /// Directions that differ by less are one, radians.
@@ -69,52 +74,10 @@ const WIDE: f64 = 2.0;
 
 /// The paths, changed where a few nodes explain the picture better, and with nodes at all extrema in the end.
 pub(super) fn mended(residual: &Residual<'_>, paths: &[BezPath]) -> Vec<BezPath> {
-    let read = |p: &BezPath| Chain::from_path(p, SMOOTH);
-    let rings: Vec<Ring> = paths.iter().map(|p| Ring::new(p.clone())).collect();
-    let residual = residual.against(rings.iter().map(|r| r.chords.as_slice()));
-    let mut work = Work {
-        wrong: Wrong::new(&residual),
-        reach: REACH_PX + REACH_LENS * residual.lens_px(),
-        residual,
-        chains: paths.iter().map(read).collect(),
-        rings,
-        vain: Vec::new(),
-    };
-    if work.trim(ONE_PX) {
-        work.wrong = Wrong::new(&work.residual);
-    }
-    let mut more = work.pass() || !work.vain.is_empty();
-    for _ in 1..PASSES {
-        if !more {
-            break;
-        }
-        // what a path does not follow yet has passed for a level
-        let chains = work.chains.iter().flatten();
-        work.residual.level(chains.flat_map(beyond));
-        more = work.pass();
-    }
-    work.sharpen();
-    work.blunt();
-    work.settle();
-    // sides that run close together do so for the pixels' sake now
-    work.trim(0.0);
-    let finished = |(chain, ring): (Option<Chain>, Ring)| {
-        let Some(mut chain) = chain else {
-            return ring.path;
-        };
-        let before = chain.kinds.len();
-        divide_at_extrema(&mut chain, 0.0);
-        if chain.kinds.len() > before {
-            chain.to_path()
-        } else {
-            ring.path
-        }
-    };
-    work.chains
-        .into_iter()
-        .zip(work.rings)
-        .map(finished)
-        .collect()
+    let mut work = Work::new(residual, paths);
+    work.mend();
+    work.untangle(paths);
+    work.finished()
 }
 
 /// Paths on their way.
@@ -127,9 +90,66 @@ struct Work<'a> {
     rings: Vec<Ring>,
     /// places that were tried in vain, and the squares around them then
     vain: Vec<(Point, f64)>,
+    crossing: Crossing,
+}
+
+impl<'a> Work<'a> {
+    fn new(residual: &'a Residual<'_>, paths: &[BezPath]) -> Self {
+        let rings = rings(paths);
+        let residual = residual.against(rings.iter().map(|r| r.chords.as_slice()));
+        Self {
+            wrong: Wrong::new(&residual),
+            reach: REACH_PX + REACH_LENS * residual.lens_px(),
+            residual,
+            chains: paths.iter().map(read).collect(),
+            rings,
+            vain: Vec::new(),
+            crossing: Crossing::OnTheWay,
+        }
+    }
 }
 
 impl Work<'_> {
+    /// All steps.
+    fn mend(&mut self) {
+        if self.trim(ONE_PX) {
+            self.wrong = Wrong::new(&self.residual);
+        }
+        let mut more = self.pass() || !self.vain.is_empty();
+        for _ in 1..PASSES {
+            if !more {
+                break;
+            }
+            // what a path does not follow yet has passed for a level
+            let chains = self.chains.iter().flatten();
+            self.residual.level(chains.flat_map(beyond));
+            more = self.pass();
+        }
+        self.sharpen();
+        self.blunt();
+        self.settle();
+        // sides that run close together do so for the pixels' sake now
+        self.trim(0.0);
+    }
+
+    /// The paths as they are, with nodes at all extrema.
+    fn finished(self) -> Vec<BezPath> {
+        let finished = |(chain, ring): (Option<Chain>, Ring)| {
+            let Some(mut chain) = chain else {
+                return ring.path;
+            };
+            let before = chain.kinds.len();
+            divide_at_extrema(&mut chain, 0.0);
+            if chain.kinds.len() > before {
+                chain.to_path()
+            } else {
+                ring.path
+            }
+        };
+        let both = self.chains.into_iter().zip(self.rings);
+        both.map(finished).collect()
+    }
+
     /// Cuts the ends off tips whose sides are no more than `one_px` apart or have crossed, where the picture does not ask for them.
     /// Whether there were any.
     fn trim(&mut self, one_px: f64) -> bool {
@@ -216,8 +236,7 @@ impl Work<'_> {
             round += usize::from(self.change(k, at, Look::Bend).is_none());
             if 2 * round >= places.len() {
                 (self.chains, self.rings) = before;
-                let rings = self.rings.iter().map(|r| r.chords.as_slice());
-                self.residual.update(rings);
+                self.redraw_all();
                 return;
             }
         }
@@ -268,6 +287,7 @@ impl Work<'_> {
             at,
             rings: (&self.rings, k),
             grain: self.wrong.grain,
+            crossing: self.crossing,
         };
         let reaches = [self.reach, WIDE * self.reach];
         let reaches = match look {
@@ -280,19 +300,24 @@ impl Work<'_> {
             .then_some(moved)
     }
 
-    /// Puts a chain in the place of ring `k`, unless the squares grow by `more` or it is the same; whether it is there now.
+    /// Puts a chain in the place of ring `k`, unless the squares grow by `more`, outlines cross that did not, or it is
+    /// the same; whether it is there now.
     fn put(&mut self, k: usize, chain: Chain, more: f64) -> bool {
         let old = self.chains[k].as_ref();
         let Some(bounds) = old.and_then(|old| changed(old, &chain)) else {
             return false;
         };
+        let crossed = self.crossed(bounds);
         let old = mem::replace(&mut self.rings[k], Ring::new(chain.to_path()));
-        if self.redraw(bounds) < more {
+        let clear = self.crossed(bounds) <= crossed;
+        if clear && self.redraw(bounds) < more {
             self.chains[k] = Some(chain);
             return true;
         }
         self.rings[k] = old;
-        self.redraw(bounds);
+        if clear {
+            self.redraw(bounds);
+        }
         false
     }
 
@@ -310,10 +335,23 @@ impl Work<'_> {
         self.residual.redraw(bounds, rings)
     }
 
+    fn redraw_all(&mut self) {
+        let rings = self.rings.iter().map(|r| r.chords.as_slice());
+        self.residual.update(rings);
+    }
+
     /// Squares around a place.
     fn left(&self, p: Point) -> f64 {
         self.residual.squares(p, NEAR_PX)
     }
+}
+
+fn read(path: &BezPath) -> Option<Chain> {
+    Chain::from_path(path, SMOOTH)
+}
+
+fn rings(paths: &[BezPath]) -> Vec<Ring> {
+    paths.iter().map(|p| Ring::new(p.clone())).collect()
 }
 
 /// A closed path as chords that come back to its start.

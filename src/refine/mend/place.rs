@@ -2,9 +2,11 @@
 
 use super::{
     Ring,
+    beside::Beside,
     fair::is_fair,
     part::{begun_at, open_part, put_back},
     structure::{FAR, Search},
+    tangle::Crossing,
     tips::has_tip,
     window::Window,
 };
@@ -82,6 +84,7 @@ pub(super) struct Place<'a> {
     pub(super) rings: (&'a [Ring], usize),
     /// mean square of the differences that mean nothing
     pub(super) grain: f64,
+    pub(super) crossing: Crossing,
 }
 
 impl Place<'_> {
@@ -98,6 +101,7 @@ impl Place<'_> {
             at: self.at,
             reach,
             grain: self.grain,
+            beside: self.beside((&ring, &part), FAR * reach),
         };
         let best = match look {
             Look::Wrong => search.best(),
@@ -163,14 +167,26 @@ impl Place<'_> {
 
     /// The window in which a `part` moves, the first segments of a chain that is turned to begin with it.
     fn window(&self, (chain, part): (&Chain, &Chain), reach: f64) -> Window {
-        let rest = chain.part(part.kinds.len()..chain.kinds.len());
-        let rest = polygon(&rest.to_path(), CHORD_PX);
+        let rest = rest(chain, part);
+        let lines = self.others(reach).chain([&*rest]);
+        Window::new(self.residual, (self.at, reach), lines, part, self.grain)
+    }
+
+    /// What such a `part` may not cross, if it may not.
+    fn beside(&self, (chain, part): (&Chain, &Chain), reach: f64) -> Option<Beside> {
+        let rest = rest(chain, part);
+        let lines = self.others(reach).chain([&*rest]);
+        let bounds = Window::bounds(self.residual, (self.at, reach));
+        (self.crossing == Crossing::Never).then(|| Beside::new(lines, part, bounds))
+    }
+
+    /// The other rings that a window can see.
+    fn others(&self, reach: f64) -> impl Iterator<Item = &[Point]> {
         let (rings, own) = self.rings;
         let around = Window::bounds(self.residual, (self.at, reach));
         let others = rings.iter().enumerate();
-        let others = others.filter(|(k, r)| *k != own && r.bounds.overlaps(around));
-        let lines = others.map(|(_, r)| r.chords.as_slice()).chain([&*rest]);
-        Window::new(self.residual, (self.at, reach), lines, part, self.grain)
+        let others = others.filter(move |(k, r)| *k != own && r.bounds.overlaps(around));
+        others.map(|(_, r)| r.chords.as_slice())
     }
 
     /// The first segment of those that may move, and how many they are: those that end in a node within `reach` px, and
@@ -209,4 +225,10 @@ impl Place<'_> {
         }
         Some(((nearest + n - before - 1) % n, before + after + 2))
     }
+}
+
+/// What of a chain that begins with a `part` is not in it, as chords.
+fn rest(chain: &Chain, part: &Chain) -> Vec<Point> {
+    let rest = chain.part(part.kinds.len()..chain.kinds.len());
+    polygon(&rest.to_path(), CHORD_PX)
 }

@@ -3,6 +3,7 @@
 use super::{
     WRONG,
     bends::{cornered, is_cornered, is_sharp},
+    beside::Beside,
     ends::is_blunt,
     fair::is_fair,
     tips::{has_tip, tip},
@@ -47,6 +48,8 @@ pub(super) struct Search<'a> {
     pub(super) reach: f64,
     /// mean square of the differences that mean nothing
     pub(super) grain: f64,
+    /// what no structure may cross
+    pub(super) beside: Option<Beside>,
 }
 
 /// A structure, fit.
@@ -227,7 +230,8 @@ impl Search<'_> {
                 (0..self.part.kinds.len()).any(|s| off(s) < HOME_PX * HOME_PX)
             }
         };
-        (1..chain.kinds.len()).all(home) && is_fair(chain)
+        let clear = || self.beside.as_ref().is_none_or(|b| b.is_clear(chain));
+        (1..chain.kinds.len()).all(home) && is_fair(chain) && clear()
     }
 
     fn is_explained(&self, fitted: &Fitted) -> bool {

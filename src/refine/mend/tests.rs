@@ -1,7 +1,8 @@
 use super::{
-    SMOOTH,
+    Ring, SMOOTH, Work,
     bends::tight_bends,
     part::open_part,
+    tangle::Crossing,
     tips::{ONE_PX, is_needle, trimmed},
     variants::variants,
 };
@@ -13,6 +14,7 @@ use crate::{
     refine::{
         Comparison,
         curves::polygon,
+        residual::Residual,
         tests::{notched, photograph, picture, rounded, square},
     },
     types::{Contour, Gray},
@@ -263,6 +265,48 @@ fn a_lobe_behind_a_narrow_neck_stays_and_a_loop_that_no_pixel_holds_goes() {
             let off = apart(&got, drawn);
             assert!(off < 0.2, "{name}, lens {lens}: {off} {}", got.to_svg());
         }
+    }
+}
+
+#[test]
+fn outlines_that_cross_and_did_not_are_mended_without_that() {
+    for lens in [0.0, 0.9] {
+        let gray = photograph(&square(), lens);
+        let began = [rounded(3.5)];
+        let chords = polygon(&began[0], 0.01);
+        let blur = Contour::PIXEL_BLUR_PX.hypot(lens);
+        let residual = Residual::new(&gray, [&*chords].into_iter(), blur);
+        for (tangled, again) in [
+            ("M8.2 8.4L40.3 8.4L8.2 40.1L40.3 40.1Z", true),
+            ("M8.2 8.4L40.3 8.4L40.3 40.1L20.2 44.1Z", false),
+        ] {
+            let tangled = BezPath::from_svg(tangled).unwrap();
+            let mut work = Work::new(&residual, &began);
+            work.chains[0] = Chain::from_path(&tangled, SMOOTH);
+            work.rings[0] = Ring::new(tangled.clone());
+            work.redraw_all();
+            work.untangle(&began);
+            let got = work.finished().remove(0);
+            let expected = if again { square() } else { tangled };
+            let off = apart(&got, &expected);
+            assert!(off < 0.05, "lens {lens}: {off} {}", got.to_svg());
+        }
+    }
+}
+
+#[test]
+fn no_chain_is_put_that_crosses_where_none_may() {
+    let gray = photograph(&square(), 0.0);
+    let chords = polygon(&square(), 0.01);
+    let residual = Residual::new(&gray, [&*chords].into_iter(), Contour::PIXEL_BLUR_PX);
+    let bow = BezPath::from_svg("M8.2 8.4L40.3 8.4L8.2 40.1L40.3 40.1Z").unwrap();
+    let bow = Chain::from_path(&bow, SMOOTH).unwrap();
+    for (crossing, put) in [(Crossing::OnTheWay, true), (Crossing::Never, false)] {
+        let mut work = Work::new(&residual, &[square()]);
+        work.crossing = crossing;
+        assert_eq!(work.put(0, bow.clone(), f64::INFINITY), put);
+        let stays = work.finished() == [square()];
+        assert_eq!(stays, !put);
     }
 }
 

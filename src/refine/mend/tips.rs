@@ -9,7 +9,10 @@ use crate::{
         cast::index,
         chain::{Chain, Join, Node},
     },
-    refine::curves::{arriving, leaving, polygon_px},
+    refine::{
+        crossings::cross,
+        curves::{arriving, leaving, polygon_px},
+    },
 };
 use kurbo::{CubicBez, Line, ParamCurve, ParamCurveNearest, Point, Vec2};
 
@@ -124,12 +127,6 @@ fn turns(ring: &Chain, i: usize, (before, after): (&[Place], &[Place])) -> bool 
     };
     let at = ring.nodes[i].point;
     (-u).cross(v) * (a.at - at).cross(b.at - at) < 0.0
-}
-
-/// Whether two chords cross.
-fn cross((a, b): (Point, Point), (c, d): (Point, Point)) -> bool {
-    let side = |p: Point, q: Point, r: Point| (q - p).cross(r - p) > 0.0;
-    side(a, b, c) != side(a, b, d) && side(c, d, a) != side(c, d, b)
 }
 
 /// Places along curves that follow each other away from a tip.

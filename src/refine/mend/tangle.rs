@@ -1,0 +1,64 @@
+//! Outlines that cross each other or themselves, and did not before they were mended.
+//!
+//! On the way to what explains a picture best they may: what crosses there is mostly cut off, or pulled apart again, and few
+//! places are mended as well without that.
+
+use super::{Ring, Work, read, rings};
+use crate::refine::crossings::crossings;
+use kurbo::{BezPath, Rect};
+
+/// Whether outlines may cross that did not.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Crossing {
+    OnTheWay,
+    Never,
+}
+
+impl Work<'_> {
+    /// Mends those rings once more that cross and did not in `paths`, now without crossing on the way.
+    pub(super) fn untangle(&mut self, paths: &[BezPath]) {
+        let first = rings(paths);
+        let drawn = crossed(&first, None);
+        let mut tangled = crossed(&self.rings, None);
+        let count = tangled.len();
+        tangled.retain(|pair| !drawn.contains(pair));
+        let again = |k: usize| tangled.iter().flatten().any(|t| *t == k);
+        if tangled.is_empty() {
+            return;
+        }
+        let before = (self.chains.clone(), self.rings.clone());
+        for (k, (path, ring)) in paths.iter().zip(first).enumerate() {
+            if again(k) {
+                (self.chains[k], self.rings[k]) = (read(path), ring);
+            } else {
+                // those stay
+                self.chains[k] = None;
+            }
+        }
+        self.redraw_all();
+        self.vain.clear();
+        self.crossing = Crossing::Never;
+        self.mend();
+        let (chains, rings) = before;
+        if crossed(&self.rings, None).len() >= count {
+            (self.chains, self.rings) = (chains, rings);
+            return;
+        }
+        for (k, chain) in chains.into_iter().enumerate().filter(|(k, _)| !again(*k)) {
+            self.chains[k] = chain;
+        }
+    }
+
+    /// How often outlines cross there, if that counts.
+    pub(super) fn crossed(&self, bounds: Rect) -> usize {
+        match self.crossing {
+            Crossing::OnTheWay => 0,
+            Crossing::Never => crossed(&self.rings, Some(bounds)).len(),
+        }
+    }
+}
+
+/// The crossings of rings, as pairs of their indices: within `bounds`, where there are such.
+fn crossed(rings: &[Ring], bounds: Option<Rect>) -> Vec<[usize; 2]> {
+    crossings(rings.iter().map(|r| r.chords.as_slice()), bounds)
+}
