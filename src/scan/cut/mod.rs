@@ -7,7 +7,7 @@
 //! | `sieve` | pieces of ink that may be letters are told from dust, borders and other inks |
 //! | `pins` | what a user says of single letters takes its ink first, and stands over all that is found |
 //! | `layout` | pieces become letters in reading order: cells of a grid, printed boxes, rows of a bare page |
-//! | `marks` | dots smaller than dust may be come back, dust as large as dots goes |
+//! | `marks` | dots in another letter's cell, or smaller than dust may be, come back; dust as large as dots goes |
 //! | `guides` | baselines of the rows, and the size of the em |
 //! | `stance`, `remarks` | whether letters stand as their names say, and what a user should look at |
 //! | `window` | each letter's own picture, upright |
@@ -250,6 +250,7 @@ pub fn cut_with(
     pins::settle(&mut layer, &claims);
     let stroke = stroke_width(&all);
     marks::reclaim(&mut layer, &all);
+    marks::restore(&mut layer, &all, &claims);
     let freed = whole..all.len();
     small.iter_mut().for_each(|c| c.stand(&upright));
     let specks = specks - marks::give(&mut layer, &mut all, small, sieve::dot_limit(stroke));

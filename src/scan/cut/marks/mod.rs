@@ -6,8 +6,10 @@
 //! and one that is drawn in one piece has none of them, but a thin end that is parted from its stroke. How large a dot is,
 //! the page's letters of one dot say.
 
+mod lost;
 mod small;
 
+pub(super) use lost::{reclaim, restore};
 pub(super) use small::{SMALL, group};
 
 use super::{Layer, Reason, Slot, gap};
@@ -433,34 +435,6 @@ fn is_dot(c: &Component) -> bool {
 fn is_compact(c: &Component, times: f64) -> bool {
     let (w, h) = (c.upright.width(), c.upright.height());
     w.max(h) < times * w.min(h) && c.area as f64 > COMPACT.1 * w * h
-}
-
-/// Gives letters that have none of the signs which their names say what lies beside the grid, close over or under them.
-pub(super) fn reclaim(layer: &mut Layer, all: &[Component]) {
-    let names = GlyphData::default();
-    for slot in &mut layer.slots {
-        let pieces = Shape::of(&slot.label, &names).pieces;
-        let &[body] = slot.parts.as_slice() else {
-            continue;
-        };
-        if matches!(
-            pieces,
-            Pieces::One | Pieces::Unknown | Pieces::Within | Pieces::Bare
-        ) {
-            continue;
-        }
-        let own = &all[body];
-        let is_sign = |&(i, reason): &(usize, Reason)| {
-            let sign = &all[i];
-            let over = sign.upright.x0 < own.upright.x1 && sign.upright.x1 > own.upright.x0;
-            let near = gap(sign.upright, own.upright) < REACH * own.upright.height();
-            reason == Reason::Outside && over && near && sign.area < own.area
-        };
-        let (signs, rest) = layer.rejected.iter().partition(|r| is_sign(r));
-        let signs: Vec<(usize, Reason)> = signs;
-        layer.rejected = rest;
-        slot.parts.extend(signs.into_iter().map(|s| s.0));
-    }
 }
 
 /// Gives small pieces of ink, in no slot so far, to the letters that want them: they go to the end of `all`. Returns how many. Those

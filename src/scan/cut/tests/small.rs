@@ -268,3 +268,24 @@ fn printed_lines_do_not_say_how_thick_strokes_are() {
     let width = stroke_width(&components(&page.sheet.gray, LOW, SEED));
     assert!((8.0..13.0).contains(&width), "{width}");
 }
+
+#[test]
+fn a_dot_nearer_to_the_row_before_is_that_letters_whose_name_has_it() {
+    // the second letter of the first row reaches down to 4 px over the dot of the one below it, which is 12 px away
+    for (under, keeps) in [("ن", true), ("د", false)] {
+        let mut paper = Paper::new(600, 400, 0.0);
+        for x in [60.0, 200.0, 340.0, 480.0] {
+            for y in [100.0, 180.0, 260.0] {
+                paper.letter('n', x, y);
+            }
+            paper.bar(x + 10.0, 130.0, 8.0, 8.0);
+            paper.bar(x + 10.0, 210.0, 8.0, 8.0);
+        }
+        paper.bar(222.0, 100.0, 6.0, 26.0);
+        let names = format!("د د د د ن {under} ن ن ن ن ن ن");
+        let cut = cut_page(&paper, &names, &options(Layout::Grid(3, 4))).unwrap();
+        let high = |i: usize| cut.cells[i].in_sheet.height().round();
+        assert!(high(4) > 40.0 && high(6) > 40.0, "{under}");
+        assert_eq!(high(5) > 40.0, keeps, "{under}: {}", high(5));
+    }
+}
