@@ -85,7 +85,7 @@ struct Work<'a> {
     residual: Residual<'a>,
     wrong: Wrong,
     reach: f64,
-    /// those of which no chain could be read stay
+    /// rings of which there is none, or none could be read, stay
     chains: Vec<Option<Chain>>,
     rings: Vec<Ring>,
     /// places that were tried in vain, and the squares around them then
@@ -191,7 +191,12 @@ impl Work<'_> {
         let near = |points: &[Point], p: Point, px: f64| points.iter().any(|q| q.distance(p) < px);
         let (mut tried, mut changed) = (Vec::new(), Vec::new());
         for (k, p) in self.wrong.places(&self.residual, &self.rings) {
-            if self.left(p) <= self.wrong.least || near(&tried, p, SAME_PX) || self.is_known(p) {
+            let stays = self.chains[k].is_none();
+            if stays
+                || self.left(p) <= self.wrong.least
+                || near(&tried, p, SAME_PX)
+                || self.is_known(p)
+            {
                 continue;
             }
             if tried.len() >= MOST {

@@ -174,10 +174,13 @@ impl Place<'_> {
 
     /// What such a `part` may not cross, if it may not.
     fn beside(&self, (chain, part): (&Chain, &Chain), reach: f64) -> Option<Beside> {
+        if self.crossing == Crossing::OnTheWay {
+            return None;
+        }
         let rest = rest(chain, part);
         let lines = self.others(reach).chain([&*rest]);
         let bounds = Window::bounds(self.residual, (self.at, reach));
-        (self.crossing == Crossing::Never).then(|| Beside::new(lines, part, bounds))
+        Some(Beside::new(lines, part, bounds))
     }
 
     /// The other rings that a window can see.
