@@ -1,0 +1,103 @@
+#!/usr/bin/env python3
+"""Many fonts traced: how many are within each limit, and which outlines cross where the font's do not.
+
+    python3 tests/bench/outlines.py --khatt target/release/khatt --bench ../shared/bench web-fonts/*.ttf
+
+Pictures, comparison and limits are those of outline_bench.py; of a font with Arabic letters those are drawn, of others the
+Latin ones. Needs shapely beside what that script needs.
+"""
+import argparse, collections, os, subprocess, sys, tempfile
+from multiprocessing import Pool
+
+LIMITS = {"clean": (0.05, 0.6), "scan": (0.10, 1.0)}
+WORST, CORNERS = 3, 0.96
+WHAT = ("mean", "median max", "worst", "corner F1")
+
+
+def crosses(polygons):
+    from shapely.geometry import LinearRing
+
+    rings = [LinearRing(polygon) for polygon in polygons if len(polygon) > 2]
+    pairs = ((a, b) for k, a in enumerate(rings) for b in rings[:k])
+    return any(not ring.is_simple for ring in rings) or any(a.crosses(b) for a, b in pairs)
+
+
+def pictures(task):
+    """The rows of a font: character, condition, its comparison or none, whether the tracing crosses and whether the font does."""
+    import outline_bench as bench
+    from fontTools.ttLib import TTFont
+    from PIL import Image
+
+    khatt, path, ppem = task
+    font = TTFont(path)
+    glyphs, cmap, upem = font.getGlyphSet(), font.getBestCmap(), font["head"].unitsPerEm
+    rows = []
+    with tempfile.TemporaryDirectory() as folder:
+        picture, svg = os.path.join(folder, "in.png"), os.path.join(folder, "out.svg")
+        for char in bench.charset("arabic" if ord("ع") in cmap else "latin"):
+            true = ord(char) in cmap and bench.true_outline(font, glyphs, cmap[ord(char)])
+            if not true:
+                continue
+            drawn = crosses(bench.flatten(true, 0.5))
+            for condition in LIMITS:
+                image, (scale, left, foot) = bench.render(true, upem, ppem, 20, condition, ord(char))
+                Image.fromarray(image).save(picture)
+                run = subprocess.run([khatt, "--quiet", "trace", picture, "-o", svg], capture_output=True)
+                if run.returncode:
+                    rows.append((char, condition, None, False, drawn))
+                    continue
+                got = bench.svg_contours(open(svg).read())
+                tangled = crosses(bench.flatten(got, 0.05))
+                got = [[tuple(((x - left) / scale, (foot - y) / scale) for x, y in s) for s in c] for c in got]
+                found = bench.compare(true, bench.clean(got, upem * 2e-4), upem, ppem)
+                rows.append((char, condition, found, tangled, drawn))
+    return os.path.basename(path), rows
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--khatt", required=True)
+    parser.add_argument("--bench", required=True, help="folder of outline_bench.py")
+    parser.add_argument("--ppem", type=int, default=500)
+    parser.add_argument("font", nargs="+")
+    args = parser.parse_args()
+    sys.path.insert(0, args.bench)
+    import numpy as np
+
+    with Pool() as pool:
+        fonts = list(pool.imap(pictures, [(args.khatt, path, args.ppem) for path in args.font]))
+    print("| picture | fonts | mean | median max | worst | corner F1 | means and median maxima, median of the fonts |")
+    print("|---|---|---|---|---|---|---|")
+    beyond = collections.defaultdict(list)
+    for condition, (most, most_median) in LIMITS.items():
+        figures = []
+        for name, rows in fonts:
+            found = [row[2] for row in rows if row[1] == condition and row[2]]
+            largest = [f["max"] for f in found]
+            corners = [f["corner_f1"] for f in found if f["corner_f1"] is not None]
+            row = np.mean([f["mean"] for f in found]), np.median(largest), max(largest), np.mean(corners)
+            figures.append(row)
+            within = row[0] <= most, row[1] <= most_median, row[2] <= WORST, row[3] >= CORNERS
+            for what, value, held in zip(WHAT, row, within):
+                if not held:
+                    beyond[condition, what].append(f"{name} {value:.3f}")
+        counts = [len(figures) - len(beyond[condition, what]) for what in WHAT]
+        medians = np.median([f[0] for f in figures]), np.median([f[1] for f in figures])
+        print(f"| {condition} | {len(fonts)} | {' | '.join(map(str, counts))} | {medians[0]:.3f}, {medians[1]:.2f} |")
+    rows = [(name, *row) for name, rows in fonts for row in rows]
+    found = [row for row in rows if row[3]]
+    over = [row for row in found if row[3]["max"] > WORST]
+    print(
+        f"\n{len(rows)} pictures, {len(rows) - len(found)} failed; mean {np.mean([r[3]['mean'] for r in found]):.4f}, mean of the "
+        f"maxima {np.mean([r[3]['max'] for r in found]):.4f}, above {WORST}: {len(over)}, of them {sum(r[5] for r in over)} of glyphs "
+        f"that cross themselves (of {len({r[:2] for r in rows})} glyphs {len({r[:2] for r in rows if r[5]})} do)"
+    )
+    new = [f"{name} {char} {condition}" for name, char, condition, _, tangled, drawn in rows if tangled and not drawn]
+    print(f"cross where the font's outlines do not: {len(new)}: {', '.join(new)}")
+    for (condition, what), names in beyond.items():
+        if names:
+            print(f"{condition}, beyond the limit of {what}: {', '.join(names)}")
+
+
+if __name__ == "__main__":
+    main()
