@@ -73,6 +73,8 @@ def main():
         figures = []
         for name, rows in fonts:
             found = [row[2] for row in rows if row[1] == condition and row[2]]
+            if not found:
+                sys.exit(f"{name}: no letter of it was traced ({condition})")
             largest = [f["max"] for f in found]
             corners = [f["corner_f1"] for f in found if f["corner_f1"] is not None]
             row = np.mean([f["mean"] for f in found]), np.median(largest), max(largest), np.mean(corners)
