@@ -7,6 +7,7 @@ pub mod cast;
 pub mod chain;
 pub mod coverage;
 pub mod distance;
+pub mod iso;
 pub mod joins;
 pub mod levels;
 pub mod median;

@@ -29,6 +29,8 @@ pub(super) struct Component {
     pub(super) upright: Rect,
     /// Centre of gravity in the upright page, px.
     pub(super) centre: Point,
+    /// Pixels of which only a share is its, where its edge runs beneath another letter's ink: column, row and share.
+    pub(super) shares: Vec<(usize, usize, f32)>,
 }
 
 impl Component {
@@ -39,6 +41,7 @@ impl Component {
             bounds: Rect::ZERO,
             upright: Rect::ZERO,
             centre: Point::ORIGIN,
+            shares: Vec::new(),
             runs,
         };
         let rows = new.runs.iter().map(|r| r.y as f64);
@@ -119,6 +122,19 @@ impl Component {
         self.pieces(&left)
     }
 
+    /// The pieces of what is left where only a share of each pixel is.
+    pub(super) fn shared(&self, share: impl Fn(usize, usize) -> f32) -> Vec<Self> {
+        let of = |(x, y): (usize, usize)| (x, y, share(x, y));
+        let some = self.pixels().map(of).filter(|p| p.2 < 1.0);
+        let shares: Vec<(usize, usize, f32)> = some.collect();
+        let mut pieces = self.without(|x, y| share(x, y) <= 0.0);
+        for piece in &mut pieces {
+            let own = shares.iter().copied();
+            piece.shares = own.filter(|(x, y, _)| piece.covers(*x, *y)).collect();
+        }
+        pieces
+    }
+
     /// Its runs outside and inside of something.
     fn sides(&self, inside: impl Fn(usize, usize) -> bool) -> [Vec<Run>; 2] {
         let mut sides = [Vec::new(), Vec::new()];
@@ -142,7 +158,10 @@ impl Component {
         let pieces = groups.map(|g| {
             let runs: Vec<Run> = g.into_iter().map(|i| runs[i]).collect();
             let area: usize = runs.iter().map(|r| r.end - r.start).sum();
-            Self::new(runs, floor(full * area as f64))
+            let mut piece = Self::new(runs, floor(full * area as f64));
+            let own = self.shares.iter().copied();
+            piece.shares = own.filter(|(x, y, _)| piece.covers(*x, *y)).collect();
+            piece
         });
         pieces.collect()
     }

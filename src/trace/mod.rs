@@ -11,7 +11,6 @@
 
 mod chain;
 mod edge;
-mod iso;
 mod levels;
 mod ragged;
 #[cfg(test)]
@@ -19,7 +18,7 @@ mod tests;
 mod thin;
 
 use crate::{
-    numeric::cast::index,
+    numeric::iso,
     types::{Contour, Gray},
 };
 use kurbo::Point;
@@ -63,14 +62,12 @@ impl Default for Options {
 
 /// Distance between neighbouring points, px: a little denser than the pixels they come from.
 const SPACING_PX: f64 = 0.8;
-/// Even the smallest ring has this many points.
-const MIN_POINTS: usize = 16;
 
 /// The contours of a picture's ink, evenly sampled, with the blur of the picture's edges.
 #[must_use]
 pub fn trace(gray: &Gray, options: &Options) -> Vec<Contour> {
     let rings = match options.boundary {
-        Boundary::Iso => iso::rings(gray, options.level),
+        Boundary::Iso => rings_at(gray, options.level),
         Boundary::Chain => {
             let rings = chain::rings(gray, options.level).into_iter();
             return large(rings, options).collect();
@@ -81,12 +78,17 @@ pub fn trace(gray: &Gray, options: &Options) -> Vec<Contour> {
         .collect();
     let blur = edge::blur_px(gray, &even);
     if let Some(lifted) = thin::lifted(gray, options.level, blur) {
-        let rings = iso::rings(&lifted, options.level).into_iter();
+        let rings = rings_at(&lifted, options.level).into_iter();
         even = large(rings, options).filter_map(spaced).collect();
     }
     let ragged = ragged::ragged_px(&even);
     let told = |c: Contour| c.with_blur(blur).with_ragged(ragged);
     even.into_iter().map(told).collect()
+}
+
+/// The rings around ink of at least `level`.
+fn rings_at(gray: &Gray, level: f64) -> Vec<Vec<Point>> {
+    iso::rings((gray.width(), gray.height()), |x, y| gray.at(x, y), level)
 }
 
 /// The contours of rings that are no dust.
@@ -100,23 +102,5 @@ fn large<'o>(
 
 /// The contour with points [`SPACING_PX`] apart.
 fn spaced(contour: Contour) -> Option<Contour> {
-    Contour::new(even(contour.points())).ok()
-}
-
-/// The same ring with points [`SPACING_PX`] apart.
-fn even(ring: &[Point]) -> Vec<Point> {
-    let edges = || ring.iter().zip(ring.iter().cycle().skip(1));
-    let length: f64 = edges().map(|(a, b)| a.distance(*b)).sum();
-    let n = index(length / SPACING_PX).max(MIN_POINTS);
-    let step = length / n as f64;
-    let mut out = Vec::with_capacity(n);
-    let mut passed = 0.0;
-    for (a, b) in edges() {
-        let d = a.distance(*b);
-        while out.len() < n && out.len() as f64 * step < passed + d {
-            out.push(a.lerp(*b, (out.len() as f64 * step - passed) / d));
-        }
-        passed += d;
-    }
-    out
+    Contour::new(iso::even(contour.points(), SPACING_PX)).ok()
 }

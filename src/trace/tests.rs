@@ -212,7 +212,7 @@ proptest! {
     ) {
         let gray = Gray::new(12, 9, seed).unwrap();
         let all = |gray: &Gray| -> Vec<Contour> {
-            iso::rings(gray, 0.5).into_iter().filter_map(|r| Contour::new(r).ok()).collect()
+            rings_at(gray, 0.5).into_iter().filter_map(|r| Contour::new(r).ok()).collect()
         };
         let c = all(&gray);
         for y in 0..9usize {
@@ -244,7 +244,7 @@ proptest! {
     #[test]
     fn contours_move_continuously_with_the_level(r in 3.0..9.0f64, level in 0.1..0.9f64) {
         let disk = picture(24, 24, |x: f64, y: f64| (x - 12.0).hypot(y - 12.0) < r);
-        let at = |level| Contour::new(iso::rings(&disk, level).remove(0)).unwrap().area();
+        let at = |level| Contour::new(rings_at(&disk, level).remove(0)).unwrap().area();
         let (a, b) = (at(level), at(level + 0.001));
         prop_assert!(b <= a && a - b < 0.01 * 2.0 * std::f64::consts::PI * (r + 1.0), "{} {}", a, b);
     }

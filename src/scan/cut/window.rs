@@ -183,6 +183,13 @@ impl Patch {
                 *v = 0.0;
             }
         }
+        for &(x, y, share) in parts.iter().flat_map(|c| &c.shares) {
+            let at = (x.checked_sub(x0).filter(|x| *x < width))
+                .zip(y.checked_sub(y0).filter(|y| *y < height));
+            if let Some((x, y)) = at {
+                new.samples[y * width + x] *= share;
+            }
+        }
         let body = parts.iter().max_by_key(|c| c.area);
         new.heal(PINHOLE * body.map_or(0.0, |c| c.stroke()));
         new

@@ -38,6 +38,7 @@ pub(super) fn place(
         }
         Layout::Free => {
             let plan = free::Plan {
+                gray: &page.sheet.gray,
                 upright,
                 claims,
                 options,

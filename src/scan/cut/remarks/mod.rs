@@ -153,7 +153,7 @@ fn doubtful(slots: &[&Slot], layer: &Layer) -> Vec<Warning> {
 /// Warns of the letters that were cut off others.
 fn parted(slots: &[&Slot], layer: &Layer) -> Vec<Warning> {
     let is_parted = |s: &&&Slot| s.parts.iter().any(|i| layer.parted.contains(i));
-    let message = "it touches a letter beside it and was cut off where least ink joins the two: draw them clear of each other, or say \
+    let message = "it touches a letter beside it and was cut off where it most likely ends: draw them clear of each other, or say \
         where it ends by `polygon` under [cells.NAME]";
     let parted = slots.iter().filter(is_parted);
     parted.map(|s| Warning::of(s, message)).collect()

@@ -81,3 +81,15 @@ fn a_row_of_letters_that_touch_is_no_printed_line() {
         assert!((foot - 220.0).abs() < 2.0 || i == 7, "{i}: {foot}");
     }
 }
+
+/// The arms of the seventh letter, of which the right one runs through a stem of the eighth: both have what they share.
+#[test]
+fn strokes_that_cross_are_in_both_letters() {
+    let mut paper = grid_page(0.0);
+    paper.bar(132.0, 198.0, 184.0, 6.0);
+    paper.bar(300.0, 170.0, 6.0, 50.0);
+    paper.bar(306.0, 214.0, 24.0, 6.0);
+    let cut = touched(&paper, &[6, 7]);
+    assert!((ends(&cut, 6).1 - 316.0).abs() < 2.0, "the arm");
+    assert!((ends(&cut, 7).0 - 300.0).abs() < 2.0, "the stem");
+}

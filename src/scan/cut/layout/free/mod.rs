@@ -22,7 +22,7 @@ use crate::scan::cut::{Layer, Reason, Slot};
 use crate::scan::error::ScanError;
 use crate::scan::letters::{Pieces, Shape};
 use crate::scan::options::{Direction, Options};
-use crate::types::Label;
+use crate::types::{Gray, Label};
 use doubts::Unread;
 use glyphs_reader::glyphdata::GlyphData;
 use kurbo::Rect;
@@ -59,6 +59,7 @@ const HELD: usize = 8;
 
 /// What a bare page is read by.
 pub(super) struct Plan<'a> {
+    pub(super) gray: &'a Gray,
     pub(super) upright: View,
     /// Ink whose letters a user says.
     pub(super) claims: &'a [(usize, Vec<usize>)],
@@ -148,7 +149,7 @@ fn read(
     let mut other = all.clone();
     let cut = across
         .iter()
-        .flat_map(|t| t.part(&mut other, &plan.upright));
+        .flat_map(|t| t.part(&mut other, (plan.gray, &plan.upright)));
     let cut: Vec<usize> = cut.collect();
     let whole = read_beside(all, Vec::new(), names, plan);
     match (whole, read_beside(&mut other, cut, names, plan)) {
@@ -175,7 +176,7 @@ fn read_beside(
         };
         let before = parted.len();
         for touch in &unread.touching {
-            parted.extend(touch.part(all, &plan.upright));
+            parted.extend(touch.part(all, (plan.gray, &plan.upright)));
         }
         if parted.len() == before {
             return Err(unread);

@@ -25,7 +25,7 @@ pub(super) fn part(
     loop {
         let before = all.len();
         for touch in touching(all, shared, (labels, plan)) {
-            parted.extend(touch.part(all, &plan.upright));
+            parted.extend(touch.part(all, (plan.gray, &plan.upright)));
         }
         letters.extend(before..all.len());
         match share(all, letters, labels, plan).filter(|_| all.len() > before) {
@@ -71,7 +71,7 @@ fn touching(
                 named[cell] && (least.max(own[cell] as f64)..).contains(&(ink() as f64))
             };
             let ends = borders(cells, home, reach, holds);
-            (!ends.is_empty()).then(|| Touch::at(ends, (along, vec![i])))
+            (!ends.is_empty()).then(|| Touch::at(ends, (along, vec![i]), cells.pitch))
         })
     };
     let ink = shared.cells.iter().enumerate();

@@ -5,7 +5,7 @@ use crate::scan::clean::Page;
 use crate::scan::cut::layout::position;
 use crate::scan::error::ScanError;
 use crate::scan::options::{Options, Order};
-use crate::types::Label;
+use crate::types::{Gray, Label};
 
 /// A cell is at least this large, px.
 const LEAST_CELL: usize = 4;
@@ -16,6 +16,7 @@ pub(in crate::scan::cut::layout) struct Plan<'a> {
     pub(super) columns: usize,
     pub(super) source: &'a str,
     pub(super) options: &'a Options,
+    pub(super) gray: &'a Gray,
     pub(super) upright: View,
     /// The letters whose places a user says, and their ink.
     pub(super) claims: &'a [(usize, Vec<usize>)],
@@ -37,6 +38,7 @@ impl<'a> Plan<'a> {
             columns,
             source,
             options,
+            gray,
             upright,
             claims,
         })

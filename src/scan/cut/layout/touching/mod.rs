@@ -2,14 +2,17 @@
 //!
 //! Which of the ink there is whose nobody knows: such letters are warned of.
 
+mod overlap;
 mod seam;
 
 pub(super) use seam::Along;
 
 use crate::numeric::view::View;
 use crate::scan::components::Component;
-use kurbo::Rect;
+use crate::types::Gray;
+use kurbo::{Point, Rect};
 use seam::Seam;
+use std::cell::OnceCell;
 use std::ops::Range;
 
 /// Letters that touch are so unequal at most: each ends within this share of a mean width from where equal ones would.
@@ -23,12 +26,19 @@ pub(super) struct Touch {
     along: Along,
     /// Where one letter ends and the next one begins, upright px.
     ends: Vec<Range<f64>>,
+    /// How far apart the middles of the cells are, px, where letters stand in the middle of theirs.
+    cells: Option<f64>,
 }
 
 impl Touch {
-    /// Letters of which one ends and the next one begins in each of some stretches of upright px.
-    pub(super) fn at(ends: Vec<Range<f64>>, (along, ink): (Along, Vec<usize>)) -> Self {
-        Self { ink, along, ends }
+    /// Letters in cells so many upright px apart, of which one ends and the next one begins in each of some stretches.
+    pub(super) fn at(ends: Vec<Range<f64>>, (along, ink): (Along, Vec<usize>), pitch: f64) -> Self {
+        Self {
+            ink,
+            along,
+            ends,
+            cells: (along == Along::Row).then_some(pitch),
+        }
     }
 
     /// Letters of one row, so many within `bounds`.
@@ -42,6 +52,7 @@ impl Touch {
             ink,
             along: Along::Row,
             ends: (1..letters).map(end).collect(),
+            cells: None,
         }
     }
 
@@ -53,22 +64,44 @@ impl Touch {
             ink,
             along: Along::Column,
             ends: vec![end],
+            cells: None,
         }
     }
 
-    /// Cuts the ink in `all`, where new pieces go to the end, and says which pieces were cut from others.
-    pub(super) fn part(&self, all: &mut Vec<Component>, upright: &View) -> Vec<usize> {
-        let ink: Vec<&Component> = self.ink.iter().map(|&i| &all[i]).collect();
-        let seams = self.ends.iter();
-        let seams = seams.filter_map(|end| Seam::within(end, (self.along, &ink), upright));
-        let seams: Vec<Seam> = seams.collect();
-        let mut parted = Vec::new();
-        for &i in &self.ink {
-            let mut pieces = vec![all[i].clone()];
-            for seam in &seams {
-                let parts = pieces.iter().map(|p| p.parted(|x, y| seam.is_before(x, y)));
-                pieces = parts.flatten().collect();
+    /// Cuts the ink of `page` in `all`, where new pieces go to the end, and says which pieces were cut from others.
+    pub(super) fn part(
+        &self,
+        all: &mut Vec<Component>,
+        (page, upright): (&Gray, &View),
+    ) -> Vec<usize> {
+        let ink: Vec<Component> = self.ink.iter().map(|&i| all[i].clone()).collect();
+        let ink: Vec<&Component> = ink.iter().collect();
+        let mut pieces: Vec<Vec<Component>> = ink.iter().map(|&c| vec![c.clone()]).collect();
+        for (k, stretch) in self.ends.iter().enumerate() {
+            let border = Border {
+                along: self.along,
+                stretch,
+                upright,
+                cells: self.cells,
+                is_last: k + 1 == self.ends.len(),
+            };
+            let seam = OnceCell::new();
+            let seam = || seam.get_or_init(|| Seam::within(stretch, (self.along, &ink), upright));
+            let cut = |piece: &Component| {
+                let parted = overlap::part(piece, page, &border).map(|parts| parts.concat());
+                let cut = || {
+                    seam()
+                        .as_ref()
+                        .map(|s| piece.parted(|x, y| s.is_before(x, y)))
+                };
+                parted.or_else(cut).unwrap_or_else(|| vec![piece.clone()])
+            };
+            for of in &mut pieces {
+                *of = of.iter().flat_map(cut).collect();
             }
+        }
+        let mut parted = Vec::new();
+        for (&i, mut pieces) in self.ink.iter().zip(pieces) {
             pieces.iter_mut().for_each(|p| p.stand(upright));
             let first = (pieces.len() > 1).then(|| pieces.swap_remove(0));
             if let Some(first) = first {
@@ -79,5 +112,40 @@ impl Touch {
             }
         }
         parted
+    }
+}
+
+/// Where one letter ends and the next one begins.
+struct Border<'a> {
+    along: Along,
+    /// Upright px.
+    stretch: &'a Range<f64>,
+    upright: &'a View,
+    /// How far apart the middles of the cells are, px, where letters stand in the middle of theirs.
+    cells: Option<f64>,
+    /// One letter follows, not several.
+    is_last: bool,
+}
+
+impl Border<'_> {
+    /// Where the middles of the letter before it and of the one after it are, in halves of the stretch behind its middle, if that is known.
+    fn middles(&self) -> [Option<f64>; 2] {
+        let off = self.cells.map(|pitch| pitch / 2.0 / self.half());
+        [off.map(|v| -v), off.filter(|_| self.is_last)]
+    }
+
+    /// How far behind its middle a place of the sheet is, halves of the stretch.
+    fn side(&self, p: Point) -> f64 {
+        let p = self.upright.at(p);
+        let at = match self.along {
+            Along::Row => p.x,
+            Along::Column => p.y,
+        };
+        (at - self.stretch.start) / self.half() - 1.0
+    }
+
+    /// Half of the stretch, px.
+    fn half(&self) -> f64 {
+        ((self.stretch.end - self.stretch.start) / 2.0).max(1.0)
     }
 }

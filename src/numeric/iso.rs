@@ -1,7 +1,10 @@
 //! Iso-contours of the bilinear surface through the pixels' centres.
 
-use crate::types::Gray;
+use super::cast::index;
 use kurbo::Point;
+
+/// Even the smallest ring has this many points.
+const MIN_POINTS: usize = 16;
 
 /// A sample's column and row; the picture's own run from 0, and one ring of paper lies around them.
 type Place = (i64, i64);
@@ -14,15 +17,16 @@ struct Step {
 }
 
 /// The picture, with paper around it.
-struct Field<'a> {
-    gray: &'a Gray,
+struct Field<F> {
+    samples: F,
+    height: usize,
     level: f64,
 }
 
-impl Field<'_> {
+impl<F: Fn(usize, usize) -> f32> Field<F> {
     fn at(&self, (x, y): Place) -> f64 {
         match (usize::try_from(x), usize::try_from(y)) {
-            (Ok(x), Ok(y)) => f64::from(self.gray.at(x, y)),
+            (Ok(x), Ok(y)) => f64::from((self.samples)(x, y)),
             _ => 0.0,
         }
     }
@@ -38,7 +42,7 @@ impl Field<'_> {
         let t = (a - self.level) / (a - b);
         let mix = |l: i64, r: i64| l as f64 + t * (r - l) as f64 + 0.5;
         let y = mix(s.left.1, s.right.1);
-        Point::new(mix(s.left.0, s.right.0), self.gray.height() as f64 - y)
+        Point::new(mix(s.left.0, s.right.0), self.height as f64 - y)
     }
 
     /// The next grid edge around the same ink.
@@ -78,17 +82,26 @@ impl Field<'_> {
     }
 }
 
-/// All rings at `level`, ink on the left, px, y up; ordered by their first grid edge in reading order.
-pub(super) fn rings(gray: &Gray, level: f64) -> Vec<Vec<Point>> {
+/// All rings at `level`, ink on the left, px, y up; ordered by their first grid edge in reading order. `samples` takes a column and a
+/// row and is 0 outside of the w × h px.
+#[must_use]
+pub fn rings(
+    (w, h): (usize, usize),
+    samples: impl Fn(usize, usize) -> f32,
+    level: f64,
+) -> Vec<Vec<Point>> {
     // below this, the paper around the picture would be ink
     let level = level.max(f64::MIN_POSITIVE);
-    let field = Field { gray, level };
-    let (w, h) = (gray.width(), gray.height());
+    let field = Field {
+        samples,
+        height: h,
+        level,
+    };
     let mut seen = vec![false; w * h];
     let mut rings = Vec::new();
     for (i, x, y) in (0..h).flat_map(|y| (0..w).map(move |x| (y * w + x, x, y))) {
-        let inside = f64::from(gray.at(x, y)) >= level;
-        if !inside || seen[i] || f64::from(gray.at(x + 1, y)) >= level {
+        let ink = |x: usize| f64::from((field.samples)(x, y)) >= level;
+        if !ink(x) || seen[i] || ink(x + 1) {
             continue;
         }
         // every ring somewhere goes up between ink and the paper right of it
@@ -119,4 +132,23 @@ pub(super) fn rings(gray: &Gray, level: f64) -> Vec<Vec<Point>> {
 /// A column or row as a signed number.
 fn signed(i: usize) -> i64 {
     i64::try_from(i).unwrap_or(i64::MAX)
+}
+
+/// The same ring with points so many px apart.
+#[must_use]
+pub fn even(ring: &[Point], spacing: f64) -> Vec<Point> {
+    let edges = || ring.iter().zip(ring.iter().cycle().skip(1));
+    let length: f64 = edges().map(|(a, b)| a.distance(*b)).sum();
+    let n = index(length / spacing).max(MIN_POINTS);
+    let step = length / n as f64;
+    let mut out = Vec::with_capacity(n);
+    let mut passed = 0.0;
+    for (a, b) in edges() {
+        let d = a.distance(*b);
+        while out.len() < n && out.len() as f64 * step < passed + d {
+            out.push(a.lerp(*b, (out.len() as f64 * step - passed) / d));
+        }
+        passed += d;
+    }
+    out
 }

@@ -1,0 +1,325 @@
+//! A picture of ink → the rings around it, and their corners inwards near a border.
+
+use super::parabola::Parabola;
+use super::shape::filled;
+use super::{Field, LEVEL};
+use crate::numeric::iso;
+use crate::scan::whole::floor;
+use kurbo::{Point, Vec2};
+
+/// Points of a ring are so many px apart.
+const SPACING: f64 = 1.0;
+/// So much of an edge beside a corner is not looked at, in strokes and px: lens and pen round it.
+const ROUND: f64 = 0.15;
+const ROUNDS: (f64, f64) = (1.5, 4.0);
+/// A corner is told from sides so long, in strokes, of no less than so many px.
+const SIDE: f64 = 0.7;
+const SHORTEST: f64 = 4.0;
+/// And how an edge goes on from so much of it, in strokes.
+const SEEN: f64 = 1.2;
+/// A corner turns by so much at least, radians.
+const TURN: f64 = 0.3;
+/// And chords that reach so many points beyond what is round by so much.
+const SEEMS: f64 = 0.12;
+const CLOSE: usize = 2;
+/// Corners lie no farther from the middle of the border than so many halves of its stretch.
+const FAR: f64 = 2.0;
+/// Sides of corners come out of ink no farther off than so many strokes.
+const LONGEST: f64 = 3.0;
+/// So many corners are looked at, the sharpest, and so many places where their sides come out.
+const CORNERS: usize = 20;
+const EXITS: usize = 16;
+/// A hole of less than a square of so many strokes is the paper's grain.
+const GRAIN: f64 = 0.25;
+
+/// The rings around some ink, on their left, px, y up, and their corners inwards.
+pub(super) struct Edges {
+    pub(super) rings: Vec<Vec<Point>>,
+    /// In order of rings and points.
+    pub(super) corners: Vec<Corner>,
+    /// Width of a stroke, px.
+    pub(super) stroke: f64,
+    /// How far behind the border each point of each ring is, halves of its stretch.
+    sides: Vec<Vec<f64>>,
+    /// Half of the border's stretch, px.
+    half: f64,
+    /// How much of a ring a corner takes on either side, points.
+    round: usize,
+    /// Which pixels lie within the rings, row by row from above, and how many there are.
+    inside: Vec<bool>,
+    size: (usize, usize),
+}
+
+/// A corner inwards, or a place where the side of one comes out of the ink.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Corner {
+    ring: usize,
+    /// Index of its point.
+    at: usize,
+    /// By how much it turns, radians; 0 where a side comes out.
+    sharp: f64,
+}
+
+/// Where a stretch of an edge ends or begins.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct End {
+    pub(super) at: Point,
+    /// Which way its ring goes there, of length 1.
+    pub(super) way: Vec2,
+}
+
+impl Edges {
+    /// The edges of a picture of strokes so wide; `side` says how far behind a border a place is, in halves of its stretch of so many px.
+    /// None where there is no corner.
+    pub(super) fn find(
+        field: &Field,
+        (stroke, half): (f64, f64),
+        side: impl Fn(Point) -> f64,
+    ) -> Option<Self> {
+        let size = (field.width, field.height);
+        let grain = (GRAIN * stroke).powi(2);
+        let rings = iso::rings(size, |x, y| field.at(x, y), LEVEL).into_iter();
+        let rings = rings.filter(|r| area(r).abs() >= grain);
+        let rings: Vec<Vec<Point>> = rings.map(|r| iso::even(&r, SPACING)).collect();
+        let sides = rings.iter().map(|r| r.iter().map(|&p| side(p)).collect());
+        let mut new = Self {
+            corners: Vec::new(),
+            stroke,
+            sides: sides.collect(),
+            half,
+            round: floor((ROUND * stroke).clamp(ROUNDS.0, ROUNDS.1) / SPACING + 0.5),
+            inside: filled(&rings, size),
+            size,
+            rings,
+        };
+        let mut corners: Vec<Corner> = (0..new.rings.len()).flat_map(|r| new.inward(r)).collect();
+        corners.sort_by(|a, b| b.sharp.total_cmp(&a.sharp));
+        corners.truncate(CORNERS);
+        corners.sort_by_key(|c| (c.ring, c.at));
+        new.corners = corners;
+        let exits = new.exits();
+        new.corners.extend(exits);
+        new.corners.sort_by_key(|c| (c.ring, c.at));
+        (!new.corners.is_empty()).then_some(new)
+    }
+
+    /// The corners inwards of a ring near the border: where its sides, as each is seen beside the corner, meet at an angle.
+    fn inward(&self, ring: usize) -> Vec<Corner> {
+        let points = &self.rings[ring];
+        let n = points.len();
+        let side = floor((SIDE * self.stroke).max(SHORTEST) / SPACING + 0.5);
+        let (close, far) = (self.round + CLOSE, self.round + side);
+        let off = |i: usize, by: usize, forth: bool| {
+            let by = by % n;
+            points[if forth { i + by } else { i + n - by } % n]
+        };
+        let turn = |i: usize| {
+            // sides that end in a corner outwards bend before it: what is between them is none inwards
+            let [back, on] = [false, true].map(|forth| off(i, close, forth));
+            if -angle(points[i] - back, on - points[i]) < SEEMS {
+                return 0.0;
+            }
+            let sides = [false, true].map(|forth| {
+                let seen = (self.round..=far).map(|by| off(i, by, forth));
+                Parabola::beginning(&seen.collect::<Vec<Point>>())
+            });
+            let [Some(before), Some(after)] = sides else {
+                return 0.0;
+            };
+            let at = -(self.round as f64);
+            -angle(-before.way(at), after.way(at))
+        };
+        let is_near = |i: usize| self.sides[ring][i].abs() <= FAR;
+        let turns = (0..n).map(|i| if is_near(i) { turn(i) } else { 0.0 });
+        let turns: Vec<f64> = turns.collect();
+        let is_sharpest = |i: &usize| {
+            let around = (1..=far.min(n / 2)).flat_map(|d| [(*i + d) % n, (*i + n - d) % n]);
+            turns[*i] > TURN && around.into_iter().all(|j| (turns[j], j) <= (turns[*i], *i))
+        };
+        let corners = (0..n).filter(is_sharpest).map(|at| Corner {
+            ring,
+            at,
+            sharp: turns[at],
+        });
+        corners.collect()
+    }
+
+    /// Where the sides of corners near the border, straight on beneath the ink, come out of it beside no other corner: the edges of both
+    /// letters may lie in line there.
+    fn exits(&self) -> Vec<Corner> {
+        let mut out: Vec<Corner> = Vec::new();
+        let before = self.before();
+        for k in (0..self.corners.len()).filter(|&k| self.doubt(k) > 0.0) {
+            let (on, back) = (self.finish(before[k]), self.begin(k));
+            for (from, way) in [(on.at, on.way), (back.at, -back.way)] {
+                let exit = self.leaves(from, way).and_then(|p| self.nearest(p));
+                let is_new = |c: &Corner| {
+                    let near = |o: &Corner| {
+                        let d = o.at.abs_diff(c.at);
+                        let n = self.rings[c.ring].len();
+                        o.ring == c.ring && d.min(n - d) <= 2 * self.round + CLOSE
+                    };
+                    !self.corners.iter().chain(&out).any(near)
+                };
+                out.extend(exit.filter(is_new).filter(|_| out.len() < EXITS));
+            }
+        }
+        out
+    }
+
+    /// Where a way through the ink leaves it.
+    fn leaves(&self, from: Point, way: Vec2) -> Option<Point> {
+        let steps = self.round + CLOSE..floor(LONGEST * self.stroke);
+        let mut places = steps.map(|i| from + i as f64 * way);
+        places.find(|p| !self.is_ink(*p))
+    }
+
+    /// The point of the rings that is nearest to a place.
+    fn nearest(&self, p: Point) -> Option<Corner> {
+        let rings = self.rings.iter().enumerate();
+        let all = rings.flat_map(|(ring, points)| (0..points.len()).map(move |at| (ring, at)));
+        let off = |(ring, at): (usize, usize)| self.rings[ring][at].distance(p);
+        let (ring, at) = all.min_by(|a, b| off(*a).total_cmp(&off(*b)))?;
+        Some(Corner {
+            ring,
+            at,
+            sharp: 0.0,
+        })
+    }
+
+    /// Whether there is ink at a place or a pixel beside it, holes by grain included: corners inwards are rounded.
+    pub(super) fn is_ink(&self, p: Point) -> bool {
+        let (width, height) = self.size;
+        let column = floor(p.x.max(0.0));
+        let row = floor((height as f64 - p.y).max(0.0));
+        let rows = row.saturating_sub(1)..(row + 2).min(height);
+        let columns = column.saturating_sub(1)..(column + 2).min(width);
+        let mut around = rows.flat_map(|y| columns.clone().map(move |x| y * width + x));
+        around.any(|i| self.inside[i])
+    }
+
+    /// The corner after another on its ring, which may be the same.
+    pub(super) fn next(&self, corner: usize) -> usize {
+        let ring = self.corners[corner].ring;
+        let follows = self.corners.get(corner + 1);
+        if follows.is_some_and(|c| c.ring == ring) {
+            corner + 1
+        } else {
+            self.corners.partition_point(|c| c.ring < ring)
+        }
+    }
+
+    /// The corner before each one.
+    pub(super) fn before(&self) -> Vec<usize> {
+        let mut before = vec![0; self.corners.len()];
+        (0..before.len()).for_each(|k| before[self.next(k)] = k);
+        before
+    }
+
+    /// The points from a corner to the next one.
+    fn stretch(&self, corner: usize) -> impl Iterator<Item = usize> {
+        let (a, b) = (self.corners[corner], self.corners[self.next(corner)]);
+        let n = self.rings[a.ring].len();
+        let length = match (b.at + n - a.at) % n {
+            0 => n,
+            length => length,
+        };
+        (0..=length).map(move |i| (a.at + i) % n)
+    }
+
+    /// Where they are, without what is round where they begin or end between two letters.
+    pub(super) fn cut(&self, corner: usize, ends: [bool; 2]) -> Vec<Point> {
+        let ring = &self.rings[self.corners[corner].ring];
+        let all: Vec<Point> = self.stretch(corner).map(|i| ring[i]).collect();
+        let round = self.round.min((all.len() - 1) / 2);
+        let [from, to] = ends.map(|cut| if cut { round } else { 0 });
+        all[from..all.len() - to].to_vec()
+    }
+
+    /// Where the stretch from a corner to the next one begins.
+    pub(super) fn begin(&self, corner: usize) -> End {
+        self.end(&self.cut(corner, [true; 2]))
+    }
+
+    /// Where it ends.
+    pub(super) fn finish(&self, corner: usize) -> End {
+        let mut back = self.cut(corner, [true; 2]);
+        back.reverse();
+        let End { at, way } = self.end(&back);
+        End { at, way: -way }
+    }
+
+    /// Where some points begin: on the parabola through what is seen of them.
+    fn end(&self, points: &[Point]) -> End {
+        let seen = floor((SEEN * self.stroke).max(2.0 * SHORTEST) / SPACING);
+        let seen = &points[..points.len().min(seen + 1)];
+        let straight = (seen[0], seen[seen.len() - 1] - seen[0]);
+        let (at, way) = Parabola::beginning(seen).map_or(straight, |p| (p.at, p.way(0.0)));
+        let length = way.hypot();
+        End {
+            at,
+            way: if length > 0.0 {
+                way / length
+            } else {
+                Vec2::new(1.0, 0.0)
+            },
+        }
+    }
+
+    /// How little a corner looks like one letter's own: 1 where it is sharp and at the border, 0 far from it.
+    pub(super) fn doubt(&self, corner: usize) -> f64 {
+        let Corner { ring, at, sharp } = self.corners[corner];
+        sharp.min(1.0) * (1.0 - self.sides[ring][at].abs()).max(0.0)
+    }
+
+    /// How the stretch from a corner to the next one lies.
+    pub(super) fn lie(&self, corner: usize) -> Lie {
+        let sides = &self.sides[self.corners[corner].ring];
+        Lie::of(self.stretch(corner).map(|i| sides[i]), SPACING / self.half)
+    }
+
+    /// The rings without a corner, and how they lie.
+    pub(super) fn whole(&self) -> impl Iterator<Item = (usize, Lie)> {
+        let bare = |r: &usize| self.corners.iter().all(|c| c.ring != *r);
+        let lie = |r: usize| Lie::of(self.sides[r].iter().copied(), SPACING / self.half);
+        (0..self.rings.len()).filter(bare).map(move |r| (r, lie(r)))
+    }
+}
+
+/// How an edge lies to a border; all in halves of the border's stretch.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Lie {
+    /// How far it lies before the border's middle and behind it, summed along it.
+    pub(super) beyond: [f64; 2],
+    /// From where to where it reaches behind the middle.
+    pub(super) extent: [f64; 2],
+}
+
+impl Lie {
+    /// Of places along it so far apart.
+    fn of(sides: impl Iterator<Item = f64>, step: f64) -> Self {
+        let none = Self {
+            beyond: [0.0; 2],
+            extent: [f64::INFINITY, f64::NEG_INFINITY],
+        };
+        sides.fold(none, |all, v| Self {
+            beyond: [
+                all.beyond[0] + step * (-v).max(0.0),
+                all.beyond[1] + step * v.max(0.0),
+            ],
+            extent: [all.extent[0].min(v), all.extent[1].max(v)],
+        })
+    }
+}
+
+/// The angle from one way to another, to the left, radians.
+pub(super) fn angle(a: Vec2, b: Vec2) -> f64 {
+    a.cross(b).atan2(a.dot(b))
+}
+
+/// The area within a ring, of a hole below 0, px².
+fn area(ring: &[Point]) -> f64 {
+    let next = ring.iter().cycle().skip(1);
+    let cross = |(a, b): (&Point, &Point)| a.to_vec2().cross(b.to_vec2());
+    ring.iter().zip(next).map(cross).sum::<f64>() / 2.0
+}

@@ -1,0 +1,144 @@
+//! Ink of two letters that lie over each other → all ink of each, what they share included.
+//!
+//! Where the edge of one letter enters the ink of the other, the edge of both together has a corner inwards, and beneath that ink each
+//! letter's edge goes on as it came. The way of the data:
+//!
+//! | file | what happens there |
+//! |---|---|
+//! | `edges` | the ink's rings, their corners inwards and how they come to them (`parabola`) |
+//! | `hidden` | how an edge may go on from one corner to another beneath the ink, and how unlikely that is |
+//! | `owners` | whose the stretches between the corners are: of all ways to share them out the likeliest ones |
+//! | `shape` | closed outlines → the share of each pixel that lies within |
+
+mod edges;
+mod hidden;
+mod owners;
+mod parabola;
+mod shape;
+#[cfg(test)]
+mod tests;
+
+use super::Border;
+use crate::scan::components::Component;
+use crate::scan::whole::floor;
+use crate::types::Gray;
+use edges::Edges;
+use kurbo::{Point, Rect};
+use owners::{Owner, Split};
+use shape::Shape;
+
+/// Paper around the ink, px: what its blurred edge reaches.
+const MARGIN: usize = 2;
+/// Coverage of the ink's edge.
+const LEVEL: f64 = 0.5;
+/// So much of the ink may belong to neither letter, in squares of a stroke's width.
+const LOST: f64 = 0.2;
+/// A letter has at least so much ink, in squares of a stroke's width.
+const LEAST: f64 = 1.0;
+
+/// The ink of the letter before a border and of the one after it; none where no way to part them is likely.
+pub(super) fn part(
+    ink: &Component,
+    page: &Gray,
+    border: &Border<'_>,
+) -> Option<[Vec<Component>; 2]> {
+    let field = Field::new(ink, page);
+    let stroke = ink.stroke().max(1.0);
+    let side = |p: Point| border.side(field.in_sheet(p));
+    let edges = Edges::find(&field, (stroke, border.half()), side)?;
+    let splits = owners::likeliest(&edges, border.middles());
+    let mut told = splits
+        .iter()
+        .filter_map(|split| field.letters(&edges, split, stroke));
+    let letter = |shape: Shape| ink.shared(|x, y| field.share(&shape, (x, y)));
+    told.next().map(|shapes| shapes.map(letter))
+}
+
+/// The picture of some ink, px from its lower left corner, y up.
+struct Field {
+    /// Column and row of its upper left pixel in the sheet.
+    corner: (usize, usize),
+    width: usize,
+    height: usize,
+    samples: Vec<f32>,
+}
+
+impl Field {
+    /// What is darker than paper and nobody else's.
+    fn new(ink: &Component, page: &Gray) -> Self {
+        let Rect { x0, y0, x1, y1 } = ink.bounds;
+        let [left, top] = [x0, y0].map(|v| floor(v).saturating_sub(MARGIN));
+        let [right, bottom] = [x1, y1].map(|v| floor(v) + MARGIN);
+        let (width, height) = (right - left, bottom - top);
+        let mut own = vec![0.0_f32; width * height];
+        for r in &ink.runs {
+            let row = (r.y - top) * width;
+            own[row + r.start - left..row + r.end - left].fill(1.0);
+        }
+        for &(x, y, share) in &ink.shares {
+            own[(y - top) * width + x - left] = share;
+        }
+        // an edge is blurred beyond its ink
+        let is_beside = |x: usize, y: usize| {
+            let rows = y.saturating_sub(1)..(y + 2).min(height);
+            let columns = x.saturating_sub(1)..(x + 2).min(width);
+            let mut around = rows.flat_map(|y| columns.clone().map(move |x| y * width + x));
+            around.any(|i| own[i] > 0.0)
+        };
+        let sample = |i: usize| {
+            let (x, y) = (i % width, i / width);
+            let v = page.at(left + x, top + y);
+            if own[i] > 0.0 {
+                v * own[i]
+            } else if f64::from(v) < LEVEL && is_beside(x, y) {
+                v
+            } else {
+                0.0
+            }
+        };
+        Self {
+            corner: (left, top),
+            width,
+            height,
+            samples: (0..width * height).map(sample).collect(),
+        }
+    }
+
+    fn at(&self, x: usize, y: usize) -> f32 {
+        if x < self.width && y < self.height {
+            self.samples[y * self.width + x]
+        } else {
+            0.0
+        }
+    }
+
+    /// A place in the sheet.
+    fn in_sheet(&self, p: Point) -> Point {
+        let (x, y) = self.corner;
+        Point::new(x as f64 + p.x, (y + self.height) as f64 - p.y)
+    }
+
+    /// Both letters, if nearly all ink is one's and each has some.
+    fn letters(&self, edges: &Edges, split: &Split, stroke: f64) -> Option<[Shape; 2]> {
+        let shapes = [Owner::First, Owner::Second].map(|owner| {
+            let outlines = split.outlines(edges, owner);
+            Shape::within(&outlines, (self.width, self.height))
+        });
+        let square = stroke * stroke;
+        let inked = |i: &usize| f64::from(self.samples[*i]) >= LEVEL;
+        let all = || (0..self.samples.len()).filter(inked);
+        let lost = all()
+            .filter(|&i| shapes.iter().all(|s| s.is_far(i)))
+            .count();
+        let has = |s: &Shape| all().filter(|&i| s.shares[i] > 0.0).count() as f64;
+        let told = lost as f64 <= LOST * square && shapes.iter().all(|s| has(s) >= LEAST * square);
+        told.then_some(shapes)
+    }
+
+    /// The share that a letter has of a pixel of the sheet, and all of the blurred edge beside it.
+    fn share(&self, shape: &Shape, (x, y): (usize, usize)) -> f32 {
+        let i = (y - self.corner.1) * self.width + x - self.corner.0;
+        let is_rim = f64::from(self.samples[i]) < LEVEL && !shape.is_far(i) && !shape.veiled[i];
+        if is_rim { 1.0 } else { shape.shares[i] }
+    }
+}
