@@ -272,6 +272,7 @@ pub fn cut_with(
     let shutter = window::Shutter {
         page,
         low,
+        stroke,
         separation: separation.as_ref(),
     };
     let inked = layer.slots.par_iter().filter(|s| !s.parts.is_empty());

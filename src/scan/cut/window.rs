@@ -40,6 +40,8 @@ pub(super) struct Shutter<'a> {
     pub(super) page: &'a Page,
     /// Coverage from which pixels are ink.
     pub(super) low: f32,
+    /// The letters' usual stroke, px.
+    pub(super) stroke: f64,
     /// What tells the inks apart that become layers.
     pub(super) separation: Option<&'a Separation<'a>>,
 }
@@ -190,8 +192,9 @@ impl Patch {
                 new.samples[y * width + x] *= share;
             }
         }
+        // a letter that is nearly all ink has no larger pinholes than others
         let body = parts.iter().max_by_key(|c| c.area);
-        new.heal(PINHOLE * body.map_or(0.0, |c| c.stroke()));
+        new.heal(PINHOLE * body.map_or(0.0, |c| c.stroke().min(shutter.stroke)));
         new
     }
 

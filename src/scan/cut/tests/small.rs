@@ -50,17 +50,17 @@ fn dots_far_thinner_than_strokes_are_dots_where_letters_have_no_others() {
 
 #[test]
 fn slits_are_no_pinholes() {
-    for (width, open) in [(8.0, false), (14.0, true)] {
+    for (width, open) in [(4.0, false), (14.0, true)] {
         let mut paper = Paper::new(420, 200, 0.0);
         for x in [60.0, 180.0] {
-            paper.bar(x, 60.0, 60.0, 60.0);
+            paper.bar(x, 60.0, 24.0, 60.0);
         }
         // a block with a slit of 3 px in it
-        let rest = (60.0 - width) / 2.0;
-        paper.bar(300.0, 60.0, 60.0, 28.0);
-        paper.bar(300.0, 91.0, 60.0, 29.0);
-        paper.bar(300.0, 60.0, rest, 60.0);
-        paper.bar(360.0 - rest, 60.0, rest, 60.0);
+        let rest = (30.0 - width) / 2.0;
+        paper.bar(300.0, 75.0, 30.0, 13.0);
+        paper.bar(300.0, 91.0, 30.0, 14.0);
+        paper.bar(300.0, 75.0, rest, 30.0);
+        paper.bar(330.0 - rest, 75.0, rest, 30.0);
         let cut = cut_page(&paper, "n n e", &options(Layout::Grid(1, 3))).unwrap();
         let gray = &cut.cells[2].gray;
         let ink = gray.at(gray.width() / 2, gray.height() / 2);
@@ -84,6 +84,21 @@ fn pinholes_are_filled() {
         let middle = gray.at(gray.width() / 2, gray.height() / 2);
         assert_eq!(middle < 0.5, open, "a hole of {side} px: {middle}");
     }
+}
+
+/// As much as three of the other letters' strokes are ink around it.
+#[test]
+fn a_small_eye_in_much_ink_is_no_pinhole() {
+    let mut paper = grid_page(0.0);
+    let (x, y, rest) = (204.0, 180.0, 17.0);
+    paper.bar(x, y, 40.0, rest);
+    paper.bar(x, y + 23.0, 40.0, rest);
+    paper.bar(x, y, rest, 40.0);
+    paper.bar(x + 23.0, y, rest, 40.0);
+    let cut = cut_page(&paper, NAMES, &options(Layout::Grid(4, 5))).unwrap();
+    let eye = cut.cells[6].to_sheet.inverse() * Point::new(x + 20.0, y + 20.0);
+    let gray = &cut.cells[6].gray;
+    assert!(gray.at(floor(eye.x), floor(eye.y)) < 0.5);
 }
 
 #[test]
