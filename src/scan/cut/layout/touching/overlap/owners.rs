@@ -3,7 +3,7 @@
 //! Of two letters. At a corner at which the owner changes the first one's edge goes into the ink and comes out at another such corner, and
 //! so does the other one's. All ways to share the stretches out are compared: what the hidden edges cost, how far the stretches lie on
 //! the wrong side of the border, how far the letters are from the middle of their cells, and which corners are left that no crossing
-//! explains. The prices were chosen on 190 touches of 25 fonts, each half of them tried on the other.
+//! explains. The prices were chosen on 190 borders of 25 fonts (docs/tried.md, "Letters that lie over each other"), each half of them tried on the other.
 
 use super::edges::{Edges, Lie};
 use super::hidden::Hidden;
