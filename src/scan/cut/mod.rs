@@ -286,8 +286,7 @@ pub fn cut_with(
         )
     });
     let cells: Vec<Cell> = cells.collect();
-    let rest = layer.rejected.iter();
-    let rest = rest.map(|&(i, reason)| Rejected::of(&all[i], reason));
+    let rest = (layer.rejected.iter()).map(|&(i, reason)| Rejected::of(&all[i], reason));
     let rejected = rest.chain(beside).collect();
     warnings.sort_by_key(|w| w.index);
     Ok(Cut {
