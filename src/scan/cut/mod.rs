@@ -186,12 +186,22 @@ struct Slot {
     parts: Vec<usize>,
 }
 
+/// What the heights of slots are worth.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Levels {
+    /// They are those of printed lines or boxes.
+    Printed,
+    /// Rows are even, since printed lines guided the hand, up to a drift along the page.
+    Even,
+    /// No line guided the hand.
+    Loose,
+}
+
 /// What a layout found: slots in reading order, how many rows, and the rest.
 struct Layer {
     slots: Vec<Slot>,
     rows: usize,
-    /// Lines or boxes that are printed on the page say where its rows are.
-    ruled: bool,
+    levels: Levels,
     /// Pieces of ink in no slot.
     rejected: Vec<(usize, Reason)>,
     /// Pieces of ink that were cut off letters beside them.

@@ -1,6 +1,7 @@
 //! Where rows stand: from the many letters of a page, never from one letter's own ink.
 
 use crate::numeric::median::median;
+use crate::scan::cut::Levels;
 use crate::scan::letters::{Foot, Kind, Shape};
 use kurbo::Rect;
 use std::iter;
@@ -45,10 +46,10 @@ impl Letter {
     }
 }
 
-/// How far each row's baseline lies below its slots' levels, px, on a page with printed lines or boxes.
-pub(super) fn ruled(letters: &[Letter], rows: usize) -> Vec<f64> {
+/// How far each row's baseline lies below its slots' levels, px, on a page whose rows are even or at printed `levels`.
+pub(super) fn ruled(letters: &[Letter], rows: usize, levels: Levels) -> Vec<f64> {
     let off = feet_on_line(letters, rows);
-    drops(off, near(letters), &vec![0.0; rows])
+    drops(off, near(letters), (levels, &vec![0.0; rows]))
 }
 
 /// How far a foot may lie off its row's line, px.
@@ -56,11 +57,19 @@ pub(super) fn near(letters: &[Letter]) -> f64 {
     ASTRAY * median(letters.iter().map(|l| l.body.height())).unwrap_or(0.0)
 }
 
-/// How far each row's baseline lies below the levels, px. But for their strays all rows share it, up to a drift along the page; the letters
-/// of a row move their own baseline as far as their number justifies.
-pub(super) fn drops(mut off: Vec<(usize, f64)>, near: f64, strays: &[f64]) -> Vec<f64> {
+/// How far each row's baseline lies below the levels, px. But for their strays all rows share it, up to a drift along the page where no
+/// levels are printed; the letters of a row move their own baseline as far as their number justifies.
+pub(super) fn drops(
+    mut off: Vec<(usize, f64)>,
+    near: f64,
+    (levels, strays): (Levels, &[f64]),
+) -> Vec<f64> {
     off.iter_mut().for_each(|o| o.1 -= strays[o.0]);
-    let (common, steady) = Line::steady(&off, near);
+    let through = match levels {
+        Levels::Printed => Line::level,
+        Levels::Even | Levels::Loose => Line::through,
+    };
+    let (common, steady) = Line::steady(&off, near, through);
     let own = |r: usize| -> Vec<f64> { of_row(&steady, r).map(|o| o - common.at(r)).collect() };
     let own: Vec<Vec<f64>> = (0..strays.len()).map(own).collect();
     let shrink = shrink(&own);
@@ -115,7 +124,15 @@ pub(super) struct Line {
 }
 
 impl Line {
-    fn through(points: &[(usize, f64)]) -> Self {
+    /// At the height of most.
+    fn level(points: &[(usize, f64)]) -> Self {
+        Self {
+            level: median(points.iter().map(|p| p.1)).unwrap_or(0.0),
+            slope: 0.0,
+        }
+    }
+
+    pub(super) fn through(points: &[(usize, f64)]) -> Self {
         let slopes = pairs(points);
         let enough = slopes.len() >= SLOPES;
         let slope = median(slopes).filter(|_| enough).unwrap_or(0.0);
@@ -127,14 +144,18 @@ impl Line {
     }
 
     /// A line through the points that lie within `near` of the line through all, and these points.
-    pub(super) fn steady(points: &[(usize, f64)], near: f64) -> (Self, Vec<(usize, f64)>) {
-        let all = Self::through(points);
+    pub(super) fn steady(
+        points: &[(usize, f64)],
+        near: f64,
+        through: fn(&[(usize, f64)]) -> Self,
+    ) -> (Self, Vec<(usize, f64)>) {
+        let all = through(points);
         let is_near = |p: &&(usize, f64)| (p.1 - all.at(p.0)).abs() <= near;
         let steady: Vec<(usize, f64)> = points.iter().filter(is_near).copied().collect();
         let line = if steady.is_empty() {
             all
         } else {
-            Self::through(&steady)
+            through(&steady)
         };
         (line, steady)
     }
@@ -242,7 +263,7 @@ mod tests {
         let figures: &[_] = &[("1", 0.0), ("2", 0.0)];
         for small in [hooks, feet] {
             let rows = [capitals, capitals, capitals, small, small, figures];
-            let drop = ruled(&letters(&rows), rows.len());
+            let drop = ruled(&letters(&rows), rows.len(), Levels::Even);
             assert!(drop.iter().all(|d| d.abs() < 0.5), "{drop:?}");
         }
     }
@@ -257,16 +278,29 @@ mod tests {
             [capitals, capitals, capitals, tail],
             [capitals, both, hooks, tail],
         ] {
-            let drop = ruled(&letters(&rows), 4);
+            let drop = ruled(&letters(&rows), 4, Levels::Even);
             assert!(drop.iter().all(|d| d.abs() < 0.5), "{drop:?}");
         }
+    }
+
+    #[test]
+    fn rows_between_printed_lines_do_not_drift() {
+        let hanging: &[_] = &[("H", 9.0), ("E", 9.1), ("T", 9.0)];
+        let standing: &[_] = &[("n", 0.0), ("i", 0.1), ("m", 0.0)];
+        let rows = [hanging, hanging, hanging, standing, standing, standing];
+        let of = |levels| {
+            let drop = ruled(&letters(&rows), rows.len(), levels);
+            (drop[0] - drop[2]).abs() + (drop[3] - drop[5]).abs()
+        };
+        let (printed, even) = (of(Levels::Printed), of(Levels::Even));
+        assert!(printed < 0.01 && even > 0.5, "{printed} {even}");
     }
 
     #[test]
     fn two_rows_have_baselines_of_their_own() {
         let first: &[_] = &[("A", 0.0), ("B", 0.1), ("C", 2.0), ("D", 0.0), ("E", 0.0)];
         let second: &[_] = &[("F", 9.0), ("G", 11.0), ("H", 9.0), ("I", 9.1), ("J", 14.0)];
-        let drop = ruled(&letters(&[first, second]), 2);
+        let drop = ruled(&letters(&[first, second]), 2, Levels::Even);
         assert!(
             drop[0].abs() < 0.5 && (drop[1] - 9.0).abs() < 0.5,
             "{drop:?}"
@@ -289,7 +323,7 @@ mod tests {
         let of = |strays: f64, wide: f64| {
             let rows: Vec<_> = (0..6).map(|r| row(r, strays * lines[r], wide)).collect();
             let rows: Vec<&[_]> = rows.iter().map(Vec::as_slice).collect();
-            let drop = ruled(&letters(&rows), rows.len());
+            let drop = ruled(&letters(&rows), rows.len(), Levels::Even);
             let mean = drop.iter().sum::<f64>() / 6.0;
             drop.iter().map(|d| (d - mean).abs()).fold(0.0, f64::max)
         };
@@ -302,7 +336,7 @@ mod tests {
     fn bowls_of_arabic_letters_are_no_baseline() {
         let bowls: &[_] = &[("ب", 20.0), ("uni0628.fina", 20.0), ("uni0628.init", 0.0)];
         let stems: &[_] = &[("ا", 0.0), ("uni0637.medi", 0.0), ("ط", 0.0)];
-        let drop = ruled(&letters(&[stems, bowls, bowls, stems]), 4);
+        let drop = ruled(&letters(&[stems, bowls, bowls, stems]), 4, Levels::Even);
         assert!(drop.iter().all(|d| d.abs() < 0.5), "{drop:?}");
     }
 }

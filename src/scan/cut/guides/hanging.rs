@@ -7,12 +7,13 @@
 //! a + b r + h(k)
 //! ```
 //!
-//! px below their levels, least squares over the rows' medians, what is left must be far less than `h`. Of two letters one may have a swash,
+//! px below their levels, `b` being 0 where these are printed, least squares over the rows' medians, what is left must be far less than `h`. Of two letters one may have a swash,
 //! so that where the medians do not tell two letters say no more than that their foot lies between theirs: the nearest place there to the
 //! line counts.
 
 use super::baselines::{Letter, OVERSHOOT, near};
 use crate::numeric::median::median;
+use crate::scan::cut::Levels;
 use crate::scan::letters::{Foot, Kind};
 use nalgebra::{DMatrix, DVector};
 
@@ -20,6 +21,8 @@ use nalgebra::{DMatrix, DVector};
 const KINDS: [Kind; 3] = [Kind::Small, Kind::Capital, Kind::Figure];
 /// Letters of a kind that tell where they stand in a row, and rows of those that hang, at least.
 const ENOUGH: usize = 2;
+/// Weight of rows that do not drift, since their levels are printed.
+const HELD: f64 = 1e9;
 /// Letters of a row whose median is but the middle of two.
 const PAIR: usize = 2;
 /// Times that pairs are told from the lines, and lines from the pairs: beyond the third nothing moves by a tenth of a px.
@@ -43,8 +46,8 @@ struct Feet {
 }
 
 /// Tells letters of kinds that hang by how much they do; whether there are any, so that the rows are known to stand at even distances.
-pub(super) fn tell(letters: &mut [Letter], rows: usize) -> bool {
-    let Some(depths) = depths(letters, rows) else {
+pub(super) fn tell(letters: &mut [Letter], rows: usize, levels: Levels) -> bool {
+    let Some(depths) = depths(letters, rows, levels) else {
         return false;
     };
     for letter in letters {
@@ -55,7 +58,7 @@ pub(super) fn tell(letters: &mut [Letter], rows: usize) -> bool {
 }
 
 /// How far the letters of each kind hang, px; `None` where the rows do not tell, or nothing hangs.
-fn depths(letters: &[Letter], rows: usize) -> Option<[f64; KINDS.len()]> {
+fn depths(letters: &[Letter], rows: usize, levels: Levels) -> Option<[f64; KINDS.len()]> {
     let feet = feet(letters, rows);
     let present = (0..KINDS.len()).filter(|&k| feet.iter().any(|f| f.kind == k));
     let kinds: Vec<usize> = present.collect();
@@ -64,7 +67,7 @@ fn depths(letters: &[Letter], rows: usize) -> Option<[f64; KINDS.len()]> {
         return None;
     }
     let mut fits = [0, ROUNDS].into_iter().map(|rounds| {
-        let (lines, left) = lines(&feet, &kinds, rounds)?;
+        let (lines, left) = lines(&feet, (&kinds, levels), rounds)?;
         told(&feet, &kinds, &lines, left / spare as f64, near(letters))
     });
     fits.find_map(|depths| depths)
@@ -96,7 +99,11 @@ fn told(
 
 /// The slope of the rows and a line for each kind, px, and the weighed squares of what is left; `rounds` times feet of pairs go to where they
 /// fit best.
-fn lines(feet: &[Feet], kinds: &[usize], rounds: usize) -> Option<(DVector<f64>, f64)> {
+fn lines(
+    feet: &[Feet],
+    (kinds, levels): (&[usize], Levels),
+    rounds: usize,
+) -> Option<(DVector<f64>, f64)> {
     let column = |f: &Feet, i: usize| match i {
         0 => f.row as f64,
         i => f64::from(u8::from(kinds[i - 1] == f.kind)),
@@ -105,7 +112,12 @@ fn lines(feet: &[Feet], kinds: &[usize], rounds: usize) -> Option<(DVector<f64>,
     let rows = DMatrix::from_fn(feet.len(), 1 + kinds.len(), |i, j| {
         weight(&feet[i]) * column(&feet[i], j)
     });
-    let square = (rows.transpose() * &rows).cholesky()?;
+    let mut square = rows.transpose() * &rows;
+    square[(0, 0)] += match levels {
+        Levels::Printed => HELD,
+        Levels::Even | Levels::Loose => 0.0,
+    };
+    let square = square.cholesky()?;
     let fit = |at: &DVector<f64>| square.solve(&(rows.transpose() * at));
     let weighed = feet.iter().map(|f| weight(f) * f.at);
     let mut at = DVector::from_iterator(feet.len(), weighed);
@@ -171,8 +183,8 @@ mod tests {
     #[test]
     fn capitals_and_figures_that_hang_leave_the_rows_even() {
         let mut letters = page(&ROWS, |r| 3.0 * r as f64);
-        assert!(tell(&mut letters, ROWS.len()));
-        let drop = ruled(&letters, ROWS.len());
+        assert!(tell(&mut letters, ROWS.len(), Levels::Loose));
+        let drop = ruled(&letters, ROWS.len(), Levels::Even);
         for (r, drop) in drop.iter().enumerate() {
             assert!((drop - 3.0 * r as f64).abs() < 2.0, "{drop:?}");
         }
@@ -192,8 +204,8 @@ mod tests {
             CAPITALS, CAPITALS, CAPITALS, swash, SMALL, SMALL, FIGURES, FIGURES,
         ];
         let mut letters = page(&rows, |r| 3.0 * r as f64);
-        assert!(tell(&mut letters, rows.len()));
-        let drop = ruled(&letters, rows.len());
+        assert!(tell(&mut letters, rows.len(), Levels::Loose));
+        let drop = ruled(&letters, rows.len(), Levels::Even);
         for (r, drop) in drop.iter().enumerate() {
             assert!((drop - 3.0 * r as f64).abs() < 4.0, "{drop:?}");
         }
@@ -204,7 +216,7 @@ mod tests {
         let strays = [0.0, 41.0, -27.0, 12.0, 38.0, -16.0, 25.0];
         for rows in [ROWS, [CAPITALS; 7], [SMALL; 7]] {
             let mut letters = page(&rows, |r| strays[r]);
-            assert!(!tell(&mut letters, rows.len()));
+            assert!(!tell(&mut letters, rows.len(), Levels::Loose));
             assert!(letters.iter().all(|l| l.hangs.abs() < 1e-9));
         }
     }
@@ -237,7 +249,11 @@ mod tests {
                 .flat_map(|(r, row)| row.chars().map(move |c| (r, c)));
             let letter =
                 |(r, c): (usize, char)| Letter::ending(r, &c.to_string(), 15.0 * strays[r]);
-            tell(&mut letters.map(letter).collect::<Vec<_>>(), names.len())
+            tell(
+                &mut letters.map(letter).collect::<Vec<_>>(),
+                names.len(),
+                Levels::Loose,
+            )
         });
         let told = told.count();
         assert!(told <= 30, "{told} of 1000");
@@ -247,7 +263,7 @@ mod tests {
     fn a_page_on_its_side_hangs_by_nothing() {
         let far: &[_] = &[("H", 160.0), ("E", 163.0), ("T", 158.0), ("O", 161.0)];
         let rows = ROWS.map(|r| if r == CAPITALS { far } else { r });
-        assert!(!tell(&mut page(&rows, |_| 0.0), rows.len()));
+        assert!(!tell(&mut page(&rows, |_| 0.0), rows.len(), Levels::Loose));
     }
 
     #[test]
@@ -256,7 +272,7 @@ mod tests {
             vec![CAPITALS, SMALL, SMALL, SMALL],
             vec![CAPITALS, CAPITALS, SMALL, SMALL],
         ] {
-            assert!(!tell(&mut page(&rows, |_| 0.0), rows.len()));
+            assert!(!tell(&mut page(&rows, |_| 0.0), rows.len(), Levels::Loose));
         }
     }
 }

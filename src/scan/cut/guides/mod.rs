@@ -7,7 +7,7 @@ mod joins;
 mod strays;
 mod votes;
 
-use super::{Layer, Slot, Warning};
+use super::{Layer, Levels, Slot, Warning};
 use crate::numeric::median::median;
 use crate::numeric::view::View;
 use crate::scan::clean::Page;
@@ -59,11 +59,10 @@ pub(super) fn measure(
         Some(letter)
     };
     let mut letters: Vec<Letter> = layer.slots.iter().filter_map(letter).collect();
-    let is_even = hanging::tell(&mut letters, layer.rows) || layer.ruled;
-    let drop = if is_even {
-        ruled(&letters, layer.rows)
-    } else {
-        unruled(&letters, layer.rows)
+    let hangs = hanging::tell(&mut letters, layer.rows, layer.levels);
+    let drop = match layer.levels {
+        Levels::Loose if !hangs => unruled(&letters, layer.rows),
+        levels => ruled(&letters, layer.rows, levels),
     };
     let (px_per_em, warning) = scale(&letters, &drop, page, options)?;
     Ok(Guides {

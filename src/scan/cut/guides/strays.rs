@@ -13,6 +13,7 @@
 use super::baselines::{Letter, Line, NORMAL, drops, feet_on_line, near};
 use super::votes::{MAY_STAND, Poll, Vote};
 use crate::numeric::median::median;
+use crate::scan::cut::Levels;
 
 /// Weight of a row's votes from which on it tells where it stands, and rows that tell how far rows stray, at least.
 const SURE: f64 = 2.2;
@@ -34,14 +35,19 @@ const ROUNDS: usize = 3;
 pub(super) fn unruled(letters: &[Letter], rows: usize) -> Vec<f64> {
     let (off, near) = (feet_on_line(letters, rows), near(letters));
     let strays = strays(letters, &off, near, rows);
-    drops(off, near, &strays)
+    drops(off, near, (Levels::Loose, &strays))
 }
 
 /// How far each of the rows stands from even distances, px: nothing where it is less than `near` of all of them.
 ///
 /// `off` is the row and the distance from the level of the feet that tell where rows stand.
 fn strays(letters: &[Letter], off: &[(usize, f64)], near: f64, rows: usize) -> Vec<f64> {
-    let poll = Poll::new(letters, rows, Line::steady(off, near).0, near);
+    let poll = Poll::new(
+        letters,
+        rows,
+        Line::steady(off, near, Line::through).0,
+        near,
+    );
     let (mut votes, mut told) = (Vec::new(), vec![None; rows]);
     for _ in 0..ROUNDS {
         votes = poll.votes(&told);
@@ -175,7 +181,7 @@ mod tests {
         let flat = letters.iter().filter(|l| l.shape.foot == Foot::Flat);
         let off: Vec<(usize, f64)> = flat.map(|l| (l.row, l.body.y1)).collect();
         let strays = strays(&letters, &off, 10.0, rows.len());
-        let even = Line::steady(&off, 10.0).0;
+        let even = Line::steady(&off, 10.0, Line::through).0;
         let stand = strays.iter().enumerate().map(|(r, s)| even.at(r) + s);
         [strays.clone(), stand.collect()]
     }

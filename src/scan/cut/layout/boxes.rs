@@ -8,7 +8,7 @@ use super::named::{Place, named};
 use super::rows::rows;
 use crate::numeric::view::View;
 use crate::scan::components::{Component, Run, enclosed};
-use crate::scan::cut::{Layer, Reason};
+use crate::scan::cut::{Layer, Levels, Reason};
 use crate::scan::error::ScanError;
 use crate::scan::options::{Direction, Options};
 use crate::types::{Gray, Label};
@@ -99,7 +99,7 @@ pub(super) fn place(
     Ok(Layer {
         slots,
         rows: order.len(),
-        ruled: true,
+        levels: Levels::Printed,
         rejected,
         parted: Vec::new(),
         doubtful: Vec::new(),

@@ -18,7 +18,7 @@ use crate::numeric::median::median;
 use crate::numeric::view::View;
 use crate::scan::components::Component;
 use crate::scan::cut::sieve::{LATTICE_COVER, stroke_width};
-use crate::scan::cut::{Layer, Reason, Slot};
+use crate::scan::cut::{Layer, Levels, Reason, Slot};
 use crate::scan::error::ScanError;
 use crate::scan::letters::{Pieces, Shape};
 use crate::scan::options::{Direction, Options};
@@ -226,7 +226,7 @@ fn layer(rows: Vec<Row>, labels: &[Label]) -> Layer {
     Layer {
         slots,
         rows: count,
-        ruled: false,
+        levels: Levels::Loose,
         rejected,
         parted: Vec::new(),
         doubtful: Vec::new(),

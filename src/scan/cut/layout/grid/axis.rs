@@ -4,6 +4,7 @@
 //! compared with a wave of that length; the wave's phase says where the gaps are. Printed lines, letters
 //! out of their place and empty cells do not move it.
 
+use crate::numeric::median::median;
 use crate::scan::whole::floor;
 use std::f64::consts::TAU;
 use std::ops::Range;
@@ -16,6 +17,12 @@ const PITCHES: usize = 400;
 const STRAY: f64 = 0.003;
 /// How much ink outside the cells counts against a fit.
 const OUTSIDE: f64 = 2.0;
+/// Printed lines that are the cells' borders: so many at least, as far apart as the letters up to this share, and each in its place up to
+/// this share of a cell; where some are missing the first cell begins this near to one of them.
+const FEWEST: usize = 3;
+const UNLIKE: f64 = 0.1;
+const UNEVEN: f64 = 0.03;
+const DOUBT: f64 = 0.35;
 
 /// Cells along one axis, px of the upright page.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -53,6 +60,33 @@ impl Axis {
         })
     }
 
+    /// The same cells between printed lines, where such lines are as far apart as they are.
+    pub(super) fn between(&self, lines: &[f64]) -> Option<Self> {
+        let mut lines = lines.to_vec();
+        lines.sort_by(f64::total_cmp);
+        let gaps = lines.windows(2).map(|pair| pair[1] - pair[0]);
+        // where a line is missing the gap is twice as long
+        let gap = median(gaps.filter(|gap| (gap / self.pitch - 1.0).abs() < UNLIKE))?;
+        let first = *lines.first()?;
+        let placed = lines.iter().map(|v| (((v - first) / gap).round(), *v));
+        let placed: Vec<(f64, f64)> = placed.collect();
+        let (start, pitch) = evenly(&placed);
+        let is_even = |(k, v): &(f64, f64)| (start + k * pitch - v).abs() < UNEVEN * pitch;
+        if lines.len() < FEWEST.max(self.count / 2) || !placed.iter().all(is_even) {
+            return None;
+        }
+        let cells = placed.last().map_or(0.0, |last| last.0);
+        let are_all = (cells - self.count as f64).abs() < 0.5;
+        let before = (self.start - start) / pitch;
+        let first = if are_all { 0.0 } else { before.round() };
+        let is_known = are_all || (before - first).abs() < DOUBT;
+        is_known.then_some(Self {
+            start: start + first * pitch,
+            pitch,
+            count: self.count,
+        })
+    }
+
     /// The cell at a place; what lies outside goes to the next one within half a pitch.
     pub(super) fn cell(&self, at: f64) -> Option<usize> {
         let place = (at - self.start) / self.pitch;
@@ -75,6 +109,20 @@ impl Axis {
         let place = ((at - self.start) / self.pitch).rem_euclid(1.0);
         place.min(1.0 - place)
     }
+}
+
+/// Start and pitch of least squares of values at places, which count pitches.
+fn evenly(placed: &[(f64, f64)]) -> (f64, f64) {
+    let n = placed.len() as f64;
+    let (k, v) = placed
+        .iter()
+        .fold((0.0, 0.0), |s, p| (s.0 + p.0, s.1 + p.1));
+    let (k, v) = (k / n, v / n);
+    let (both, square) = placed.iter().fold((0.0, 0.0), |s, p| {
+        (s.0 + (p.0 - k) * (p.1 - v), s.1 + (p.0 - k).powi(2))
+    });
+    let pitch = both / square;
+    (v - k * pitch, pitch)
 }
 
 /// How much ink there is along an axis.
@@ -179,5 +227,35 @@ mod tests {
             "the first row is said to be empty"
         );
         assert_eq!(shifted.cell(centre(20)), None);
+    }
+
+    #[test]
+    fn printed_lines_say_where_cells_are() {
+        // by their ink cells are 2 px too long and begin 17 px too far down
+        let axis = Axis {
+            start: 117.0,
+            pitch: 102.0,
+            count: 7,
+        };
+        let lines = |which: &[usize], pitch: f64| -> Vec<f64> {
+            let ragged = [0.3, -0.2, 0.1, 0.4, -0.4, 0.2, -0.1, 0.0];
+            which
+                .iter()
+                .map(|&k| 100.0 + pitch * k as f64 + ragged[k])
+                .collect()
+        };
+        for which in [&[0, 1, 2, 3, 4, 5, 6, 7][..], &[1, 2, 4, 5, 7]] {
+            let exact = axis.between(&lines(which, 100.0)).unwrap();
+            for k in 0..=7 {
+                let off = exact.begin(k) - 100.0 - 100.0 * k as f64;
+                assert!(off.abs() < 0.5, "{which:?} {exact:?}");
+            }
+        }
+        assert_eq!(axis.between(&lines(&[2, 3], 100.0)), None, "too few");
+        let writing = lines(&[0, 1, 2, 3, 4, 5, 6, 7], 50.0);
+        assert_eq!(axis.between(&writing), None, "two lines a row");
+        let mut uneven = lines(&[0, 1, 2, 3, 4, 5, 6, 7], 100.0);
+        uneven[4] += 8.0;
+        assert_eq!(axis.between(&uneven), None, "no grid");
     }
 }

@@ -14,7 +14,7 @@ use super::ruling;
 use crate::scan::components::Component;
 use crate::scan::cut::marks::{self, SMALL, group};
 use crate::scan::cut::sieve::LATTICE_COVER;
-use crate::scan::cut::{Layer, Reason, gap};
+use crate::scan::cut::{Layer, Levels, Reason, gap};
 use crate::scan::error::ScanError;
 use crate::scan::letters::{Pieces, Shape};
 use crate::types::Label;
@@ -50,6 +50,11 @@ pub(super) fn place(
     let blank = || ScanError::Blank {
         source_name: plan.source.to_owned(),
     };
+    let printed: Vec<&Component> = lines.iter().map(|&i| &all[i]).collect();
+    let plan = &Plan {
+        printed: ruling::heights(&printed, &plan.upright),
+        ..plan.clone()
+    };
     let mut shared = share(all, &letters, labels, plan).ok_or_else(blank)?;
     let names = GlyphData::default();
     let label = |cell: usize| labels.get(plan.index((cell / plan.columns, cell % plan.columns))?);
@@ -72,6 +77,7 @@ pub(super) fn place(
     let Shared {
         x,
         y,
+        is_printed,
         mut cells,
         outside,
     } = shared;
@@ -91,7 +97,11 @@ pub(super) fn place(
     Ok(Layer {
         slots,
         rows: plan.rows,
-        ruled: is_lined,
+        levels: match (is_printed, is_lined) {
+            (true, _) => Levels::Printed,
+            (false, true) => Levels::Even,
+            (false, false) => Levels::Loose,
+        },
         rejected,
         parted,
         doubtful: Vec::new(),

@@ -11,6 +11,7 @@ use crate::types::{Gray, Label};
 const LEAST_CELL: usize = 4;
 
 /// The grid that a user said.
+#[derive(Clone)]
 pub(in crate::scan::cut::layout) struct Plan<'a> {
     pub(super) rows: usize,
     pub(super) columns: usize,
@@ -20,6 +21,8 @@ pub(in crate::scan::cut::layout) struct Plan<'a> {
     pub(super) upright: View,
     /// The letters whose places a user says, and their ink.
     pub(super) claims: &'a [(usize, Vec<usize>)],
+    /// How far down the page printed lines lie, upright px.
+    pub(super) printed: Vec<f64>,
 }
 
 impl<'a> Plan<'a> {
@@ -41,6 +44,7 @@ impl<'a> Plan<'a> {
             gray,
             upright,
             claims,
+            printed: Vec::new(),
         })
         .ok_or(ScanError::NoGrid { rows, columns })
     }

@@ -20,6 +20,8 @@ const NAMELESS: usize = 2;
 pub(super) struct Shared {
     pub(super) x: Axis,
     pub(super) y: Axis,
+    /// The rows are those between printed lines.
+    pub(super) is_printed: bool,
     /// The pieces of each cell, row by row.
     pub(super) cells: Vec<Vec<usize>>,
     /// Those beside all of them.
@@ -41,6 +43,9 @@ pub(super) fn share(
     plan: &Plan<'_>,
 ) -> Option<Shared> {
     let (x, y) = axes(all, letters, labels, plan)?;
+    // letters may all stand to one side in their cells, but a row's line is equally far from that of its cells
+    let printed = y.between(&plan.printed);
+    let (is_printed, y) = (printed.is_some(), printed.unwrap_or(y));
     let mut cells: Vec<Vec<usize>> = vec![Vec::new(); plan.rows * plan.columns];
     let (mut beyond, mut outside) = (Vec::new(), Vec::new());
     for &i in letters {
@@ -67,6 +72,7 @@ pub(super) fn share(
     Some(Shared {
         x,
         y,
+        is_printed,
         cells,
         outside,
     })

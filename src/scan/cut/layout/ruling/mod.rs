@@ -23,8 +23,22 @@ const EDGE: f64 = 1.5;
 /// Ways across a line: how far they lead along it, as a share of how far across. A letter's edge goes between two of them.
 const WAYS: [f64; 5] = [0.0, -0.5, 0.5, -1.0, 1.0];
 
-/// What is left of a lattice, or of a single line, without its lines: pieces that are wider than a line is thick.
-pub(super) fn freed(lattice: &Component, upright: &View) -> Vec<Component> {
+/// How far down the page printed lines lie, upright px.
+pub(super) fn heights(lines: &[&Component], upright: &View) -> Vec<f64> {
+    let of = |line: &&Component| {
+        let [columns, rows] = lines_of(line, upright);
+        let thick = |line: &Range<f64>| line.end - line.start;
+        let least = columns.iter().chain(&rows).map(thick);
+        let least = least.reduce(f64::min).unwrap_or(0.0);
+        // a line down the page is as thick as it is long the other way
+        let thin = rows.into_iter().filter(|l| thick(l) <= THICK * least);
+        thin.map(|l| (l.start + l.end) / 2.0).collect::<Vec<f64>>()
+    };
+    lines.iter().flat_map(of).collect()
+}
+
+/// The stripes across the page and down it in which a lattice, or a single line, has ink for most of its length.
+fn lines_of(lattice: &Component, upright: &View) -> [Vec<Range<f64>>; 2] {
     let b = lattice.upright;
     let at = |x: usize, y: usize| upright.at(Point::new(x as f64 + 0.5, y as f64 + 0.5));
     let mut profiles = [b.width(), b.height()].map(|length| vec![0.0; floor(length) + 2]);
@@ -36,8 +50,17 @@ pub(super) fn freed(lattice: &Component, upright: &View) -> Vec<Component> {
             }
         }
     }
-    let mut columns = stripes(&profiles[0], b.x0, b.height());
-    let mut rows = stripes(&profiles[1], b.y0, b.width());
+    [
+        stripes(&profiles[0], b.x0, b.height()),
+        stripes(&profiles[1], b.y0, b.width()),
+    ]
+}
+
+/// What is left of a lattice, or of a single line, without its lines: pieces that are wider than a line is thick.
+pub(super) fn freed(lattice: &Component, upright: &View) -> Vec<Component> {
+    let b = lattice.upright;
+    let at = |x: usize, y: usize| upright.at(Point::new(x as f64 + 0.5, y as f64 + 0.5));
+    let [mut columns, mut rows] = lines_of(lattice, upright);
     let thick = |line: &Range<f64>| line.end - line.start;
     let mut usual: Vec<f64> = columns.iter().chain(&rows).map(thick).collect();
     usual.sort_by(f64::total_cmp);
