@@ -7,9 +7,9 @@
 //! a + b r + h(k)
 //! ```
 //!
-//! px below their levels, `b` being 0 where these are printed, least squares over the rows' medians, what is left must be far less than `h`. Of two letters one may have a swash,
-//! so that where the medians do not tell two letters say no more than that their foot lies between theirs: the nearest place there to the
-//! line counts.
+//! px below their levels, `b` being 0 where these are printed, least squares over the rows' medians, what is left must be far less than
+//! `h`. Of two letters one may have a swash, so that where the medians do not tell two letters say no more than that their foot lies
+//! between theirs: the nearest place there to the line counts.
 
 use super::baselines::{Letter, OVERSHOOT, near};
 use crate::numeric::median::median;

@@ -50,9 +50,9 @@ pub(super) fn place(
     let blank = || ScanError::Blank {
         source_name: plan.source.to_owned(),
     };
-    let printed: Vec<&Component> = lines.iter().map(|&i| &all[i]).collect();
+    let lattice: Vec<&Component> = lines.iter().map(|&i| &all[i]).collect();
     let plan = &Plan {
-        printed: ruling::heights(&printed, &plan.upright),
+        printed: ruling::heights(&lattice, &plan.upright),
         ..plan.clone()
     };
     let mut shared = share(all, &letters, labels, plan).ok_or_else(blank)?;
