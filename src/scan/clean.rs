@@ -1,23 +1,15 @@
 //! Uneven light evened out: paper becomes 0 and ink 1 all over the page.
 //!
-//! Light multiplies: what the scanner sees is light × reflectance. The light is the paper's level, taken
-//! per block, opened by a window wider than any stroke, and divided out. One level of ink and one of noise
-//! are then measured for the whole page.
+//! Light multiplies: what the scanner sees is light × reflectance. The light is the paper's level ([`Field`]) and divided
+//! out. One level of ink and one of noise are then measured for the whole page.
 
 use super::error::ScanError;
+use super::light::Field;
 use super::paper::Paper;
 use super::whole::{floor, narrow, ratio};
 use crate::types::{Gray, Sheet};
 use rayon::prelude::*;
 
-/// Blocks along the shorter side of a page: shadows are wider than 1/100 of it.
-const BLOCKS: usize = 100;
-/// Sides that a block may have, px: enough samples for a percentile, and not more than a shadow's width.
-const BLOCK_PX: (usize, usize) = (8, 64);
-/// Percentile of a block's samples that is paper even where three quarters of it are ink.
-const PAPER: f64 = 0.25;
-/// Half the window, blocks, of the opening that removes ink: strokes are thinner than twice this.
-const OPENING: usize = 3;
 /// Standard deviations of the paper's noise above which a pixel may be ink.
 const NOISE: f32 = 6.0;
 /// The least contrast of ink, of the range between black and white.
@@ -52,7 +44,7 @@ pub struct Page {
 /// Nothing on the page is darker than its paper.
 pub fn clean(sheet: Sheet) -> Result<Page, ScanError> {
     let field = Field::measure(&sheet.gray);
-    let paper = Paper::find(&field.values, field.columns, field.block);
+    let paper = field.paper();
     even(sheet, &field, paper.filter(|p| p.share < SURROUNDED))
 }
 
@@ -63,8 +55,10 @@ pub fn clean(sheet: Sheet) -> Result<Page, ScanError> {
 /// Nothing on the page is darker than its paper.
 pub fn clean_paper(sheet: Sheet) -> Result<Option<Page>, ScanError> {
     let field = Field::measure(&sheet.gray);
-    let paper = Paper::find(&field.values, field.columns, field.block);
-    paper.map(|p| even(sheet, &field, Some(p))).transpose()
+    field
+        .paper()
+        .map(|p| even(sheet, &field, Some(p)))
+        .transpose()
 }
 
 fn even(sheet: Sheet, field: &Field, paper: Option<Paper>) -> Result<Page, ScanError> {
@@ -109,114 +103,6 @@ fn even(sheet: Sheet, field: &Field, paper: Option<Paper>) -> Result<Page, ScanE
 /// Light swallowed, as a share of the light that falls on the paper there.
 fn reflected(ink: f32, paper: f32) -> f32 {
     (ink - paper) / (1.0 - paper).max(LEAST)
-}
-
-/// The paper's level all over the page: a value a block, bilinear between their centres.
-struct Field {
-    block: usize,
-    columns: usize,
-    values: Vec<f32>,
-}
-
-impl Field {
-    fn measure(gray: &Gray) -> Self {
-        let (w, h) = (gray.width(), gray.height());
-        let block = (w.min(h) / BLOCKS).clamp(BLOCK_PX.0, BLOCK_PX.1);
-        let (columns, rows) = (w.div_ceil(block).max(1), h.div_ceil(block).max(1));
-        // every second sample of every second row of a large block says enough
-        let step = if block >= 4 * BLOCK_PX.0 { 2 } else { 1 };
-        let level = |i: usize| {
-            let (x0, y0) = (i % columns * block, i / columns * block);
-            let rows = (y0..(y0 + block).min(h)).step_by(step);
-            let cut = |y| gray.row(y).get(x0..(x0 + block).min(w)).unwrap_or(&[]);
-            let mut all: Vec<f32> = rows
-                .flat_map(|y| cut(y).iter().step_by(step))
-                .copied()
-                .collect();
-            if all.is_empty() {
-                return 0.0;
-            }
-            let nth = floor(PAPER * (all.len() - 1) as f64);
-            *all.select_nth_unstable_by(nth, f32::total_cmp).1
-        };
-        let values = (0..columns * rows).into_par_iter().map(level).collect();
-        let mut field = Self {
-            block,
-            columns,
-            values,
-        };
-        field.filter(f32::min);
-        field.filter(f32::max);
-        field.smooth();
-        field
-    }
-
-    /// A window of 2·[`OPENING`] + 1 blocks in both directions, reduced by `pick`.
-    fn filter(&mut self, pick: fn(f32, f32) -> f32) {
-        self.separable(|line, i| {
-            let window = &line[i.saturating_sub(OPENING)..(i + OPENING + 1).min(line.len())];
-            window.iter().copied().reduce(pick).unwrap_or(0.0)
-        });
-    }
-
-    fn smooth(&mut self) {
-        self.separable(|line, i| {
-            let window = &line[i.saturating_sub(1)..(i + 2).min(line.len())];
-            window.iter().sum::<f32>() / ratio(window.len())
-        });
-    }
-
-    fn separable(&mut self, at: impl Fn(&[f32], usize) -> f32) {
-        let columns = self.columns;
-        let pass = |line: &[f32]| -> Vec<f32> { (0..line.len()).map(|i| at(line, i)).collect() };
-        for line in self.values.chunks_mut(columns) {
-            line.copy_from_slice(&pass(line));
-        }
-        for x in 0..columns {
-            let line: Vec<f32> = self
-                .values
-                .iter()
-                .skip(x)
-                .step_by(columns)
-                .copied()
-                .collect();
-            let cells = self.values.iter_mut().skip(x).step_by(columns);
-            cells.zip(pass(&line)).for_each(|(v, new)| *v = new);
-        }
-    }
-
-    /// The field at the blocks' centres along pixel row `y`.
-    fn row(&self, y: usize, out: &mut Vec<f32>) {
-        let rows = self.values.len() / self.columns;
-        let (a, b, t) = self.between(y, rows);
-        let line = |r: usize| &self.values[r * self.columns..(r + 1) * self.columns];
-        out.clear();
-        out.extend(line(a).iter().zip(line(b)).map(|(p, q)| p + (q - p) * t));
-    }
-
-    /// One value a pixel from the values at the blocks' centres.
-    fn along<'a>(&'a self, row: &'a [f32]) -> impl Iterator<Item = f32> + 'a {
-        let half = self.block / 2;
-        let step = 1.0 / ratio(self.block);
-        let ends = |i: usize| (row[i.saturating_sub(1)], row[i.min(row.len() - 1)]);
-        // stretch i lies between the centres of blocks i − 1 and i
-        (0..=row.len()).flat_map(move |i| {
-            let (p, q) = ends(i);
-            let (from, to) = if i == 0 {
-                (self.block - half, self.block)
-            } else {
-                (0, self.block)
-            };
-            (from..to).map(move |k| p + (q - p) * (ratio(k) + 0.5) * step)
-        })
-    }
-
-    fn between(&self, at: usize, count: usize) -> (usize, usize, f32) {
-        let shifted = at + self.block - self.block / 2;
-        let (i, k) = (shifted / self.block, shifted % self.block);
-        let t = (ratio(k) + 0.5) / ratio(self.block);
-        (i.saturating_sub(1).min(count - 1), i.min(count - 1), t)
-    }
 }
 
 /// The levels of paper and ink once the light is divided out.

@@ -18,6 +18,7 @@ mod error;
 mod header;
 mod ink;
 mod letters;
+mod light;
 mod load;
 mod options;
 mod paper;

@@ -117,8 +117,21 @@ fn edges(regions: &[usize], columns: usize) -> Vec<bool> {
     reaches
 }
 
+/// The blocks to the left and right of one of `count` in rows of `columns`, above and below it.
+pub(super) fn beside(i: usize, columns: usize, count: usize) -> impl Iterator<Item = usize> {
+    let left = (i % columns > 0).then(|| i - 1);
+    let right = (i % columns + 1 < columns).then_some(i + 1);
+    let up = i.checked_sub(columns);
+    let down = Some(i + columns).filter(|&d| d < count);
+    [left, right, up, down].into_iter().flatten()
+}
+
 /// The region of each of `count` blocks in rows of `columns`: neighbours that are `alike` share one.
-fn regions(count: usize, columns: usize, alike: impl Fn(usize, usize) -> bool) -> Vec<usize> {
+pub(super) fn regions(
+    count: usize,
+    columns: usize,
+    alike: impl Fn(usize, usize) -> bool,
+) -> Vec<usize> {
     let mut region: Vec<usize> = vec![usize::MAX; count];
     let mut stack = Vec::new();
     for first in 0..count {
@@ -128,12 +141,7 @@ fn regions(count: usize, columns: usize, alike: impl Fn(usize, usize) -> bool) -
         region[first] = first;
         stack.push(first);
         while let Some(i) = stack.pop() {
-            let (x, y) = (i % columns, i / columns);
-            let left = (x > 0).then(|| i - 1);
-            let right = (x + 1 < columns).then_some(i + 1);
-            let up = (y > 0).then(|| i - columns);
-            let down = Some(i + columns).filter(|&d| d < count);
-            for next in [left, right, up, down].into_iter().flatten() {
+            for next in beside(i, columns, count) {
                 if region[next] == usize::MAX && alike(i, next) {
                     region[next] = first;
                     stack.push(next);
