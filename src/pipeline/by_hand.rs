@@ -45,7 +45,7 @@ pub(super) fn set(font: Font, project: &Project, world: World<'_>) -> Result<Fon
         let bytes = world.file(path).map_err(|p| vec![p])?;
         let text = String::from_utf8_lossy(&bytes);
         layout::check(&font, &path.display().to_string(), &text).map_err(|e| vec![e.into()])?;
-        font.features = format!("{}\n{text}", font.features);
+        font.features = layout::with_features(&font, &text);
     }
     Ok(font)
 }

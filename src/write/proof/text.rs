@@ -3,6 +3,7 @@
 use super::Entry;
 use maud::{Markup, html};
 use std::collections::BTreeSet;
+use unicode_bidi::{BidiClass, bidi_class};
 
 /// Lines that show letters beside each other. Words with letters that the font lacks are left out.
 const LINES: &[&str] = &[
@@ -26,7 +27,7 @@ pub(super) fn language(text: &str) -> &'static str {
 }
 
 fn is_arabic(c: char) -> bool {
-    matches!(u32::from(c), 0x0600..=0x06FF | 0x0750..=0x077F | 0x08A0..=0x08FF | 0xFB50..=0xFDFF | 0xFE70..=0xFEFF)
+    bidi_class(c) == BidiClass::AL
 }
 
 fn direction(text: &str) -> &'static str {

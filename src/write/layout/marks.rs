@@ -1,0 +1,190 @@
+//! Where marks attach, by the anchors of glyphs: `mark`, `mkmk`, and the classes of glyphs; and `curs`.
+
+use super::push;
+use crate::types::{Anchor, Font, Glyph};
+use std::collections::BTreeMap;
+
+/// The class of a glyph in GDEF.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(in crate::write) enum Class {
+    Base,
+    Ligature,
+    Mark,
+}
+
+/// A glyph's class, as its anchors tell it: none for one that has none.
+pub(in crate::write) fn class(glyph: &Glyph) -> Option<Class> {
+    let any = |is: &dyn Fn(&str) -> bool| glyph.anchors.iter().any(|a| is(&a.name));
+    if any(&|n| n.starts_with('_')) {
+        Some(Class::Mark)
+    } else if any(&|n| part(n).is_some()) {
+        Some(Class::Ligature)
+    } else {
+        (!glyph.anchors.is_empty()).then_some(Class::Base)
+    }
+}
+
+/// `top` and 2 of `top_2`.
+fn part(anchor: &str) -> Option<(&str, usize)> {
+    let (name, number) = anchor.rsplit_once('_').filter(|(n, _)| !n.is_empty())?;
+    Some((name, number.parse().ok()?))
+}
+
+/// Letters that are shifted until the exit of one is the entry of the next; a word's last letter stays on the line.
+pub(super) fn cursive(font: &Font) -> String {
+    let rule = |glyph: &Glyph| {
+        let place = |name: &str| glyph.anchors.iter().find(|a| a.name == name).map(at);
+        let null = || "<anchor NULL>".to_owned();
+        let (entry, exit) = (place("entry"), place("exit"));
+        (entry.is_some() || exit.is_some()).then(|| {
+            let (entry, exit) = (entry.unwrap_or_else(null), exit.unwrap_or_else(null));
+            format!("    pos cursive {} {entry} {exit};\n", glyph.name)
+        })
+    };
+    let rules: String = font.glyphs().iter().filter_map(rule).collect();
+    if rules.is_empty() {
+        return rules;
+    }
+    format!("\nfeature curs {{\n    lookupflag RightToLeft IgnoreMarks;\n{rules}}} curs;\n")
+}
+
+/// Glyphs with anchors, sorted by what they are.
+pub(super) struct Marks<'a> {
+    /// Anchor name without `_` → the marks that attach by it.
+    attaching: BTreeMap<&'a str, Vec<(&'a Glyph, &'a Anchor)>>,
+    classed: Vec<(&'a Glyph, Class)>,
+}
+
+impl<'a> Marks<'a> {
+    pub(super) fn of(font: &'a Font) -> Self {
+        let mut attaching: BTreeMap<&str, Vec<(&Glyph, &Anchor)>> = BTreeMap::new();
+        let mut classed = Vec::new();
+        for glyph in font.glyphs() {
+            classed.extend(class(glyph).map(|c| (glyph, c)));
+            for anchor in &glyph.anchors {
+                if let Some(name) = anchor.name.strip_prefix('_') {
+                    attaching.entry(name).or_default().push((glyph, anchor));
+                }
+            }
+        }
+        Self { attaching, classed }
+    }
+
+    /// Whether any glyph attaches to others.
+    pub(super) fn attach(&self) -> bool {
+        !self.attaching.is_empty()
+    }
+
+    pub(super) fn classes(&self) -> String {
+        let mut out = String::from("\n");
+        for (name, marks) in &self.attaching {
+            for (glyph, anchor) in marks {
+                push(
+                    &mut out,
+                    format_args!("markClass {} {} @mark.{name};\n", glyph.name, at(anchor)),
+                );
+            }
+        }
+        out
+    }
+
+    /// A feature of one lookup for each anchor name and class of glyph that carries it.
+    pub(super) fn feature(&self, tag: &str, carriers: &[Class]) -> String {
+        let mut body = String::new();
+        for name in self.attaching.keys() {
+            for &carrier in carriers {
+                let glyphs = self.classed.iter().filter(|(_, c)| *c == carrier);
+                let rules: String = glyphs.filter_map(|(g, _)| rule(g, carrier, name)).collect();
+                if !rules.is_empty() {
+                    let kind = match carrier {
+                        Class::Base => "base",
+                        Class::Ligature => "ligature",
+                        Class::Mark => "mark",
+                    };
+                    let label = format!("{tag}_{kind}_{name}");
+                    push(
+                        &mut body,
+                        format_args!("    lookup {label} {{\n{rules}    }} {label};\n"),
+                    );
+                }
+            }
+        }
+        if body.is_empty() {
+            body
+        } else {
+            format!("\nfeature {tag} {{\n{body}}} {tag};\n")
+        }
+    }
+
+    pub(super) fn definitions(&self) -> String {
+        let list = |class: Class| {
+            let names: Vec<&str> = self
+                .classed
+                .iter()
+                .filter(|(_, c)| *c == class)
+                .map(|(g, _)| g.name.as_str())
+                .collect();
+            if names.is_empty() {
+                String::new()
+            } else {
+                format!("[{}]", names.join(" "))
+            }
+        };
+        format!(
+            "\ntable GDEF {{\n    GlyphClassDef {}, {}, {}, ;\n}} GDEF;\n",
+            list(Class::Base),
+            list(Class::Ligature),
+            list(Class::Mark)
+        )
+    }
+}
+
+fn at(anchor: &Anchor) -> String {
+    format!("<anchor {} {}>", anchor.at.x.round(), anchor.at.y.round())
+}
+
+/// How one glyph carries the marks of that anchor name.
+fn rule(glyph: &Glyph, carrier: Class, name: &str) -> Option<String> {
+    if carrier != Class::Ligature {
+        let anchor = glyph.anchors.iter().find(|a| a.name == name)?;
+        let kind = if carrier == Class::Mark {
+            "mark"
+        } else {
+            "base"
+        };
+        return Some(format!(
+            "        pos {kind} {} {} mark @mark.{name};\n",
+            glyph.name,
+            at(anchor)
+        ));
+    }
+    let parts: BTreeMap<usize, &Anchor> = glyph
+        .anchors
+        .iter()
+        .filter_map(|a| {
+            part(&a.name)
+                .filter(|(n, _)| *n == name)
+                .map(|(_, i)| (i, a))
+        })
+        .collect();
+    let last = glyph
+        .anchors
+        .iter()
+        .filter_map(|a| part(&a.name))
+        .map(|p| p.1)
+        .max()?;
+    if parts.is_empty() {
+        return None;
+    }
+    let one = |i: usize| {
+        parts.get(&i).map_or("<anchor NULL>".to_owned(), |a| {
+            format!("{} mark @mark.{name}", at(a))
+        })
+    };
+    let all: Vec<String> = (1..=last).map(one).collect();
+    Some(format!(
+        "        pos ligature {} {};\n",
+        glyph.name,
+        all.join(" ligComponent ")
+    ))
+}
