@@ -20,7 +20,7 @@ pub(super) fn is_basic(draft: &Draft) -> bool {
     NAMES.contains(&draft.id.name.as_str()) || matches!(draft.codepoints[..], [' ' | '\u{a0}'])
 }
 
-/// The three, in this order; a drawn `.notdef` and a space whose advance the page says are kept.
+/// The three, in this order; a drawn `.notdef` and a space whose advance is known are kept.
 pub(super) fn glyphs(drafts: &[Draft], info: &Info, options: &Options) -> Vec<Glyph> {
     let em = f64::from(info.units_per_em);
     let drawn = |name: &str| drafts.iter().find(|d| d.id.name.as_str() == name);

@@ -40,12 +40,16 @@ pub struct Options {
     /// Whether strokes are moved or letters.
     pub method: Method,
     /// How far the strokes of two joined letters overlap.
+    #[serde(deserialize_with = "super::ranges::share")]
     pub overlap: f64,
     /// How far an edge may be moved to meet the others.
+    #[serde(deserialize_with = "super::ranges::share")]
     pub limit: f64,
     /// How far into the letter a moved end is felt.
+    #[serde(deserialize_with = "super::ranges::share")]
     pub reach: f64,
     /// Lower and upper edge of every joining stroke; without it, the median of what was drawn.
+    #[serde(deserialize_with = "super::ranges::edges")]
     pub edges: Option<(f64, f64)>,
 }
 

@@ -23,19 +23,36 @@ const FLAT_UPPER: &str = "HEFIKLMNTXZ";
 #[serde(default, deny_unknown_fields)]
 pub struct Heights {
     /// Above the baseline.
+    #[serde(deserialize_with = "super::ranges::optional_up")]
     pub ascender: Option<f64>,
     /// Below the baseline, negative.
+    #[serde(deserialize_with = "super::ranges::optional_down")]
     pub descender: Option<f64>,
     /// Between lines.
+    #[serde(deserialize_with = "super::ranges::optional_up")]
     pub line_gap: Option<f64>,
     /// Height of x.
+    #[serde(deserialize_with = "super::ranges::optional_up")]
     pub x_height: Option<f64>,
     /// Height of H.
+    #[serde(deserialize_with = "super::ranges::optional_up")]
     pub cap_height: Option<f64>,
 }
 
 /// The measures of the drawn letters, font units.
 pub(super) fn measure(drafts: &[Draft], em: f64, given: &Heights) -> Metrics {
+    let or = |given: Option<f64>, measured: f64| given.map_or(measured, |v| v * em).round();
+    let line = Metrics {
+        line_gap: or(given.line_gap, 0.0),
+        x_height: or(given.x_height, flat_top(drafts, FLAT_LOWER)),
+        cap_height: or(given.cap_height, flat_top(drafts, FLAT_UPPER)),
+        ..Metrics::default()
+    };
+    enclosing(line, drafts, em, given)
+}
+
+/// The same measures with a line as tall as the ink of these letters.
+pub(super) fn enclosing(metrics: Metrics, drafts: &[Draft], em: f64, given: &Heights) -> Metrics {
     let boxes = drafts.iter().filter_map(|d| d.outline.bounds());
     let ink = boxes.reduce(|a, b| a.union(b));
     let (top, bottom) = ink.map_or((0.8 * em, -0.2 * em), |r| (r.y1.max(0.0), r.y0.min(0.0)));
@@ -48,14 +65,11 @@ pub(super) fn measure(drafts: &[Draft], em: f64, given: &Heights) -> Metrics {
     };
     let share = share.clamp(0.7, 0.85);
     let up = |v: f64| (v / step).ceil() * step;
-    let (x, cap) = (flat_top(drafts, FLAT_LOWER), flat_top(drafts, FLAT_UPPER));
     let or = |given: Option<f64>, measured: f64| given.map_or(measured, |v| v * em).round();
     Metrics {
         ascender: or(given.ascender, up(top + missing * share)),
         descender: or(given.descender, -up(-bottom + missing * (1.0 - share))),
-        line_gap: or(given.line_gap, 0.0),
-        x_height: or(given.x_height, x),
-        cap_height: or(given.cap_height, cap),
+        ..metrics
     }
 }
 

@@ -17,6 +17,7 @@ pub mod metrics;
 pub mod names;
 mod nearest;
 mod profile;
+mod ranges;
 pub mod spacing;
 mod stroke;
 mod tails;
@@ -69,7 +70,7 @@ pub struct Drawn {
     pub outline: Outline,
     /// The part of each ink, by the ink, the lowest first; empty where inks make no layers.
     pub plates: Vec<(String, Outline)>,
-    /// Left and right end of its advance where the page says them, in the outline's own x.
+    /// Left and right end of its advance where they are known, in the outline's own x.
     pub advance: Option<(f64, f64)>,
 }
 
@@ -84,6 +85,7 @@ pub struct Options {
     /// How the strokes of joined letters meet.
     pub joining: joining::Options,
     /// Advance of the space; without it, from the letters.
+    #[serde(deserialize_with = "ranges::optional_up")]
     pub space: Option<f64>,
     /// Vertical measures; those left out are measured.
     pub heights: metrics::Heights,
@@ -209,6 +211,7 @@ pub fn font(
         &options.anchors,
     ));
     encode(&mut drafts);
+    info.metrics = metrics::enclosing(info.metrics, &drafts, em, &options.heights);
     let rhythm = spacing::Rhythm::of(&drafts, &info);
     let kerning = kerning::pairs(&drafts, rhythm, em, &options.kerning);
     let mut glyphs = basics::glyphs(&drafts, &info, options);

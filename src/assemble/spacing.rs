@@ -1,6 +1,6 @@
 //! Room between letters: where each outline stands in its advance.
 //!
-//! Sides that join end where the stroke was cut. Where the page says a glyph's advance, it counts.
+//! Sides that join end where the stroke was cut. Where a drawing comes with its advance, it counts.
 //! Else the room beside a glyph follows from areas, as in the letter-spacing methods of Fry and of
 //! Sousa: the white that a letter has on a side already, between its extreme and its ink, is taken from
 //! the room that its font wants. How much that is follows from the white inside letters, between the
@@ -46,8 +46,10 @@ pub enum Figures {
 #[serde(default, deny_unknown_fields)]
 pub struct Room {
     /// The same room on every side that joins nothing, instead of the optical rule.
+    #[serde(deserialize_with = "super::ranges::optional_room")]
     pub sidebearing: Option<f64>,
     /// Added on every side that joins nothing.
+    #[serde(deserialize_with = "super::ranges::room")]
     pub tracking: f64,
     /// How digits are set.
     pub figures: Figures,
@@ -261,11 +263,16 @@ impl Terms<'_> {
     }
 }
 
+/// Whether a character is a digit of whole numbers: signs such as ½ and ² keep their room.
+const fn is_digit(c: char) -> bool {
+    matches!(c, '0'..='9' | '\u{660}'..='\u{669}' | '\u{6F0}'..='\u{6F9}')
+}
+
 /// Digits of one script all as wide as the widest, their ink centred as it was.
 fn tabular(drafts: &mut [Draft]) {
     for script in [is_arabic as fn(char) -> bool, |c| !is_arabic(c)] {
         let is_one = |d: &Draft| {
-            matches!(d.id.chars[..], [c] if c.is_numeric() && script(c))
+            matches!(d.id.chars[..], [c] if is_digit(c) && script(c))
                 && d.id.alternates().next().is_none()
         };
         let widest = drafts

@@ -63,7 +63,6 @@ pub(super) fn middle(drawings: &[&Letter]) -> Option<Cell> {
         guides: Guides {
             baseline_px: height as f64 - up,
             px_per_em,
-            advance_px: None,
             row: None,
         },
         label: first.label.clone(),
@@ -155,7 +154,6 @@ mod tests {
             guides: Guides {
                 baseline_px: 160.0,
                 px_per_em,
-                advance_px: None,
                 row: None,
             },
             picture: Png::of(&gray),

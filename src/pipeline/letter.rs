@@ -138,13 +138,11 @@ impl Letter {
         let plates = self.plates.iter();
         let plates = plates.map(|(ink, paths)| Ok((ink.clone(), outline(paths)?)));
         let plates: Vec<(String, Outline)> = plates.collect::<Result<_, Problem>>()?;
-        let units = |px: f64| (px - frame.origin_px) * frame.units_per_px;
-        let advance = self.guides.advance_px;
         Ok(Drawn {
             label: self.label.clone(),
             outline: outline(&self.paths)?,
             plates: plates.into_iter().filter(|p| !p.1.is_empty()).collect(),
-            advance: advance.map(|(left, right)| (units(left), units(right))),
+            advance: None,
         })
     }
 }

@@ -3,6 +3,7 @@
 use super::batch::Batch;
 use super::letter::Letter;
 use super::page::{Page, Traced};
+use super::report::corners;
 use crate::scan::{Colour, Cut, Reason, Rejected, Warning};
 use crate::template::Gain;
 use crate::types::{Contour, Guides, Label, Png};
@@ -40,7 +41,6 @@ struct LetterRecord {
     in_sheet: [f64; 4],
     baseline_px: f64,
     px_per_em: f64,
-    advance_px: Option<(f64, f64)>,
     row: Option<usize>,
     /// Blur and points of each contour.
     edge: Vec<(f64, Vec<(f64, f64)>)>,
@@ -158,7 +158,6 @@ impl LetterRecord {
             in_sheet: corners(letter.in_sheet),
             baseline_px: letter.guides.baseline_px,
             px_per_em: letter.guides.px_per_em,
-            advance_px: letter.guides.advance_px,
             row: letter.guides.row,
             edge: letter.edge.iter().map(ring).collect(),
             paths: letter.paths.iter().map(steps).collect(),
@@ -184,7 +183,6 @@ impl LetterRecord {
             guides: Guides {
                 baseline_px: self.baseline_px,
                 px_per_em: self.px_per_em,
-                advance_px: self.advance_px,
                 row: self.row,
             },
             edge: self.edge.into_iter().map(ring).collect::<Option<_>>()?,
@@ -196,11 +194,6 @@ impl LetterRecord {
 
 fn pair(p: &Point) -> (f64, f64) {
     (*p).into()
-}
-
-/// Left, top, right and bottom.
-const fn corners(r: Rect) -> [f64; 4] {
-    [r.x0, r.y0, r.x1, r.y1]
 }
 
 fn rect([x0, y0, x1, y1]: [f64; 4]) -> Rect {

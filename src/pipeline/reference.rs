@@ -226,7 +226,6 @@ fn draw(path: &BezPath, units_per_em: f64) -> Option<(Gray, Guides)> {
     let guides = Guides {
         baseline_px: shift.1,
         px_per_em: PX_PER_EM,
-        advance_px: None,
         row: None,
     };
     Some((gray, guides))

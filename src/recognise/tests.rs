@@ -155,7 +155,6 @@ fn letters(shift: f64, r: f64) -> Vec<Sample> {
     let guides = Guides {
         baseline_px: 100.0 + shift / 2.0,
         px_per_em: 100.0,
-        advance_px: None,
         row: None,
     };
     drawn

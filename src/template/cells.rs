@@ -84,7 +84,6 @@ fn drawing(
         guides: Guides {
             baseline_px: (place.baseline - field.y0) * px_per_mm - window.y0,
             px_per_em: layout.em() * px_per_mm,
-            advance_px: None,
             row: None,
         },
         gray: crop(&tile, window, level),

@@ -49,8 +49,6 @@ pub struct Guides {
     pub baseline_px: f64,
     /// Pixels an em.
     pub px_per_em: f64,
-    /// Left and right ends of the glyph's advance, px from the cell's left edge, where the page says them.
-    pub advance_px: Option<(f64, f64)>,
     /// The row of cells whose letters together gave the baseline, where no print did.
     pub row: Option<usize>,
 }

@@ -16,8 +16,7 @@ use super::{Anchors, Draft, Note, Part};
 use crate::types::{Anchor, Label, Outline};
 use kurbo::{Affine, Point, Rect, Vec2};
 use recipes::{Dots, Recipe};
-use serde::de::Error;
-use serde::{Deserialize, Deserializer, Serialize};
+use serde::{Deserialize, Serialize};
 use unicode_normalization::char::{canonical_combining_class, decompose_compatible};
 
 /// What is composed, and how. Lengths are parts of the em.
@@ -27,10 +26,10 @@ pub struct Options {
     /// Alphabets and single letters; none of them, nothing is composed.
     pub letters: Vec<Letters>,
     /// White between a letter's body and its dots, 0…1.
-    #[serde(deserialize_with = "share")]
+    #[serde(deserialize_with = "super::ranges::share")]
     pub gap: f64,
     /// White between the dots of a group made of single ones, part of a dot's width, 0…1.
-    #[serde(deserialize_with = "share")]
+    #[serde(deserialize_with = "super::ranges::share")]
     pub between: f64,
 }
 
@@ -41,15 +40,6 @@ impl Default for Options {
             gap: 0.05,
             between: 0.2,
         }
-    }
-}
-
-fn share<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
-    let value = f64::deserialize(from)?;
-    if (0.0..=1.0).contains(&value) {
-        Ok(value)
-    } else {
-        Err(D::Error::custom("must be between 0 and 1"))
     }
 }
 
@@ -155,6 +145,7 @@ struct Work<'a> {
 struct Sign {
     parts: Vec<Part>,
     ink: Rect,
+    side: Place,
 }
 
 impl Work<'_> {
@@ -330,7 +321,12 @@ impl Work<'_> {
             };
             body.place(ink.size(), dots.side)
         })?;
-        Some(Sign { parts, ink }.moved(at - Point::new(ink.center().x, edge)))
+        let sign = Sign {
+            parts,
+            ink,
+            side: dots.side,
+        };
+        Some(sign.moved(at - Point::new(ink.center().x, edge)))
     }
 
     /// A group of dots as it was drawn, or of single ones.
@@ -368,21 +364,24 @@ impl Work<'_> {
         let drawn = self.find_mark(mark)?;
         let draft = self.drafts.get(drawn)?;
         let ink = draft.outline.bounds()?;
+        let sign = Sign {
+            parts: self.parts(drawn),
+            ink,
+            side: place,
+        };
         if mark == recipes::BESIDE {
             let corner = self.beside(base, ink)?;
-            let parts = self.parts(drawn);
-            return Some(Sign { parts, ink }.moved(corner - Point::new(ink.x0, ink.y1)));
+            return Some(sign.moved(corner - Point::new(ink.x0, ink.y1)));
         }
         let automatic = marks::of_mark(place, ink, self.em);
         let near = self.by_hand(draft, own).or_else(|| at(&automatic, own))?;
-        let last = before.last().map(|s| s.ink);
-        let last = last.map(|ink| marks::of_mark(place, ink, self.em));
+        let last = before.iter().rfind(|s| s.side == place);
+        let last = last.map(|s| marks::of_mark(place, s.ink, self.em));
         let foot = match last {
             Some(anchors) => at(&anchors, name)?,
             None => self.foot(base, name, canonical_combining_class(mark))?,
         };
-        let parts = self.parts(drawn);
-        Some(Sign { parts, ink }.moved(foot - near))
+        Some(sign.moved(foot - near))
     }
 
     /// Where the top left corner of a sign stands at the right of a tall letter: as high as ascenders, clear of the stem.
@@ -484,6 +483,7 @@ impl Sign {
         Self {
             parts: moved.collect(),
             ink: self.ink + by,
+            side: self.side,
         }
     }
 }

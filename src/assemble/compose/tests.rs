@@ -212,6 +212,25 @@ fn accents_follow_the_decompositions() {
 }
 
 #[test]
+fn a_mark_above_stands_on_the_letter_where_another_one_is_below() {
+    let mut drawn_ones = latin();
+    drawn_ones.push(drawn("uni0323", &[[0.0, -200.0, 80.0, -120.0]]));
+    let font = build(drawn_ones, &["latin"]).font;
+    let both = boxes(&font, "acircumflexdotbelow");
+    assert!(
+        both[1].y1 < both[0].y0 && both[2].y0 > both[0].y1,
+        "{both:?}"
+    );
+    // and the line is as tall as what was composed
+    let tallest = font
+        .glyphs()
+        .iter()
+        .flat_map(|g| boxes(&font, g.name.as_str()));
+    let top = tallest.map(|b| b.y1).fold(0.0, f64::max);
+    assert!(font.info.metrics.ascender >= top && top > 700.0, "{top}");
+}
+
+#[test]
 fn a_hacek_beside_a_tall_letter_is_an_apostrophe_and_a_comma_stands_below() {
     let mut shapes = latin();
     shapes.extend([

@@ -27,10 +27,13 @@ use serde::{Deserialize, Serialize};
 #[serde(default, deny_unknown_fields)]
 pub struct Options {
     /// Share of the surplus distance that is taken away; 0 kerns nothing.
+    #[serde(deserialize_with = "super::ranges::share")]
     pub strength: f64,
     /// Distance beyond the usual that is left alone, part of the counter of n.
+    #[serde(deserialize_with = "super::ranges::up")]
     pub slack: f64,
     /// Least kerning that is worth a pair, em.
+    #[serde(deserialize_with = "super::ranges::share")]
     pub least: f64,
 }
 

@@ -38,7 +38,7 @@ pub(super) fn version<'de, D: Deserializer<'de>>(from: D) -> Result<String, D::E
     match version_numbers(&text) {
         Some(_) => Ok(text),
         None => Err(D::Error::custom(
-            "must be two whole numbers with a dot between, such as \"1.002\"",
+            "must be a whole number, a dot, and one to three digits, such as \"1.002\"",
         )),
     }
 }
@@ -124,10 +124,11 @@ pub(super) fn some_sheets<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<Shee
     Ok(sheets)
 }
 
-/// Major and minor number of a version such as `1.002`.
+/// Major number and thousandths of a version such as `1.002` or `1.5`.
 pub(super) fn version_numbers(text: &str) -> Option<(u16, u16)> {
     let (major, minor) = text.split_once('.')?;
     let digits = |s: &str| s.bytes().all(|b| b.is_ascii_digit());
-    let minor = (digits(major) && digits(minor)).then_some(minor)?;
-    Some((major.parse().ok()?, minor.parse().ok()?))
+    let minor =
+        (digits(major) && digits(minor) && (1..=3).contains(&minor.len())).then_some(minor)?;
+    Some((major.parse().ok()?, format!("{minor:0<3}").parse().ok()?))
 }

@@ -86,6 +86,43 @@ ttf = "build/KhattLatin.ttf"
     }
 
     #[test]
+    fn lengths_of_fonts_have_ranges() {
+        for (table, option, value) in [
+            ("spacing.joining", "limit", "-1.0"),
+            ("spacing.joining", "limit", "-inf"),
+            ("spacing.joining", "edges", "[nan, nan]"),
+            ("spacing.joining", "edges", "[0.1, 0.0]"),
+            ("spacing.letters", "tracking", "inf"),
+            ("spacing.letters", "sidebearing", "nan"),
+            ("spacing.kerning", "strength", "1e300"),
+            ("spacing", "space", "-1.0"),
+            ("spacing.heights", "descender", "0.3"),
+        ] {
+            let text = format!("{GOOD}[{table}]\n{option} = {value}\n");
+            let problem = Project::parse(&text).expect_err(&text).to_string();
+            assert!(problem.contains("must be"), "{option} = {value}: {problem}");
+        }
+    }
+
+    #[test]
+    fn versions_are_decimal() {
+        for (text, numbers) in [
+            ("1.002", Some((1, 2))),
+            ("1.5", Some((1, 500))),
+            ("2.05", Some((2, 50))),
+            ("1.1234", None),
+            ("1.", None),
+            ("1", None),
+        ] {
+            assert_eq!(
+                super::super::check::version_numbers(text),
+                numbers,
+                "{text}"
+            );
+        }
+    }
+
+    #[test]
     fn wrong_keys_and_values_are_found_where_they_stand() {
         let cases = [
             (

@@ -85,7 +85,6 @@ impl Shutter<'_> {
             guides: Guides {
                 baseline_px: baseline - window.y0,
                 px_per_em,
-                advance_px: None,
                 row: Some(slot.row),
             },
         }

@@ -100,6 +100,8 @@ const SIDE: f64 = 10.0;
 const CAPTION: f64 = 3.6;
 /// Between two drawing fields. mm
 const GAP: f64 = 0.8;
+/// Least distance of ascender and descender, em.
+const LEAST_LINE: f64 = 0.1;
 /// Left free above the ascender and below the descender, share of the field's height.
 const AIR: f64 = 0.06;
 /// Edge of the QR code, quiet zone not counted. mm
@@ -195,6 +197,10 @@ impl Layout {
                 let range = "the guides must rise from descender (at most 0) over x_height and cap_height to ascender, within 2 em";
                 return bad(option, format!("{}", self.height(option)), range);
             }
+        }
+        if !(self.ascender - self.descender >= LEAST_LINE) {
+            let range = "ascender and descender must be at least 0.1 em apart";
+            return bad("ascender", format!("{}", self.ascender), range);
         }
         if !(self.joining[0] < self.joining[1] && self.joining.iter().all(|h| h.abs() <= 2.0)) {
             return bad(

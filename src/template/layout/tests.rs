@@ -3,6 +3,26 @@
 use super::*;
 
 #[test]
+fn guides_need_height() {
+    let flat = Layout {
+        descender: 0.0,
+        x_height: 0.0,
+        cap_height: 0.0,
+        ascender: 0.0,
+        ..Layout::default()
+    };
+    let told = flat.check();
+    let is_told = matches!(
+        &told,
+        Err(TemplateError::Option {
+            option: "ascender",
+            ..
+        })
+    );
+    assert!(is_told, "{told:?}");
+}
+
+#[test]
 fn codes_read_back() {
     let code = Code {
         id: "0123ABCD".into(),
