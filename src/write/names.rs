@@ -8,9 +8,6 @@ use write_fonts::types::NameId;
 /// Windows, Unicode BMP, US English: what every program reads.
 const PLATFORM: (u16, u16, u16) = (3, 1, 0x409);
 
-/// The four styles that one family menu can hold.
-const LINKED_STYLES: [&str; 4] = ["Regular", "Italic", "Bold", "Bold Italic"];
-
 /// How a style is split between the old family menu and the typographic one.
 pub(super) struct Style {
     pub(super) family: String,
@@ -19,21 +16,35 @@ pub(super) struct Style {
     pub(super) is_italic: bool,
 }
 
-/// The style as four-style menus show it: others become families of their own.
+/// The style as menus of four show it, Regular, Italic, Bold and Bold Italic: others become families of their own, each with
+/// its italic.
 pub(super) fn style(info: &Info) -> Style {
-    let linked = LINKED_STYLES
-        .into_iter()
-        .find(|s| s.eq_ignore_ascii_case(&info.style));
-    let family = match linked {
-        Some(_) => info.family.clone(),
-        None => format!("{} {}", info.family, info.style),
+    let words: Vec<&str> = info.style.split_whitespace().collect();
+    let is = |word: &str, names: &[&str]| names.iter().any(|n| n.eq_ignore_ascii_case(word));
+    let (is_italic, upright) = match words.split_last() {
+        Some((last, rest)) if is(last, &["Italic", "Oblique"]) => (true, rest),
+        _ => (false, words.as_slice()),
     };
-    let linked = linked.unwrap_or("Regular");
+    let is_bold = matches!(upright, [word] if is(word, &["Bold"]));
+    let is_plain = match upright {
+        [] => true,
+        [word] => is(word, &["Regular", "Bold"]),
+        _ => false,
+    };
     Style {
-        family,
-        linked,
-        is_bold: linked.contains("Bold"),
-        is_italic: linked.contains("Italic"),
+        family: if is_plain {
+            info.family.clone()
+        } else {
+            format!("{} {}", info.family, upright.join(" "))
+        },
+        linked: match (is_bold, is_italic) {
+            (false, false) => "Regular",
+            (false, true) => "Italic",
+            (true, false) => "Bold",
+            (true, true) => "Bold Italic",
+        },
+        is_bold,
+        is_italic,
     }
 }
 
@@ -63,7 +74,8 @@ pub(super) fn version(info: &Info) -> String {
 /// The table.
 pub(super) fn table(info: &Info) -> Result<Name, WriteError> {
     let style = style(info);
-    let is_split = style.family != info.family;
+    let is_other = !info.style.is_empty() && !style.linked.eq_ignore_ascii_case(&info.style);
+    let is_split = style.family != info.family || is_other;
     let full = if is_split || style.linked != "Regular" {
         format!("{} {}", info.family, info.style)
     } else {
@@ -121,6 +133,30 @@ mod tests {
         );
         assert_eq!(postscript(&info("خط", "")), "Font-Regular");
         assert_eq!(postscript(&info(&"x".repeat(90), "R")).len(), 63);
-        assert_eq!(style(&info("A", "Medium")).family, "A Medium");
+    }
+
+    #[test]
+    fn every_family_of_four_styles_has_its_italic() {
+        for (name, family, linked) in [
+            ("Medium", "A Medium", "Regular"),
+            ("SemiBold Italic", "A SemiBold", "Italic"),
+            ("bold italic", "A", "Bold Italic"),
+            ("Oblique", "A", "Italic"),
+            ("Bold Condensed", "A Bold Condensed", "Regular"),
+            ("", "A", "Regular"),
+        ] {
+            let info = Info {
+                family: "A".to_owned(),
+                style: name.to_owned(),
+                ..Info::default()
+            };
+            let style = style(&info);
+            assert_eq!(
+                (style.family.as_str(), style.linked),
+                (family, linked),
+                "{name}"
+            );
+            assert_eq!(style.is_italic, linked.contains("Italic"), "{name}");
+        }
     }
 }
