@@ -8,13 +8,13 @@ use crate::cli::{command, khatt, png, transcript};
 use crate::common::approved;
 use skrifa::{FontRef, raw::TableProvider};
 use std::collections::BTreeMap;
-use std::fs;
+use std::fs::{self, File};
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::TcpStream;
 use std::path::Path;
 use std::process::Stdio;
 use std::thread::sleep;
-use std::time::Duration;
+use std::time::{Duration, SystemTime};
 
 /// Where the grey of a drawn edge begins and ends, px.
 pub(crate) fn edge(distance: f64) -> u8 {
@@ -110,8 +110,8 @@ fn a_page_becomes_every_output_and_again_the_same_bytes() {
     }
     assert_eq!(
         first.keys().filter(|k| k.starts_with("svg/")).count(),
-        10,
-        "nine letters and .notdef"
+        11,
+        "nine letters, .notdef, and the list of them"
     );
     let again = khatt(
         dir.path(),
@@ -458,24 +458,29 @@ fn a_picture_that_is_not_there_is_named() {
 }
 
 #[test]
-fn what_a_killed_build_left_is_swept_away_and_what_a_living_one_writes_is_not() {
+fn what_a_killed_build_left_is_swept_away_and_what_another_one_writes_is_not() {
     let dir = project(LETTERS, &page(&[]));
-    fs::create_dir_all(dir.path().join("out")).expect("a folder");
-    // no process has number 0 in a process table, and this one lives
-    let (dead, living) = (".khatt-0-x", format!(".khatt-{}-x", std::process::id()));
-    for name in [dead, &living] {
-        fs::write(dir.path().join("out").join(name), "half").expect("a file");
+    let out = dir.path().join("out");
+    fs::create_dir_all(&out).expect("a folder");
+    // whose process may live on another machine, or in another container
+    let (old, new, mine) = (".khatt-0-x", ".khatt-0-y", ".khatt-notes");
+    for name in [old, new, mine] {
+        let file = File::create(out.join(name)).expect("a file");
+        if name != new {
+            let then = SystemTime::UNIX_EPOCH;
+            file.set_modified(then).expect("a date");
+        }
     }
-    let out = khatt(dir.path(), &["build", "font.toml"]);
+    let build = khatt(dir.path(), &["build", "font.toml"]);
     assert_eq!(
-        out.status.code(),
+        build.status.code(),
         Some(0),
         "{}",
-        String::from_utf8_lossy(&out.stderr)
+        String::from_utf8_lossy(&build.stderr)
     );
-    let left: Vec<String> = files(&dir.path().join("out")).into_keys().collect();
+    let left: Vec<String> = files(&out).into_keys().collect();
     let temporary: Vec<_> = left.iter().filter(|k| k.starts_with(".khatt-")).collect();
-    assert_eq!(temporary, [&living]);
+    assert_eq!(temporary, [new, mine]);
 }
 
 #[test]
@@ -511,7 +516,7 @@ fn cells_are_cut_and_listed() {
         String::from_utf8_lossy(&out.stderr)
     );
     let cells = files(&dir.path().join("cells"));
-    assert_eq!(cells.len(), 10, "{:?}", cells.keys());
+    assert_eq!(cells.len(), 11, "{:?}", cells.keys());
     let list: serde_json::Value = serde_json::from_slice(&cells["cells.json"]).expect("JSON");
     let first = &list[0]["cells"][0];
     assert_eq!(
@@ -542,7 +547,6 @@ fn a_build_reports_lists_its_inputs_and_can_be_locked() {
         "out/font.d",
         "--keep",
         "out/keep",
-        "--timings",
     ];
     let out = khatt(dir.path(), &args);
     assert_eq!(
@@ -576,6 +580,10 @@ fn a_build_reports_lists_its_inputs_and_can_be_locked() {
         let error = row["max_error"].as_f64().expect("a number");
         assert!(error > 0.0 && error < 15.0, "{row}");
     }
+    let timed = ["build", "font.toml", "--timings", "--no-cache"];
+    assert_eq!(khatt(dir.path(), &timed).status.code(), Some(0));
+    let report = fs::read(dir.path().join("out/report.json")).expect("the report");
+    let report: serde_json::Value = serde_json::from_slice(&report).expect("JSON");
     assert!(report["stage_seconds"]["cut"].is_number());
     assert!(report["pages_per_decoding"].is_number());
     let plain = || {

@@ -117,6 +117,18 @@ impl Opened {
         iter::once(&self.file).chain(others).cloned().collect()
     }
 
+    /// The project file and all files that it names, read or not.
+    pub(crate) fn named(&self) -> Vec<PathBuf> {
+        let others = self.project.inputs().map(|path| self.path(path));
+        iter::once(self.file.clone()).chain(others).collect()
+    }
+
+    /// Where the project's outputs go.
+    pub(crate) fn outputs(&self) -> Vec<PathBuf> {
+        let paths = self.project.output.paths();
+        paths.map(|path| self.path(path)).collect()
+    }
+
     /// The digest of a file as it was last read.
     pub(crate) fn digest_of(&self, path: &Path) -> Option<String> {
         self.digests.of(path).ok()
