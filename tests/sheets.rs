@@ -12,8 +12,8 @@ use std::fs::{self, File};
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::TcpStream;
 use std::path::Path;
-use std::process::Stdio;
-use std::thread::sleep;
+use std::process::{Child, Stdio};
+use std::thread::{sleep, spawn};
 use std::time::{Duration, SystemTime};
 
 /// Where the grey of a drawn edge begins and ends, px.
@@ -343,35 +343,67 @@ fn fetch(address: &str, path: &str) -> String {
     answer
 }
 
+/// `khatt watch` in a folder.
+struct Watched {
+    child: Child,
+    address: String,
+}
+
+impl Watched {
+    fn new(folder: &Path) -> Self {
+        let mut command = command(folder, &["watch", "font.toml", "--port", "0"]);
+        let mut child = command.stderr(Stdio::piped()).spawn().expect("khatt runs");
+        let mut lines = BufReader::new(child.stderr.take().expect("its words")).lines();
+        let first = lines.next().expect("a line").expect("text");
+        let address = first.split('/').nth(2).expect("an address").to_owned();
+        // it goes on talking
+        spawn(move || lines.for_each(drop));
+        Self { child, address }
+    }
+
+    /// Whether its page comes to hold that text.
+    fn shows(&self, text: &str) -> bool {
+        // a minute is enough on a machine that does much else
+        (0..1200).any(|_| {
+            sleep(Duration::from_millis(50));
+            fetch(&self.address, "/").contains(text)
+        })
+    }
+}
+
+impl Drop for Watched {
+    fn drop(&mut self) {
+        self.child.kill().expect("it ends");
+        self.child.wait().expect("it has ended");
+    }
+}
+
 #[test]
 fn a_watched_project_is_built_again_when_a_page_changes() {
     let dir = project(LETTERS, &page(&[]));
-    let mut command = command(dir.path(), &["watch", "font.toml", "--port", "0"]);
-    let mut child = command.stderr(Stdio::piped()).spawn().expect("khatt runs");
-    let mut lines = BufReader::new(child.stderr.take().expect("its words")).lines();
-    let first = lines.next().expect("a line").expect("text");
-    let address = first.split('/').nth(2).expect("an address").to_owned();
-    let version = |least: u32| {
-        // it answers when it has built; a minute is enough on a machine that does much else
-        (0..1200).any(|_| {
-            sleep(Duration::from_millis(50));
-            let answer = fetch(&address, "/version");
-            let number = answer.rsplit("\r\n").next().and_then(|n| n.parse().ok());
-            number.is_some_and(|n: u32| n >= least)
-        })
-    };
-    assert!(version(1), "the first build");
-    assert!(fetch(&address, "/").contains("Test Regular"));
+    let watched = Watched::new(dir.path());
+    assert!(watched.shows("Test Regular"), "the first build");
     assert!(dir.path().join("out/test.ttf").exists());
     fs::write(dir.path().join("page.png"), page(&[8])).expect("a picture");
-    assert!(version(2), "a build of the new picture");
-    assert!(
-        fetch(&address, "/").contains("cell 9"),
-        "the empty cell is named"
-    );
-    assert!(fetch(&address, "/other").starts_with("HTTP/1.1 404"));
-    child.kill().expect("it ends");
-    child.wait().expect("it has ended");
+    assert!(watched.shows("cell 9"), "the empty cell is named");
+    assert!(fetch(&watched.address, "/other").starts_with("HTTP/1.1 404"));
+}
+
+#[test]
+fn a_watched_project_is_built_when_what_was_missing_comes() {
+    let dir = project(LETTERS, &page(&[]));
+    let (toml, png) = (dir.path().join("font.toml"), dir.path().join("page.png"));
+    let text = fs::read_to_string(&toml).expect("the project");
+    fs::write(&toml, text.replace("page.png", "scans/new/page.png")).expect("a project");
+    let watched = Watched::new(dir.path());
+    assert!(watched.shows("scans/new/page.png"), "the page is missed");
+    fs::create_dir_all(dir.path().join("scans/new")).expect("a folder");
+    fs::rename(png, dir.path().join("scans/new/page.png")).expect("a picture");
+    assert!(watched.shows("Test Regular"), "a build of the picture");
+    fs::remove_file(&toml).expect("the project");
+    assert!(watched.shows("font.toml"), "the project is missed");
+    fs::write(&toml, text.replace("page.png", "gone.png")).expect("a project");
+    assert!(watched.shows("gone.png"), "the new project");
 }
 
 #[test]

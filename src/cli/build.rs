@@ -94,7 +94,7 @@ impl Build {
     }
 
     /// Builds, where anything has changed since the last time.
-    fn build(&self, opened: &Opened, common: &Common) -> Outcome {
+    pub(crate) fn build(&self, opened: &Opened, common: &Common) -> Outcome {
         let cache = self.cache.open();
         let key = self.key(opened)?;
         if self.keep.is_none()
