@@ -60,6 +60,34 @@ fn put(folder: &Path, name: &str, content: &[u8]) {
     fs::write(path, content).expect("a file");
 }
 
+#[cfg(unix)]
+#[test]
+fn a_link_stays_one_and_a_pipe_takes_what_is_written() {
+    use std::os::unix::fs::{FileTypeExt, symlink};
+    let dir = project(LETTERS, &page(&[]));
+    let folder = dir.path();
+    put(folder, "real/old.ttf", b"mine");
+    symlink("real/old.ttf", folder.join("out.ttf")).expect("a link");
+    outputs(folder, "ttf = \"out.ttf\"");
+    assert_eq!(run(folder, &["build", "font.toml"]).0, Some(0));
+    let link = fs::symlink_metadata(folder.join("out.ttf")).expect("a link");
+    assert!(link.is_symlink());
+    let font = fs::read(folder.join("real/old.ttf")).expect("a font");
+    assert!(font.len() > 1000, "{} bytes", font.len());
+    let pipe = folder.join("pipe");
+    let made = std::process::Command::new("mkfifo").arg(&pipe).status();
+    assert!(made.is_ok_and(|s| s.success()));
+    let reader = std::thread::spawn({
+        let pipe = pipe.clone();
+        move || fs::read(pipe)
+    });
+    outputs(folder, "ttf = \"pipe\"");
+    assert_eq!(run(folder, &["build", "font.toml"]).0, Some(0));
+    let through = reader.join().expect("a reader").expect("bytes");
+    assert!(through == font, "{} bytes", through.len());
+    assert!(fs::metadata(&pipe).expect("the pipe").file_type().is_fifo());
+}
+
 #[test]
 fn a_folder_of_the_users_files_is_not_replaced_by_files_of_the_same_kind() {
     let dir = project(LETTERS, &page(&[]));

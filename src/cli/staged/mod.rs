@@ -13,7 +13,7 @@ pub(crate) use places::{apart, place};
 use super::failure::{Complaint, Failure};
 use folder::LIST;
 use khatt::types::Files;
-use std::fs::{self, File};
+use std::fs::{self, File, OpenOptions};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process;
@@ -63,22 +63,43 @@ pub(crate) fn write<'a>(
             None => folder::refuse_foreign(target, files)?,
         }
     }
+    let (streams, outputs): (Vec<_>, Vec<_>) = outputs
+        .into_iter()
+        .partition(|(target, _)| is_stream(target));
     let items = outputs
         .iter()
         .map(|(target, files)| Item::new(target, files));
     let items = items.collect::<Result<Vec<_>, _>>()?;
     let mut done = Vec::new();
-    for item in items {
+    let places = items.into_iter().try_for_each(|item| {
         let target = item.target.clone();
-        match item.place() {
-            Ok(placed) => done.push(placed),
-            Err(e) => {
-                done.into_iter().rev().for_each(Placed::undo);
-                return Err(Failure::at(target.display(), &e));
-            }
-        }
+        let placed = item.place();
+        done.push(placed.map_err(|e| Failure::at(target.display(), &e))?);
+        Ok(())
+    });
+    let written = places.and_then(|()| {
+        let mut streams = streams.iter();
+        streams.try_for_each(|(target, files)| {
+            pour(target, files).map_err(|e| Failure::at(target.display(), &e))
+        })
+    });
+    if written.is_err() {
+        done.into_iter().rev().for_each(Placed::undo);
     }
-    Ok(())
+    written
+}
+
+/// Whether a device or a pipe is there, which takes what is written and is not replaced.
+fn is_stream(target: &Path) -> bool {
+    fs::metadata(target).is_ok_and(|there| !there.is_file() && !there.is_dir())
+}
+
+fn pour(target: &Path, files: &Files) -> io::Result<()> {
+    let mut stream = OpenOptions::new().write(true).open(target)?;
+    files
+        .0
+        .values()
+        .try_for_each(|content| stream.write_all(content))
 }
 
 impl Temporary {
@@ -91,16 +112,15 @@ impl Temporary {
 }
 
 impl Item {
-    fn new(target: &Path, files: &Files) -> Result<Self, Failure> {
+    fn new(name: &Path, files: &Files) -> Result<Self, Failure> {
+        // a link stays one: what it leads to is replaced
+        let target = place(name);
         let temporary = match files.0.get("") {
-            Some(content) => file(target, content),
-            None => folder(target, files),
+            Some(content) => file(&target, content),
+            None => folder(&target, files),
         };
-        let temporary = temporary.map_err(|e| Failure::at(target.display(), &e))?;
-        Ok(Self {
-            target: target.to_owned(),
-            temporary,
-        })
+        let temporary = temporary.map_err(|e| Failure::at(name.display(), &e))?;
+        Ok(Self { target, temporary })
     }
 
     fn place(self) -> io::Result<Placed> {
