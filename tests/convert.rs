@@ -245,11 +245,114 @@ fn a_ufo_comes_back() {
 
 #[test]
 fn drawings_come_back() {
-    let files = convert(&font(), format("svg").expect("svg"), &Options::default()).expect("files");
+    let mut glyphs = font().glyphs().to_vec();
+    glyphs.push(glyph("space", &[' '], vec![]));
+    let font = Font::new(font().info, glyphs).expect("a font");
+    let files = convert(&font, format("svg").expect("svg"), &Options::default()).expect("files");
     let drawings: Vec<_> = files.0.into_iter().collect();
     let reading = read::svg(&drawings).expect("drawings");
     same(&reading, 0.05);
+    let space = reading.font.glyph("space").expect("the space");
+    assert_eq!((&space.codepoints[..], space.advance), (&[' '][..], 640.0));
     assert_eq!(reading.font.glyph("O").expect("O").codepoints, ['O']);
+}
+
+#[test]
+fn drawings_have_the_characters_of_their_names() {
+    let svg = r#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 -9 9 10"><path d="M0 0H5V5z"/></svg>"#;
+    let files = [
+        "A_.svg",
+        "uni0041.svg",
+        "one.svg",
+        "eacute.svg",
+        "space.svg",
+        "uni06A_9.svg",
+        "u1F_600.svg",
+        "beh-ar.svg",
+        "beh-ar.init.svg",
+        "f_i.svg",
+        "lam_alef-ar.svg",
+        "logo.svg",
+        "ب.svg",
+    ];
+    let drawings = files.map(|f| (f.to_owned(), svg.into()));
+    let reading = read::svg(&drawings).expect("drawings");
+    let chars = |g: &Glyph| g.codepoints.iter().collect::<String>();
+    let glyphs = reading.font.glyphs().iter().skip(1);
+    let all: Vec<_> = glyphs.map(|g| format!("{} {}", g.name, chars(g))).collect();
+    assert_eq!(
+        all,
+        [
+            "A A",
+            "uni0041 ",
+            "one 1",
+            "eacute é",
+            "space  ",
+            "uni06A9 ک",
+            "u1F600 \u{1f600}",
+            "beh-ar ب",
+            "beh-ar.init ",
+            "f_i ",
+            "lam_alef-ar ",
+            "logo ",
+            "glyph00013 ",
+        ]
+    );
+    assert_eq!(
+        reading.lost,
+        [
+            "3 characters that names do not tell, or that another drawing has: uni0041, logo, ب",
+            "1 glyph names that are illegal or not unique: ب",
+        ]
+    );
+}
+
+#[test]
+fn a_mark_is_seen_and_comes_back_without_an_advance() {
+    let mut mark = glyph(
+        "acutecomb",
+        &['\u{301}'],
+        vec![path("M-200 600L-100 600L-90 700L-150 720Z")],
+    );
+    mark.advance = 0.0;
+    let glyphs = vec![glyph(".notdef", &[], vec![]), mark];
+    let font = Font::new(font().info, glyphs).expect("a font");
+    let files = (format("svg").expect("svg").write)(&font).expect("files");
+    let text = String::from_utf8(files.0["acutecomb.svg"].clone()).expect("text");
+    assert!(text.contains(r#"viewBox="-200 -800 110 1000""#), "{text}");
+    let drawings: Vec<_> = files.0.into_iter().collect();
+    let read = read::svg(&drawings).expect("drawings").font;
+    let mark = read.glyph("acutecomb").expect("the mark");
+    assert_eq!(mark.advance.to_bits(), 0.0_f64.to_bits());
+    let before = &font.glyphs()[1].outline;
+    assert!(apart(before, &mark.outline) < 0.01, "{:?}", mark.outline);
+    assert_eq!(
+        read.info.metrics,
+        Metrics {
+            ascender: 800.0,
+            descender: -200.0,
+            ..Metrics::default()
+        }
+    );
+}
+
+#[test]
+fn a_view_box_counts_whatever_its_aspect() {
+    // a square of half the view box's height, at its top left corner: how large it is shown does not count
+    for aspect in ["xMidYMid", "xMaxYMin slice", "xMinYMax", "none"] {
+        let svg = format!(
+            r#"<svg xmlns="http://www.w3.org/2000/svg" width="90" height="120" viewBox="0 0 200 100"
+            preserveAspectRatio="{aspect}"><path d="M0 0H50V50H0z"/></svg>"#
+        );
+        let reading = read::svg(&[("a.svg".to_owned(), svg.into_bytes())]).expect("a drawing");
+        let a = reading.font.glyph("a").expect("a");
+        let bounds = a.outline.bounds().expect("ink");
+        let wanted = Rect::new(0.0, 500.0, 500.0, 1000.0);
+        let off = (bounds.x0 - wanted.x0).hypot(bounds.y0 - wanted.y0);
+        let off = off.max((bounds.x1 - wanted.x1).hypot(bounds.y1 - wanted.y1));
+        assert!(off < 0.01, "{aspect}: {bounds:?}");
+        assert!((a.advance - 2000.0).abs() < 0.01, "{aspect}: {}", a.advance);
+    }
 }
 
 #[test]
