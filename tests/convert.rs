@@ -244,6 +244,22 @@ fn a_ufo_comes_back() {
 }
 
 #[test]
+fn vertical_metrics_go_together_and_are_named() {
+    let ttf = written("ttf");
+    let mut builder = FontBuilder::new();
+    for tag in [b"vhea", b"vmtx", b"VORG"] {
+        builder.add_raw(Tag::new(tag), vec![0; 36]);
+    }
+    builder.copy_missing_tables(FontRef::new(&ttf).expect("a font"));
+    let reading = read::font(&builder.build(), &[]).expect("a font");
+    for tag in [b"vhea", b"vmtx", b"VORG"] {
+        assert!(!reading.font.carried.contains_key(tag), "{tag:?}");
+    }
+    let said = "vertical metrics (vhea, vmtx, VORG)".to_owned();
+    assert!(reading.lost.contains(&said), "{:?}", reading.lost);
+}
+
+#[test]
 fn drawings_come_back() {
     let mut glyphs = font().glyphs().to_vec();
     glyphs.push(glyph("space", &[' '], vec![]));
