@@ -90,6 +90,54 @@ impl Default for Info {
     }
 }
 
+/// The four styles that one family menu can hold.
+const LINKED_STYLES: [&str; 4] = ["Regular", "Italic", "Bold", "Bold Italic"];
+
+/// How a style is split between the old family menu and the typographic one.
+pub(crate) struct LinkedStyle {
+    pub(crate) family: String,
+    pub(crate) linked: &'static str,
+    pub(crate) is_bold: bool,
+    pub(crate) is_italic: bool,
+}
+
+impl Info {
+    /// The style as four-style menus show it: others become families of their own.
+    pub(crate) fn linked_style(&self) -> LinkedStyle {
+        let linked = LINKED_STYLES
+            .into_iter()
+            .find(|s| s.eq_ignore_ascii_case(&self.style));
+        let family = match linked {
+            Some(_) => self.family.clone(),
+            None => format!("{} {}", self.family, self.style),
+        };
+        let linked = linked.unwrap_or("Regular");
+        LinkedStyle {
+            family,
+            linked,
+            is_bold: linked.contains("Bold"),
+            is_italic: linked.contains("Italic"),
+        }
+    }
+
+    /// The PostScript name: printable ASCII without brackets, slashes, percent and space, 63 at most.
+    pub(crate) fn postscript_name(&self) -> String {
+        let keep = |text: &str| -> String {
+            text.chars()
+                .filter(|c| c.is_ascii_graphic() && !"[](){}<>/%-".contains(*c))
+                .collect()
+        };
+        let family = Some(keep(&self.family)).filter(|f| !f.is_empty());
+        let style = Some(keep(&self.style)).filter(|s| !s.is_empty());
+        let whole = format!(
+            "{}-{}",
+            family.as_deref().unwrap_or("Font"),
+            style.as_deref().unwrap_or("Regular")
+        );
+        whole.chars().take(63).collect()
+    }
+}
+
 /// Vertical measures, font units.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Metrics {
@@ -229,5 +277,24 @@ impl Font {
     #[must_use]
     pub fn glyph(&self, name: &str) -> Option<&Glyph> {
         self.glyphs.iter().find(|g| g.name.as_str() == name)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn postscript_names_are_legal() {
+        let info = |family: &str, style: &str| Info {
+            family: family.to_owned(),
+            style: style.to_owned(),
+            ..Info::default()
+        };
+        let name = info("Khatt Latin", "Bold Italic").postscript_name();
+        assert_eq!(name, "KhattLatin-BoldItalic");
+        assert_eq!(info("خط", "").postscript_name(), "Font-Regular");
+        assert_eq!(info(&"x".repeat(90), "R").postscript_name().len(), 63);
+        assert_eq!(info("A", "Medium").linked_style().family, "A Medium");
     }
 }
