@@ -280,6 +280,12 @@ fn a_ufo_comes_back_whole() {
     same(&reading, 0.6);
     assert_eq!(reading.font.info, font().info);
     assert_eq!(reading.lost, Vec::<String>::new());
+    let files = |font| convert(font, format("ufo").expect("ufo"), &Options::default());
+    assert_eq!(
+        files(&reading.font),
+        files(&font()),
+        "contours begin where they began"
+    );
 }
 
 #[test]

@@ -8,6 +8,7 @@ use crate::types::{Anchor, Component, Font, Glyph, Name, Outline};
 use info::{info, unread};
 use kerning::kerning;
 use kurbo::{PathEl, Point};
+use norad::{ContourPoint, PointType};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
@@ -83,10 +84,16 @@ fn glyph(
     );
     let mut contours = Vec::new();
     for contour in &source.contours {
+        let closed = contour.is_closed();
+        let mut contour = contour.clone();
+        let start = |p: &ContourPoint| p.typ != PointType::OffCurve;
+        if let Some(first) = contour.points.iter().position(start).filter(|_| closed) {
+            // the library begins at the last point on the curve, a UFO at the first
+            contour.points.rotate_left(first + 1);
+        }
         let mut path = contour
             .to_kurbo()
             .map_err(|e| ReadError::damaged("a UFO", format!("{own}: {e}")))?;
-        let closed = contour.is_closed();
         if closed && path.segments().next().is_some() {
             if !matches!(path.elements().last(), Some(PathEl::ClosePath)) {
                 path.close_path();
