@@ -110,8 +110,8 @@ fn a_page_becomes_every_output_and_again_the_same_bytes() {
     }
     assert_eq!(
         first.keys().filter(|k| k.starts_with("svg/")).count(),
-        11,
-        "nine letters, .notdef, and the list of them"
+        13,
+        "nine letters, two spaces, .notdef, and the list of them"
     );
     let again = khatt(
         dir.path(),
@@ -604,7 +604,7 @@ fn a_build_reports_lists_its_inputs_and_can_be_locked() {
             .count()
     };
     let stages = ["1-cut", "2-trace", "3-fit", "4-place", "5-assemble"];
-    assert_eq!(stages.map(kept), [9, 9, 9, 10, 1]);
+    assert_eq!(stages.map(kept), [9, 9, 9, 12, 1]);
     let report: serde_json::Value = serde_json::from_slice(&made["report.json"]).expect("JSON");
     let rows = report["glyphs"].as_array().expect("a list");
     assert_eq!(rows.len(), 9);

@@ -6,8 +6,8 @@
 //! `.ss01`). The font keeps a name as it was given; the characters follow from it. Arabic presentation forms (`ﺑ`,
 //! `uniFE91`) are the letter in that joining form.
 
-use super::{characters, nearest};
-use crate::types::{Label, Name};
+use super::nearest;
+use crate::types::{Label, Name, characters};
 use read_fonts::ps::agl;
 use std::ops::RangeInclusive;
 use thiserror::Error;
