@@ -180,10 +180,9 @@ fn head(font: &Font, extents: &[Option<Rect>]) -> Result<Head, WriteError> {
     let edge = |v: f64| to_i16(v, || "the edge of a glyph".to_owned());
     let style = font.info.linked_style();
     let when = |set: bool, flag| if set { flag } else { MacStyle::empty() };
-    let (major, minor) = font.info.version;
     let created = LongDateTime::new(font.info.created.saturating_add(EPOCH_1904));
     Ok(Head {
-        font_revision: Fixed::from_f64(f64::from(major) + f64::from(minor) / 1000.0),
+        font_revision: Fixed::from_f64(names::version(&font.info).parse().unwrap_or_default()),
         flags: Flags::BASELINE_AT_Y_0 | Flags::LSB_AT_X_0,
         units_per_em: font.info.units_per_em,
         created,
