@@ -65,6 +65,17 @@ pub enum ScanError {
         /// the ink that was asked for
         ink: String,
     },
+    /// Several inks are to be told apart where there are no colours.
+    #[error(
+        "{source_name} has no colours by which the inks that `ink` lists could be told apart ({inks}); scan it \
+         in colour, dark ink on light paper, or leave `ink` out"
+    )]
+    NoColours {
+        /// the file
+        source_name: String,
+        /// the inks that were asked for
+        inks: String,
+    },
     /// More names than cells.
     #[error(
         "{source_name} has {cells} cells, but {names} names are given, the first too many being “{extra}”; \
