@@ -23,6 +23,11 @@ pub(super) fn skips(label: &Label) -> bool {
     label.0 == SKIP
 }
 
+/// Whether the label's glyph is a space: nobody draws it.
+pub(super) fn is_space(label: &Label) -> bool {
+    names::identify(label).is_ok_and(|id| matches!(id.chars[..], [' ' | '\u{a0}']))
+}
+
 /// The labels of every page of a project, all of them known and none of them twice.
 pub(super) fn of(project: &Project, world: World<'_>) -> Result<Vec<Vec<Label>>, Vec<Problem>> {
     let sheets = &project.sheets;

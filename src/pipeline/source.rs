@@ -2,7 +2,7 @@
 
 use super::batch::{self, Batch};
 use super::corrections::Corrections;
-use super::labels::skips;
+use super::labels::{is_space, skips};
 use super::page::{self, Page};
 use super::picture;
 use super::printing::Printing;
@@ -10,6 +10,7 @@ use super::problem::{Place, Problem};
 use super::project::{Cells, Layout, Project, SheetTable};
 use super::world::World;
 use crate::assemble::names;
+use crate::scan::{Cut, Reason, Rejected, Warning};
 use crate::types::{Cell, Label};
 use std::collections::BTreeSet;
 use std::mem;
@@ -17,6 +18,13 @@ use std::path::Path;
 
 /// Empty cells from which on it is asked whether the grid is the page's.
 const MANY: usize = 3;
+
+/// Coverage from which a pixel counts as ink.
+const INK: f32 = 0.5;
+
+/// What is said of ink in a space's cell.
+const STAINED: &str =
+    "a space has no ink: what lies in its cell is left out; is this the name of another cell?";
 
 /// The pictures of one `[[sheet]]` and the way to its pages.
 pub(super) struct Source<'a> {
@@ -98,6 +106,7 @@ impl<'a> Source<'a> {
         let corrections = &self.corrections;
         corrections.apply(&mut page.cut, self.units_per_em);
         page.cut.cells.retain(|c| !corrections.ignores(&c.label));
+        clear_spaces(&mut page.cut);
         let wanted = wanted.iter().filter(|w| !corrections.ignores(&w.1));
         let mut problems = gaps(&page, wanted);
         if let (Layout::Grid(rows, columns), true) = (self.table.layout, problems.len() >= MANY) {
@@ -174,10 +183,40 @@ pub(super) fn cells(
     Ok(page.cut.cells)
 }
 
+/// Takes out what lies in the cells of spaces, and warns of it; that they are empty is right.
+fn clear_spaces(cut: &mut Cut) {
+    let of_space = |w: &Warning| w.label.as_ref().is_some_and(is_space);
+    cut.warnings.retain(|w| !of_space(w));
+    let cells = mem::take(&mut cut.cells).into_iter();
+    let (spaces, letters) = cells.partition(|c| is_space(&c.label));
+    cut.cells = letters;
+    for Cell {
+        label,
+        index,
+        in_sheet,
+        gray,
+        ..
+    } in spaces
+    {
+        let ink = gray.samples().iter().filter(|v| **v >= INK);
+        cut.rejected.push(Rejected {
+            in_sheet,
+            area_px: ink.count(),
+            reason: Reason::Skipped,
+        });
+        cut.warnings.push(Warning {
+            index: Some(index),
+            label: Some(label),
+            message: STAINED.to_owned(),
+        });
+    }
+    cut.warnings.sort_by_key(|w| w.index);
+}
+
 /// Names without a letter.
 fn gaps<'a>(page: &Page, wanted: impl Iterator<Item = &'a (usize, Label)>) -> Vec<Problem> {
     let drawn: BTreeSet<usize> = page.cut.cells.iter().map(|c| c.index).collect();
-    let named = wanted.filter(|(_, label)| !skips(label));
+    let named = wanted.filter(|(_, label)| !skips(label) && !is_space(label));
     let empty = named.filter(|(index, _)| !drawn.contains(index));
     let empty = empty.map(|(index, label)| {
         Problem::Empty(Place {
