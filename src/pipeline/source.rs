@@ -33,7 +33,7 @@ pub(super) struct Source<'a> {
     pub(super) table: &'a SheetTable,
     pub(super) labels: &'a [Label],
     corrections: Corrections,
-    units_per_em: u16,
+    project: &'a Project,
     /// What was printed, where the pages are a template's.
     printing: Option<Printing<'a>>,
 }
@@ -59,7 +59,7 @@ impl<'a> Source<'a> {
             table,
             labels,
             corrections,
-            units_per_em: project.font.units_per_em,
+            project,
             printing,
         })
     }
@@ -79,7 +79,7 @@ impl<'a> Source<'a> {
         let Some((printing, image)) = self.printing.as_ref().zip(image) else {
             let labels = self.corrections.kept(self.labels);
             let pins = self.corrections.pins(&labels);
-            let page = page::read(self.table, (&labels, &pins), self.units_per_em, world);
+            let page = page::read(self.table, (&labels, &pins), self.project, world);
             let wanted: Vec<(usize, Label)> = labels.into_iter().enumerate().collect();
             let page = page.and_then(|page| self.checked(page, &wanted));
             return match page {
@@ -104,7 +104,7 @@ impl<'a> Source<'a> {
     /// The page corrected, where no name is without a drawing.
     fn checked(&self, mut page: Page, wanted: &[(usize, Label)]) -> Result<Page, Vec<Problem>> {
         let corrections = &self.corrections;
-        corrections.apply(&mut page.cut, self.units_per_em);
+        corrections.apply(&mut page.cut, self.project.font.units_per_em);
         page.cut.cells.retain(|c| !corrections.ignores(&c.label));
         clear_spaces(&mut page.cut);
         let wanted = wanted.iter().filter(|w| !corrections.ignores(&w.1));
@@ -179,7 +179,7 @@ pub(super) fn cells(
         let pages = printing.join(images.map(|i| printing.read(i, world)).collect())?;
         return Ok(pages.into_iter().flat_map(|p| p.cut.cells).collect());
     }
-    let page = page::read(table, (labels, &[]), project.font.units_per_em, world)?;
+    let page = page::read(table, (labels, &[]), project, world)?;
     Ok(page.cut.cells)
 }
 
