@@ -2,9 +2,10 @@
 
 use super::failure::Failure;
 use super::staged::Staged;
+use super::{Outcome, say};
 use khatt::types::Files;
 use std::fs;
-use std::io::{self, Read, Write};
+use std::io::{self, Read};
 use std::path::Path;
 
 /// Whether the user means standard input or output.
@@ -19,6 +20,16 @@ pub(crate) fn name(path: &Path) -> String {
     } else {
         path.display().to_string()
     }
+}
+
+/// Whether a file's name ends as its kind should, or has no ending at all.
+pub(crate) fn ends_in(path: &Path, kinds: &[&str]) -> Outcome {
+    let ending = path.extension().map(|e| e.to_ascii_lowercase());
+    if ending.is_none_or(|e| kinds.iter().any(|kind| e == *kind)) {
+        return Ok(());
+    }
+    let what = format!("{} is no name for what is written there", path.display());
+    Err(Failure::new(what).help(format!("end it in .{}", kinds.join(" or ."))))
 }
 
 /// The whole content of a file or of standard input.
@@ -42,9 +53,7 @@ pub(crate) fn last(path: &Path) -> Option<String> {
 /// Writes a file in one step, or to standard output: a reader sees the old file or the new one.
 pub(crate) fn write(path: &Path, content: &[u8]) -> Result<(), Failure> {
     if is_dash(path) {
-        let mut out = io::stdout().lock();
-        let done = out.write_all(content).and_then(|()| out.flush());
-        return done.map_err(|e| Failure::at("standard output", &e));
+        return say::print(content);
     }
     let mut staged = Staged::default();
     staged.add(path, &Files::single(content.to_vec()))?;
