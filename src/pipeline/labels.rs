@@ -67,7 +67,12 @@ pub(super) fn lines(sheet: &SheetTable, world: World<'_>) -> Result<Vec<usize>, 
 fn text(sheet: &SheetTable, world: World<'_>) -> Result<String, Problem> {
     match &sheet.glyphs {
         Labels::Text(text) => Ok(text.clone()),
-        Labels::File { file } => Ok(String::from_utf8_lossy(&world.file(file)?).into_owned()),
+        Labels::File { file } => {
+            let bytes = world.file(file)?;
+            let text = String::from_utf8_lossy(&bytes);
+            // some editors put a byte order mark first
+            Ok(text.trim_start_matches('\u{feff}').to_owned())
+        }
     }
 }
 

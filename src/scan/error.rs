@@ -152,6 +152,18 @@ pub enum ScanError {
         /// where letters and names part
         doubts: String,
     },
+    /// Nothing on a bare page is like a letter.
+    #[error(
+        "{source_name} has no ink that could be letters of its {names} names, but lines alone; write \
+         layout = {{ grid = [rows, columns] }}, which goes by places, or say where each letter stands: box under \
+         [cells.NAME]"
+    )]
+    NoLetters {
+        /// the file
+        source_name: String,
+        /// names given
+        names: usize,
+    },
     /// Far less ink than names on a bare page.
     #[error(
         "{source_name} has {pieces} pieces of ink, too few for the letters of {names} names; take names away, or correct `image` if this is not their page"
