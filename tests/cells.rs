@@ -256,6 +256,32 @@ fn several_drawings_of_a_glyph_are_settled() {
     assert_eq!(sets, Some(true));
 }
 
+#[test]
+fn drawings_beyond_the_stylistic_sets_are_told() {
+    let glyphs = ["o"; 24].join(" ");
+    let dir = project(&glyphs, &png(1000, 1000, ring));
+    let path = dir.path().join("font.toml");
+    let text = fs::read_to_string(&path).expect("the project");
+    let text = text.replace("[3, 3]", "[5, 5]");
+    fs::write(&path, format!("repeated = \"alternates\"\n{text}")).expect("a project");
+    let out = khatt(dir.path(), &["build", "font.toml"]);
+    let stderr = String::from_utf8_lossy(&out.stderr);
+    assert_eq!(out.status.code(), Some(0), "{stderr}");
+    let note =
+        "o: drawn 24 times; there are 20 stylistic sets, and the last 3 drawings are left out";
+    assert!(stderr.contains(note), "{stderr}");
+}
+
+/// Cells of 200 × 200 px with an o in each but the last.
+fn ring(x: u32, y: u32) -> u8 {
+    let (column, row) = (x / 200, y / 200);
+    let (x, y) = (f64::from(x % 200) + 0.5, f64::from(y % 200) + 0.5);
+    if (column, row) == (4, 4) {
+        return 0;
+    }
+    edge(((x - 100.0).hypot(y - 116.0) - 26.0).abs() - 9.0)
+}
+
 /// The names of the glyphs that a text is set with.
 fn shaped(bytes: &[u8], text: &str) -> String {
     let font = harfrust::FontRef::new(bytes).expect("a font");

@@ -99,7 +99,10 @@ fn help_is_approved() {
 #[test]
 fn wrong_use_exits_2_with_a_usage_line() {
     let here = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let cases: [&[&str]; 5] = [
+    let split = ["--quadratic", "split", "--keep", "corners"];
+    let split = [&["convert", "a.otf", "-o", "a.ttf"], &split[..]].concat();
+    let cases: [&[&str]; 6] = [
+        &split,
         &[],
         &["trac"],
         &["trace", "a.png"],

@@ -228,28 +228,334 @@ fn every_table_but_outlines_comes_through() {
 }
 
 #[test]
-fn a_ufo_comes_back() {
+fn vertical_metrics_go_together_and_are_named() {
+    let ttf = written("ttf");
+    let mut builder = FontBuilder::new();
+    for tag in [b"vhea", b"vmtx", b"VORG"] {
+        builder.add_raw(Tag::new(tag), vec![0; 36]);
+    }
+    builder.copy_missing_tables(FontRef::new(&ttf).expect("a font"));
+    let reading = read::font(&builder.build(), &[]).expect("a font");
+    for tag in [b"vhea", b"vmtx", b"VORG"] {
+        assert!(!reading.font.carried.contains_key(tag), "{tag:?}");
+    }
+    let said = "vertical metrics (vhea, vmtx, VORG)".to_owned();
+    assert!(reading.lost.contains(&said), "{:?}", reading.lost);
+}
+
+/// The small font as a UFO, changed by a hand, and read.
+fn by_hand(change: impl FnOnce(&mut norad::Font)) -> Result<Reading, ReadError> {
     let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("small.ufo");
     let files = convert(&font(), format("ufo").expect("ufo"), &Options::default()).expect("files");
     for (name, content) in &files.0 {
-        let to = folder.path().join("small.ufo").join(name);
+        let to = path.join(name);
         fs::create_dir_all(to.parent().expect("a parent")).expect("folders");
         let mut file = fs::File::create(to).expect("a file");
         file.write_all(content).expect("written");
     }
-    same(
-        &read::ufo(&folder.path().join("small.ufo")).expect("a UFO"),
-        0.6,
+    let mut ufo = norad::Font::load(&path).expect("a UFO");
+    change(&mut ufo);
+    ufo.save(&path).expect("a UFO");
+    read::ufo(&path)
+}
+
+fn word(text: &str) -> norad::Name {
+    norad::Name::new(text).expect("a name")
+}
+
+fn kern(ufo: &mut norad::Font, first: &str, second: &str, value: f64) {
+    let seconds = ufo.kerning.entry(word(first)).or_default();
+    seconds.insert(word(second), value);
+}
+
+fn compiled(font: &Font) -> Vec<u8> {
+    let files = convert(font, format("ttf").expect("ttf"), &Options::default()).expect("a font");
+    files.0.into_values().next().expect("a file")
+}
+
+#[test]
+fn a_ufo_comes_back_whole() {
+    let reading = by_hand(|_| ()).expect("a UFO");
+    same(&reading, 0.6);
+    assert_eq!(reading.font.info, font().info);
+    assert_eq!(reading.lost, Vec::<String>::new());
+    let files = |font| convert(font, format("ufo").expect("ufo"), &Options::default());
+    assert_eq!(
+        files(&reading.font),
+        files(&font()),
+        "contours begin where they began"
+    );
+}
+
+#[test]
+fn kerning_of_what_is_not_there_is_left_out_and_named() {
+    let reading = by_hand(|ufo| {
+        for (first, second) in [
+            ("O", "beh-ar"),
+            ("O", "gone"),
+            ("public.kern1.none", "O"),
+            ("public.kern1.hollow", "O"),
+            ("public.kern1.round", "public.kern2.stems"),
+        ] {
+            kern(ufo, first, second, -40.0);
+        }
+        for (group, members) in [
+            ("public.kern1.round", vec!["O", "Q"]),
+            ("public.kern1.hollow", vec!["Q2"]),
+            ("public.kern2.stems", vec!["beh-ar"]),
+            ("of my own", vec!["O"]),
+        ] {
+            let members = members.into_iter().map(word).collect();
+            ufo.groups.insert(word(group), members);
+        }
+    })
+    .expect("a UFO");
+    let kerning = &reading.font.kerning;
+    let pairs: Vec<_> = kerning
+        .pairs
+        .keys()
+        .map(|(a, b)| format!("{a} {b}"))
+        .collect();
+    assert_eq!(pairs, ["@round @stems", "O beh-ar"]);
+    let groups: Vec<_> = kerning.first.keys().chain(kerning.second.keys()).collect();
+    assert_eq!(groups, ["round", "stems"]);
+    compiled(&reading.font);
+    assert_eq!(
+        reading.lost,
+        [
+            "1 groups beside those of kerning: of my own",
+            "2 members of kerning groups that are no glyphs: Q2 in public.kern1.hollow, Q in public.kern1.round",
+            "3 kerning pairs of glyphs or groups that are not there: O gone, public.kern1.hollow O, \
+             public.kern1.none O",
+        ]
+    );
+}
+
+#[test]
+fn kerning_groups_get_names_that_features_can_have() {
+    let reading = by_hand(|ufo| {
+        for (group, member) in [("@A left", "O"), ("_A_left", "beh-ar"), ("ا", "l.alt")] {
+            let name = format!("public.kern1.{group}");
+            ufo.groups.insert(word(&name), vec![word(member)]);
+            kern(ufo, &name, "O", -40.0);
+        }
+    })
+    .expect("a UFO");
+    let kerning = &reading.font.kerning;
+    let groups: Vec<_> = kerning
+        .first
+        .iter()
+        .map(|(g, m)| format!("{g}: {}", m[0]))
+        .collect();
+    assert_eq!(groups, ["_: l.alt", "_A_left: beh-ar", "_A_left.1: O"]);
+    assert_eq!(kerning.pairs.len(), 3);
+    compiled(&reading.font);
+    assert_eq!(reading.lost, Vec::<String>::new());
+}
+
+#[test]
+fn kerning_and_components_follow_a_glyph_that_is_renamed() {
+    let reading = by_hand(|ufo| {
+        let mut glyph = norad::Glyph::new("O ring");
+        glyph.components.push(norad::Component::new(
+            word("O"),
+            norad::AffineTransform::default(),
+            None,
+        ));
+        ufo.default_layer_mut().insert_glyph(glyph);
+        let mut glyph = norad::Glyph::new("double");
+        for base in ["O ring", "gone"] {
+            let part = norad::Component::new(word(base), norad::AffineTransform::default(), None);
+            glyph.components.push(part);
+        }
+        ufo.default_layer_mut().insert_glyph(glyph);
+        ufo.groups
+            .insert(word("public.kern1.g"), vec![word("O ring")]);
+        kern(ufo, "public.kern1.g", "O ring", -40.0);
+    })
+    .expect("a UFO");
+    let font = &reading.font;
+    assert_eq!(font.kerning.first["g"][0].as_str(), "glyph00004");
+    let pair = ("@g".to_owned(), "glyph00004".to_owned());
+    assert!(font.kerning.pairs.contains_key(&pair), "{:?}", font.kerning);
+    let bases: Vec<_> = font
+        .glyph("double")
+        .expect("double")
+        .components
+        .iter()
+        .map(|c| c.base.as_str())
+        .collect();
+    assert_eq!(bases, ["glyph00004"]);
+    compiled(font);
+    let said = [
+        "a component of double: there is no gone",
+        "1 glyph names that are illegal or not unique: O ring",
+    ];
+    assert_eq!(reading.lost, said);
+}
+
+#[test]
+fn places_beyond_a_font_are_named() {
+    for value in [-40_000.0, 1e10, f64::NAN] {
+        let error = by_hand(|ufo| kern(ufo, "O", "beh-ar", value)).expect_err("too far");
+        assert!(
+            error.to_string().contains("kerning of O and beh-ar"),
+            "{error}"
+        );
+    }
+    let error = by_hand(|ufo| {
+        let glyph = ufo.default_layer_mut().get_glyph_mut("O").expect("O");
+        let top = norad::Anchor::new(320.0, 40_000.0, Some(word("top")), None, None);
+        glyph.anchors.push(top);
+    })
+    .expect_err("too far");
+    assert!(error.to_string().contains("anchor top of O"), "{error}");
+}
+
+#[test]
+fn what_a_ufo_says_for_opentype_counts_and_the_rest_is_named() {
+    let reading = by_hand(|ufo| {
+        let info = &mut ufo.font_info;
+        info.ascender = Some(700.0);
+        info.open_type_hhea_ascender = Some(950);
+        info.open_type_os2_typo_ascender = Some(950);
+        info.open_type_hhea_descender = None;
+        info.open_type_os2_typo_descender = Some(-350);
+        info.open_type_hhea_line_gap = None;
+        info.open_type_os2_typo_line_gap = Some(90);
+        info.open_type_os2_vendor_id = Some("ABC".to_owned());
+        info.open_type_head_created = Some("2000/02/29 00:00:01".to_owned());
+        info.postscript_font_name = Some("Foo-Bar".to_owned());
+        info.open_type_os2_type = Some(vec![3]);
+        info.trademark = Some("TM".to_owned());
+    })
+    .expect("a UFO");
+    let info = &reading.font.info;
+    let wanted = Metrics {
+        ascender: 950.0,
+        descender: -350.0,
+        line_gap: 90.0,
+        ..font().info.metrics
+    };
+    assert_eq!(info.metrics, wanted);
+    assert_eq!((info.vendor_id, info.created), (*b"ABC ", 951_782_401));
+    assert_eq!(
+        reading.lost,
+        ["font information (ascender, descender, openTypeOS2Type, postscriptFontName, trademark)"]
     );
 }
 
 #[test]
 fn drawings_come_back() {
-    let files = convert(&font(), format("svg").expect("svg"), &Options::default()).expect("files");
+    let mut glyphs = font().glyphs().to_vec();
+    glyphs.push(glyph("space", &[' '], vec![]));
+    let font = Font::new(font().info, glyphs).expect("a font");
+    let files = convert(&font, format("svg").expect("svg"), &Options::default()).expect("files");
     let drawings: Vec<_> = files.0.into_iter().collect();
     let reading = read::svg(&drawings).expect("drawings");
     same(&reading, 0.05);
+    let space = reading.font.glyph("space").expect("the space");
+    assert_eq!((&space.codepoints[..], space.advance), (&[' '][..], 640.0));
     assert_eq!(reading.font.glyph("O").expect("O").codepoints, ['O']);
+}
+
+#[test]
+fn drawings_have_the_characters_of_their_names() {
+    let svg = r#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 -9 9 10"><path d="M0 0H5V5z"/></svg>"#;
+    let files = [
+        "A_.svg",
+        "uni0041.svg",
+        "one.svg",
+        "eacute.svg",
+        "space.svg",
+        "uni06A_9.svg",
+        "u1F_600.svg",
+        "beh-ar.svg",
+        "beh-ar.init.svg",
+        "f_i.svg",
+        "lam_alef-ar.svg",
+        "logo.svg",
+        "ب.svg",
+    ];
+    let drawings = files.map(|f| (f.to_owned(), svg.into()));
+    let reading = read::svg(&drawings).expect("drawings");
+    let chars = |g: &Glyph| g.codepoints.iter().collect::<String>();
+    let glyphs = reading.font.glyphs().iter().skip(1);
+    let all: Vec<_> = glyphs.map(|g| format!("{} {}", g.name, chars(g))).collect();
+    assert_eq!(
+        all,
+        [
+            "A A",
+            "uni0041 ",
+            "one 1",
+            "eacute é",
+            "space  ",
+            "uni06A9 ک",
+            "u1F600 \u{1f600}",
+            "beh-ar ب",
+            "beh-ar.init ",
+            "f_i ",
+            "lam_alef-ar ",
+            "logo ",
+            "glyph00013 ",
+        ]
+    );
+    assert_eq!(
+        reading.lost,
+        [
+            "3 characters that names do not tell, or that another drawing has: uni0041, logo, ب",
+            "1 glyph names that are illegal or not unique: ب",
+        ]
+    );
+}
+
+#[test]
+fn a_mark_is_seen_and_comes_back_without_an_advance() {
+    let mut mark = glyph(
+        "acutecomb",
+        &['\u{301}'],
+        vec![path("M-200 600L-100 600L-90 700L-150 720Z")],
+    );
+    mark.advance = 0.0;
+    let glyphs = vec![glyph(".notdef", &[], vec![]), mark];
+    let font = Font::new(font().info, glyphs).expect("a font");
+    let files = (format("svg").expect("svg").write)(&font).expect("files");
+    let text = String::from_utf8(files.0["acutecomb.svg"].clone()).expect("text");
+    assert!(text.contains(r#"viewBox="-200 -800 110 1000""#), "{text}");
+    let drawings: Vec<_> = files.0.into_iter().collect();
+    let read = read::svg(&drawings).expect("drawings").font;
+    let mark = read.glyph("acutecomb").expect("the mark");
+    assert_eq!(mark.advance.to_bits(), 0.0_f64.to_bits());
+    let before = &font.glyphs()[1].outline;
+    assert!(apart(before, &mark.outline) < 0.01, "{:?}", mark.outline);
+    assert_eq!(
+        read.info.metrics,
+        Metrics {
+            ascender: 800.0,
+            descender: -200.0,
+            ..Metrics::default()
+        }
+    );
+}
+
+#[test]
+fn a_view_box_counts_whatever_its_aspect() {
+    // a square of half the view box's height, at its top left corner: how large it is shown does not count
+    for aspect in ["xMidYMid", "xMaxYMin slice", "xMinYMax", "none"] {
+        let svg = format!(
+            r#"<svg xmlns="http://www.w3.org/2000/svg" width="90" height="120" viewBox="0 0 200 100"
+            preserveAspectRatio="{aspect}"><path d="M0 0H50V50H0z"/></svg>"#
+        );
+        let reading = read::svg(&[("a.svg".to_owned(), svg.into_bytes())]).expect("a drawing");
+        let a = reading.font.glyph("a").expect("a");
+        let bounds = a.outline.bounds().expect("ink");
+        let wanted = Rect::new(0.0, 500.0, 500.0, 1000.0);
+        let off = (bounds.x0 - wanted.x0).hypot(bounds.y0 - wanted.y0);
+        let off = off.max((bounds.x1 - wanted.x1).hypot(bounds.y1 - wanted.y1));
+        assert!(off < 0.01, "{aspect}: {bounds:?}");
+        assert!((a.advance - 2000.0).abs() < 0.01, "{aspect}: {}", a.advance);
+    }
 }
 
 #[test]

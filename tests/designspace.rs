@@ -42,7 +42,6 @@ const OTHER: &str = "M0 0L140 0L140 300L140 700L0 700Z";
 fn weights_share_an_axis_and_only_like_outlines_are_interpolated() {
     let dir = tempfile::tempdir().expect("a folder");
     let folder = dir.path();
-    fs::create_dir(folder.join("build")).expect("a folder");
     let at = folder.join("ufo");
     ufo(&at, "Bold", ("Family", 700), FAT);
     ufo(&at, "Regular", ("Family", 400), THIN);

@@ -14,6 +14,7 @@ mod fonts;
 mod handwork;
 mod layers;
 mod outlines;
+mod outputs;
 mod papers;
 mod published;
 mod recognise;

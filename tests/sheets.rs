@@ -8,13 +8,13 @@ use crate::cli::{command, khatt, png, transcript};
 use crate::common::approved;
 use skrifa::{FontRef, raw::TableProvider};
 use std::collections::BTreeMap;
-use std::fs;
+use std::fs::{self, File};
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::TcpStream;
 use std::path::Path;
-use std::process::Stdio;
-use std::thread::sleep;
-use std::time::Duration;
+use std::process::{Child, Stdio};
+use std::thread::{sleep, spawn};
+use std::time::{Duration, SystemTime};
 
 /// Where the grey of a drawn edge begins and ends, px.
 pub(crate) fn edge(distance: f64) -> u8 {
@@ -110,8 +110,8 @@ fn a_page_becomes_every_output_and_again_the_same_bytes() {
     }
     assert_eq!(
         first.keys().filter(|k| k.starts_with("svg/")).count(),
-        10,
-        "nine letters and .notdef"
+        13,
+        "nine letters, two spaces, .notdef, and the list of them"
     );
     let again = khatt(
         dir.path(),
@@ -343,35 +343,67 @@ fn fetch(address: &str, path: &str) -> String {
     answer
 }
 
+/// `khatt watch` in a folder.
+struct Watched {
+    child: Child,
+    address: String,
+}
+
+impl Watched {
+    fn new(folder: &Path) -> Self {
+        let mut command = command(folder, &["watch", "font.toml", "--port", "0"]);
+        let mut child = command.stderr(Stdio::piped()).spawn().expect("khatt runs");
+        let mut lines = BufReader::new(child.stderr.take().expect("its words")).lines();
+        let first = lines.next().expect("a line").expect("text");
+        let address = first.split('/').nth(2).expect("an address").to_owned();
+        // it goes on talking
+        spawn(move || lines.for_each(drop));
+        Self { child, address }
+    }
+
+    /// Whether its page comes to hold that text.
+    fn shows(&self, text: &str) -> bool {
+        // a minute is enough on a machine that does much else
+        (0..1200).any(|_| {
+            sleep(Duration::from_millis(50));
+            fetch(&self.address, "/").contains(text)
+        })
+    }
+}
+
+impl Drop for Watched {
+    fn drop(&mut self) {
+        self.child.kill().expect("it ends");
+        self.child.wait().expect("it has ended");
+    }
+}
+
 #[test]
 fn a_watched_project_is_built_again_when_a_page_changes() {
     let dir = project(LETTERS, &page(&[]));
-    let mut command = command(dir.path(), &["watch", "font.toml", "--port", "0"]);
-    let mut child = command.stderr(Stdio::piped()).spawn().expect("khatt runs");
-    let mut lines = BufReader::new(child.stderr.take().expect("its words")).lines();
-    let first = lines.next().expect("a line").expect("text");
-    let address = first.split('/').nth(2).expect("an address").to_owned();
-    let version = |least: u32| {
-        // it answers when it has built; a minute is enough on a machine that does much else
-        (0..1200).any(|_| {
-            sleep(Duration::from_millis(50));
-            let answer = fetch(&address, "/version");
-            let number = answer.rsplit("\r\n").next().and_then(|n| n.parse().ok());
-            number.is_some_and(|n: u32| n >= least)
-        })
-    };
-    assert!(version(1), "the first build");
-    assert!(fetch(&address, "/").contains("Test Regular"));
+    let watched = Watched::new(dir.path());
+    assert!(watched.shows("Test Regular"), "the first build");
     assert!(dir.path().join("out/test.ttf").exists());
     fs::write(dir.path().join("page.png"), page(&[8])).expect("a picture");
-    assert!(version(2), "a build of the new picture");
-    assert!(
-        fetch(&address, "/").contains("cell 9"),
-        "the empty cell is named"
-    );
-    assert!(fetch(&address, "/other").starts_with("HTTP/1.1 404"));
-    child.kill().expect("it ends");
-    child.wait().expect("it has ended");
+    assert!(watched.shows("cell 9"), "the empty cell is named");
+    assert!(fetch(&watched.address, "/other").starts_with("HTTP/1.1 404"));
+}
+
+#[test]
+fn a_watched_project_is_built_when_what_was_missing_comes() {
+    let dir = project(LETTERS, &page(&[]));
+    let (toml, png) = (dir.path().join("font.toml"), dir.path().join("page.png"));
+    let text = fs::read_to_string(&toml).expect("the project");
+    fs::write(&toml, text.replace("page.png", "scans/new/page.png")).expect("a project");
+    let watched = Watched::new(dir.path());
+    assert!(watched.shows("scans/new/page.png"), "the page is missed");
+    fs::create_dir_all(dir.path().join("scans/new")).expect("a folder");
+    fs::rename(png, dir.path().join("scans/new/page.png")).expect("a picture");
+    assert!(watched.shows("Test Regular"), "a build of the picture");
+    fs::remove_file(&toml).expect("the project");
+    assert!(watched.shows("font.toml"), "the project is missed");
+    fs::write(&toml, text.replace("page.png", "gone.png")).expect("a project");
+    assert!(watched.shows("gone.png"), "the new project");
 }
 
 #[test]
@@ -475,24 +507,29 @@ fn a_picture_that_is_not_there_is_named() {
 }
 
 #[test]
-fn what_a_killed_build_left_is_swept_away_and_what_a_living_one_writes_is_not() {
+fn what_a_killed_build_left_is_swept_away_and_what_another_one_writes_is_not() {
     let dir = project(LETTERS, &page(&[]));
-    fs::create_dir_all(dir.path().join("out")).expect("a folder");
-    // no process has number 0 in a process table, and this one lives
-    let (dead, living) = (".khatt-0-x", format!(".khatt-{}-x", std::process::id()));
-    for name in [dead, &living] {
-        fs::write(dir.path().join("out").join(name), "half").expect("a file");
+    let out = dir.path().join("out");
+    fs::create_dir_all(&out).expect("a folder");
+    // whose process may live on another machine, or in another container
+    let (old, new, mine) = (".khatt-0-x", ".khatt-0-y", ".khatt-notes");
+    for name in [old, new, mine] {
+        let file = File::create(out.join(name)).expect("a file");
+        if name != new {
+            let then = SystemTime::UNIX_EPOCH;
+            file.set_modified(then).expect("a date");
+        }
     }
-    let out = khatt(dir.path(), &["build", "font.toml"]);
+    let build = khatt(dir.path(), &["build", "font.toml"]);
     assert_eq!(
-        out.status.code(),
+        build.status.code(),
         Some(0),
         "{}",
-        String::from_utf8_lossy(&out.stderr)
+        String::from_utf8_lossy(&build.stderr)
     );
-    let left: Vec<String> = files(&dir.path().join("out")).into_keys().collect();
+    let left: Vec<String> = files(&out).into_keys().collect();
     let temporary: Vec<_> = left.iter().filter(|k| k.starts_with(".khatt-")).collect();
-    assert_eq!(temporary, [&living]);
+    assert_eq!(temporary, [new, mine]);
 }
 
 #[test]
@@ -528,7 +565,7 @@ fn cells_are_cut_and_listed() {
         String::from_utf8_lossy(&out.stderr)
     );
     let cells = files(&dir.path().join("cells"));
-    assert_eq!(cells.len(), 10, "{:?}", cells.keys());
+    assert_eq!(cells.len(), 11, "{:?}", cells.keys());
     let list: serde_json::Value = serde_json::from_slice(&cells["cells.json"]).expect("JSON");
     let first = &list[0]["cells"][0];
     assert_eq!(
@@ -559,7 +596,6 @@ fn a_build_reports_lists_its_inputs_and_can_be_locked() {
         "out/font.d",
         "--keep",
         "out/keep",
-        "--timings",
     ];
     let out = khatt(dir.path(), &args);
     assert_eq!(
@@ -585,7 +621,7 @@ fn a_build_reports_lists_its_inputs_and_can_be_locked() {
             .count()
     };
     let stages = ["1-cut", "2-trace", "3-fit", "4-place", "5-assemble"];
-    assert_eq!(stages.map(kept), [9, 9, 9, 10, 1]);
+    assert_eq!(stages.map(kept), [9, 9, 9, 12, 1]);
     let report: serde_json::Value = serde_json::from_slice(&made["report.json"]).expect("JSON");
     let rows = report["glyphs"].as_array().expect("a list");
     assert_eq!(rows.len(), 9);
@@ -593,6 +629,10 @@ fn a_build_reports_lists_its_inputs_and_can_be_locked() {
         let error = row["max_error"].as_f64().expect("a number");
         assert!(error > 0.0 && error < 15.0, "{row}");
     }
+    let timed = ["build", "font.toml", "--timings", "--no-cache"];
+    assert_eq!(khatt(dir.path(), &timed).status.code(), Some(0));
+    let report = fs::read(dir.path().join("out/report.json")).expect("the report");
+    let report: serde_json::Value = serde_json::from_slice(&report).expect("JSON");
     assert!(report["stage_seconds"]["cut"].is_number());
     assert!(report["pages_per_decoding"].is_number());
     let plain = || {

@@ -9,6 +9,7 @@ use super::{Draft, Note};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use unicode_joining_type::{JoiningType, get_joining_type};
+use unicode_normalization::UnicodeNormalization;
 
 /// Features that a glyph asks for by its suffix, besides `ss01`…`ss20` and `cv01`…`cv99`.
 const BY_SUFFIX: &[&str] = &[
@@ -24,10 +25,12 @@ pub(super) fn text(drafts: &[Draft]) -> (String, Vec<Note>) {
         let rules = glyphs.forms(form);
         feature(&mut out, form.tag(), "", &rules);
     }
-    let (required, standard, notes) = glyphs.ligatures();
+    let (required, standard, mut notes) = glyphs.ligatures();
     feature(&mut out, "rlig", "    lookupflag IgnoreMarks;\n", &required);
     feature(&mut out, "liga", "", &standard);
-    for (tag, rules) in glyphs.alternates() {
+    let (alternates, unused) = glyphs.alternates();
+    notes.extend(unused);
+    for (tag, rules) in alternates {
         feature(&mut out, &tag, "", &rules);
     }
     (out, notes)
@@ -62,6 +65,14 @@ fn language_systems(drafts: &[Draft]) -> String {
 /// Whether a character is of the Arabic script's blocks.
 pub(super) fn is_arabic(c: char) -> bool {
     matches!(u32::from(c), 0x0600..=0x06FF | 0x0750..=0x077F | 0x0870..=0x08FF | 0xFB50..=0xFDFF | 0xFE70..=0xFEFF)
+}
+
+/// The letters of a Latin ligature that has a character of its own: ﬁ.
+fn unfolded(draft: &Draft) -> Option<Vec<char>> {
+    let [c @ ('ﬀ'..='ﬄ' | 'ﬆ')] = draft.id.chars[..] else {
+        return None;
+    };
+    Some(std::iter::once(c).nfkc().collect())
 }
 
 /// Whether a character changes its form beside its neighbours.
@@ -108,14 +119,22 @@ impl<'a> Glyphs<'a> {
     /// Rules of `rlig` (joining scripts) and `liga` (others), and the ligatures whose parts are missing.
     fn ligatures(&self) -> (Vec<String>, Vec<String>, Vec<Note>) {
         let (mut required, mut standard, mut notes) = (Vec::new(), Vec::new(), Vec::new());
-        let plain = |d: &&Draft| d.id.chars.len() > 1 && d.id.alternates().next().is_none();
-        for draft in self.drafts.iter().filter(plain) {
+        let plain = |d: &&Draft| d.id.alternates().next().is_none();
+        let plain = || self.drafts.iter().filter(plain);
+        let named = plain()
+            .filter(|d| d.id.chars.len() > 1)
+            .map(|d| (d, d.id.chars.clone()));
+        let encoded = plain().filter_map(|d| Some((d, unfolded(d)?)));
+        let encoded = encoded.filter(|(_, chars)| plain().all(|d| d.id.chars != *chars));
+        for (draft, chars) in named.chain(encoded) {
             let name = &draft.id.name;
-            match self.parts(draft) {
+            match self.parts(draft, &chars) {
                 Ok(parts) => {
-                    let rules = if draft.id.chars.iter().any(|&c| joins(c)) { &mut required } else { &mut standard };
+                    let rules = if chars.iter().any(|&c| joins(c)) { &mut required } else { &mut standard };
                     rules.push(format!("{} by {name}", parts.join(" ")));
                 }
+                // it has a character of its own
+                Err(_) if draft.id.chars != chars => {}
                 Err(missing) => notes.push(Note {
                     glyph: name.to_string(),
                     message: format!(
@@ -129,9 +148,9 @@ impl<'a> Glyphs<'a> {
     }
 
     /// The glyphs that a ligature replaces, or the character that no glyph has.
-    fn parts(&self, ligature: &Draft) -> Result<Vec<&'a str>, char> {
+    fn parts(&self, ligature: &Draft, chars: &[char]) -> Result<Vec<&'a str>, char> {
         let form = ligature.id.form().unwrap_or(Form::Isol);
-        let last = ligature.id.chars.len() - 1;
+        let last = chars.len() - 1;
         let part = |(i, &c): (usize, &char)| {
             let before = i > 0 || form.joins_before();
             let after = i < last || form.joins_after();
@@ -147,12 +166,13 @@ impl<'a> Glyphs<'a> {
                 .copied()
                 .ok_or(c)
         };
-        ligature.id.chars.iter().enumerate().map(part).collect()
+        chars.iter().enumerate().map(part).collect()
     }
 
-    /// Feature tag → rules for the glyphs that carry it as a suffix.
-    fn alternates(&self) -> BTreeMap<String, Vec<String>> {
+    /// Feature tag → rules for the glyphs that carry it as a suffix, and those whose plain glyph is missing.
+    fn alternates(&self) -> (BTreeMap<String, Vec<String>>, Vec<Note>) {
         let mut out: BTreeMap<String, Vec<String>> = BTreeMap::new();
+        let mut notes = Vec::new();
         for draft in self.drafts {
             for tag in draft.id.alternates().filter(|t| is_tag(t)) {
                 let rest: Vec<&str> = draft
@@ -166,13 +186,20 @@ impl<'a> Glyphs<'a> {
                     .drafts
                     .iter()
                     .find(|d| d.id.chars == draft.id.chars && d.id.suffixes == rest);
-                if let Some(from) = from {
-                    let rule = format!("{} by {}", from.id.name, draft.id.name);
-                    out.entry(tag.to_owned()).or_default().push(rule);
+                let name = draft.id.name.to_string();
+                match from {
+                    Some(from) => {
+                        let rule = format!("{} by {name}", from.id.name);
+                        out.entry(tag.to_owned()).or_default().push(rule);
+                    }
+                    None => notes.push(Note {
+                        glyph: name,
+                        message: format!("the alternate is never used: the font has no glyph that {tag} could replace by it; draw that"),
+                    }),
                 }
             }
         }
-        out
+        (out, notes)
     }
 }
 

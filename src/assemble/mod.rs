@@ -5,7 +5,6 @@
 //! no-break space.
 
 mod basics;
-mod characters;
 pub mod compose;
 mod features;
 pub mod joining;

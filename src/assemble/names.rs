@@ -3,12 +3,15 @@
 //! A label is one of: a character (`ب`), several characters that one glyph draws (`لا`), a name of
 //! the Adobe Glyph List (`eacute`, `f_i`), a hexadecimal name (`uni0628`, `uni06440627`, `u1F600`),
 //! or a friendly name as Glyphs writes it (`beh-ar`, `lam_alef-ar`). Names take suffixes (`.init`,
-//! `.ss01`). The font keeps a name as it was given; the characters follow from it.
+//! `.ss01`). The font keeps a name as it was given; the characters follow from it. Arabic presentation forms (`ﺑ`,
+//! `uniFE91`) are the letter in that joining form.
 
-use super::{characters, nearest};
-use crate::types::{Label, Name};
+use super::nearest;
+use crate::types::{Label, Name, characters};
 use read_fonts::ps::agl;
+use std::ops::RangeInclusive;
 use thiserror::Error;
+use unicode_normalization::UnicodeNormalization;
 
 /// Why a label names no glyph.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
@@ -114,13 +117,18 @@ pub fn identify(label: &Label) -> Result<Identity, LabelError> {
         return identity(text, Vec::new(), Vec::new());
     }
     if let Some(chars) = literal(text) {
-        return identity(&name_of(&chars), chars, Vec::new());
+        let (chars, suffixes) = joined(chars, Vec::new());
+        let name = [vec![name_of(&chars)], suffixes.clone()].concat().join(".");
+        return identity(&name, chars, suffixes);
     }
     let mut parts = text.split('.');
     let base = parts.next().unwrap_or_default();
     let suffixes: Vec<String> = parts.map(str::to_owned).collect();
     match characters::of(base) {
-        Some(chars) if suffixes.iter().all(|s| !s.is_empty()) => identity(text, chars, suffixes),
+        Some(chars) if suffixes.iter().all(|s| !s.is_empty()) => {
+            let (chars, suffixes) = joined(chars, suffixes);
+            identity(text, chars, suffixes)
+        }
         _ => Err(LabelError::Unknown {
             label: text.to_owned(),
             nearest: nearest::name(base).map(|n| {
@@ -131,6 +139,36 @@ pub fn identify(label: &Label) -> Result<Identity, LabelError> {
             }),
         }),
     }
+}
+
+/// Blocks of single letters' joining forms in Unicode, and of lam with alef: those of one letter stand in the order isolated,
+/// final, initial, medial.
+const PRESENTED: [RangeInclusive<char>; 3] = [
+    '\u{FE80}'..='\u{FEFC}',
+    '\u{FB50}'..='\u{FBE9}',
+    '\u{FBFC}'..='\u{FBFF}',
+];
+
+/// A presentation form as its letters and the suffix of its joining form; all else as it is.
+fn joined(chars: Vec<char>, mut suffixes: Vec<String>) -> (Vec<char>, Vec<String>) {
+    let [c] = chars[..] else {
+        return (chars, suffixes);
+    };
+    let letters = |c: char| -> Vec<char> { std::iter::once(c).nfkc().collect() };
+    let own = letters(c);
+    if own == chars || !PRESENTED.iter().any(|range| range.contains(&c)) {
+        return (chars, suffixes);
+    }
+    let alike = PRESENTED
+        .into_iter()
+        .flatten()
+        .filter(|&f| letters(f) == own);
+    let form = alike.zip(Form::ALL).find(|(f, _)| *f == c);
+    suffixes.extend(
+        form.filter(|f| f.1 != Form::Isol)
+            .map(|f| f.1.tag().to_owned()),
+    );
+    (own, suffixes)
 }
 
 fn identity(name: &str, chars: Vec<char>, suffixes: Vec<String>) -> Result<Identity, LabelError> {
@@ -231,6 +269,14 @@ mod tests {
             ("/", "slash", "/", None),
             ("keheh-ar", "keheh-ar", "ک", None),
             ("kashida-ar", "kashida-ar", "ـ", None),
+            ("ﺏ", "uni0628", "ب", None),
+            ("ﺑ", "uni0628.init", "ب", Some(Form::Init)),
+            ("ﺄ", "uni0623.fina", "أ", Some(Form::Fina)),
+            ("ﯩ", "uni0649.medi", "ى", Some(Form::Medi)),
+            ("ﯿ", "uni06CC.medi", "ی", Some(Form::Medi)),
+            ("ﻼ", "uni06440627.fina", "لا", Some(Form::Fina)),
+            ("uniFE92", "uniFE92", "ب", Some(Form::Medi)),
+            ("\u{FBB3}", "uniFBB3", "\u{FBB3}", None),
         ];
         for (label, name, chars, form) in table {
             assert_eq!(

@@ -1,6 +1,6 @@
 //! The known glyph name that differs least from an unknown one.
 
-use super::characters;
+use crate::types::characters;
 use read_fonts::ps::agl;
 use std::sync::LazyLock;
 

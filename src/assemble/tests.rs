@@ -88,6 +88,41 @@ fn a_ligature_of_missing_parts_is_reported() {
 }
 
 #[test]
+fn a_ligature_with_a_character_of_its_own_is_one_too() {
+    let built = build(&["f", "i", "fi", "fl"]);
+    assert!(
+        built.font.features.contains("sub f i by fi;"),
+        "{}",
+        built.font.features
+    );
+    assert!(built.notes.is_empty(), "ﬂ can be typed: {:?}", built.notes);
+    let both = build(&["f", "i", "fi", "f_i"]).font.features;
+    assert!(
+        both.contains("by f_i;") && !both.contains("by fi;"),
+        "{both}"
+    );
+}
+
+#[test]
+fn presentation_forms_join() {
+    let features = build(&["ﺏ", "ﺑ", "ﺒ", "ﺐ"]).font.features;
+    for rule in [
+        "sub uni0628 by uni0628.init;",
+        "sub uni0628 by uni0628.medi;",
+        "sub uni0628 by uni0628.fina;",
+    ] {
+        assert!(features.contains(rule), "{features}");
+    }
+}
+
+#[test]
+fn an_alternate_of_nothing_is_reported() {
+    let notes = build(&["A", "A.ss01", "B.ss01"]).notes;
+    let glyphs: Vec<&str> = notes.iter().map(|n| n.glyph.as_str()).collect();
+    assert_eq!(glyphs, ["B.ss01"]);
+}
+
+#[test]
 fn wrong_labels_are_errors_with_their_place() {
     let all = |labels: &[&str]| {
         let shapes = labels.iter().map(|l| drawn(l)).collect();

@@ -5,7 +5,7 @@ use super::done::Done;
 use super::failure::Failure;
 use super::progress::Times;
 use super::project::{Opened, created};
-use super::staged::{self, Staged};
+use super::staged;
 use super::{Common, Outcome, cut, files, keep, sarif};
 use clap::Args;
 use khatt::pipeline::{self, Built, Outputs, Report, Stage, Store, digest};
@@ -32,7 +32,7 @@ pub(crate) struct Build {
     #[arg(long, value_name = "FILE.sarif")]
     sarif: Option<PathBuf>,
     /// Write nothing; fail where an output is not what would be written
-    #[arg(long, conflicts_with = "sarif")]
+    #[arg(long, conflicts_with_all = ["keep", "depfile", "sarif", "timings"])]
     locked: bool,
     /// Write the UFO anew, without what was done to it by hand
     #[arg(long)]
@@ -71,22 +71,34 @@ impl Build {
     }
 
     pub(crate) fn run(&self, common: &Common) -> Outcome {
-        let outcome = self.build(common);
+        let (inputs, outcome) = match Opened::new(&self.project) {
+            Ok(opened) => {
+                let inputs = opened.named();
+                // before the work, and before its failure is written anywhere
+                staged::apart(opened.outputs().iter().chain(self.more()), &inputs)?;
+                (inputs, self.build(&opened, common))
+            }
+            Err(failure) => (vec![self.project.clone()], Err(failure)),
+        };
         if let Some((path, failure)) = self.sarif.as_ref().zip(outcome.as_ref().err()) {
             let log = sarif::failed(&self.project, failure);
-            let mut staged = Staged::default();
-            staged.add(path, &log)?;
-            staged.commit()?;
+            staged::write(&[(path.clone(), log)], &inputs)?;
         }
         outcome
     }
 
-    fn build(&self, common: &Common) -> Outcome {
-        let opened = Opened::new(&self.project)?;
+    /// Outputs that the command line names.
+    fn more(&self) -> impl Iterator<Item = &PathBuf> {
+        let files = self.depfile.iter().chain(&self.sarif);
+        files.chain(&self.keep)
+    }
+
+    /// Builds, where anything has changed since the last time.
+    pub(crate) fn build(&self, opened: &Opened, common: &Common) -> Outcome {
         let cache = self.cache.open();
-        let key = self.key(&opened)?;
+        let key = self.key(opened)?;
         if self.keep.is_none()
-            && let Some(said) = Done::recall(&cache, &key, &opened)
+            && let Some(said) = Done::recall(&cache, &key, opened)
         {
             if !common.quiet {
                 eprint!("{said}");
@@ -94,8 +106,8 @@ impl Build {
             }
             return Ok(());
         }
-        let (files, said) = self.make(&cache, &opened, common)?;
-        if let Some(done) = Done::new(&opened, &files, &said) {
+        let (files, said) = self.make(&cache, opened, common)?;
+        if let Some(done) = Done::new(opened, &files, &said) {
             done.keep(&cache, &key);
         }
         cache.trim();
@@ -133,14 +145,9 @@ impl Build {
             staged::same(&files)?;
             return Ok((files, said));
         }
-        let mut staged = Staged::default();
-        for (path, files) in &files {
-            staged.add(path, files)?;
-        }
-        if let Some(folder) = &self.keep {
-            staged.add(folder, &keep::files(&built))?;
-        }
-        staged.commit()?;
+        let folder = self.keep.as_ref();
+        let kept = folder.map(|folder| (folder.clone(), keep::files(&built)));
+        staged::write(files.iter().chain(&kept), &opened.named())?;
         if !common.quiet {
             eprint!("{said}");
             say(&built, total, &times);
@@ -168,7 +175,7 @@ impl Build {
         Ok(digest(asked.to_string().as_bytes()))
     }
 
-    /// Everything that this build writes; what `--locked` compares where it is asked.
+    /// The project's outputs and the rule for Make.
     fn files(
         &self,
         opened: &Opened,
@@ -179,9 +186,6 @@ impl Build {
         let mut files: Vec<(PathBuf, Files)> = files
             .map(|(path, files)| (opened.path(path), files.clone()))
             .collect();
-        if self.locked {
-            return files;
-        }
         if let Some((path, made)) = opened.report().zip(outputs.report.as_ref()) {
             let report = if self.report.timings {
                 timed(made, total, times)

@@ -1,10 +1,10 @@
 //! `khatt convert`: a font or drawings in one format become another.
 
 use super::failure::{Failure, chain};
-use super::staged::Staged;
-use super::{Common, Outcome, files};
-use clap::Args;
+use super::{Common, Khatt, Outcome, files, staged};
 use clap::builder::PossibleValuesParser;
+use clap::error::ErrorKind;
+use clap::{Args, CommandFactory};
 use khatt::pipeline::convert::{Options, Outlines, convert};
 use khatt::quadratic::{Method, rate::Strictness};
 use khatt::read::{self, Reading};
@@ -12,6 +12,7 @@ use khatt::write::{FORMATS, Format, format};
 use std::ffi::OsStr;
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::slice;
 
 /// Converts a font or SVG drawings into another format
 #[derive(Debug, Args)]
@@ -42,6 +43,7 @@ pub(crate) struct Convert {
 
 impl Convert {
     pub(crate) fn run(&self, common: &Common) -> Outcome {
+        let options = self.options();
         let target = self.format()?;
         let Reading { font, mut lost } = self.read()?;
         if matches!(target.name, "ufo" | "svg") && !font.carried.is_empty() {
@@ -52,11 +54,10 @@ impl Convert {
                 .collect();
             lost.push(format!("compiled tables ({})", tags.join(", ")));
         }
-        let files = convert(&font, target, &self.options())
+        let files = convert(&font, target, &options)
             .map_err(|e| Failure::at(files::name(&self.input), &e))?;
-        let mut staged = Staged::default();
-        staged.add(&self.output, &files)?;
-        staged.commit()?;
+        let inputs = slice::from_ref(&self.input);
+        staged::write(&[(self.output.clone(), files)], inputs)?;
         for line in lost.iter().filter(|_| !common.quiet) {
             eprintln!("not carried over: {line}");
         }
@@ -114,10 +115,17 @@ impl Convert {
         {
             options.quadratic = method;
         }
-        if let Method::Rate(rate) = &mut options.quadratic {
-            rate.keep = match self.keep.as_deref() {
-                Some("corners") => Strictness::Corners,
-                Some("places") => Strictness::Places,
+        if let Some(keep) = &self.keep {
+            let Method::Rate(rate) = &mut options.quadratic else {
+                let key = options.quadratic.key();
+                let why = format!("--keep is for --quadratic rate, and {key} keeps nothing");
+                Khatt::command()
+                    .error(ErrorKind::ArgumentConflict, why)
+                    .exit();
+            };
+            rate.keep = match keep.as_str() {
+                "corners" => Strictness::Corners,
+                "places" => Strictness::Places,
                 _ => rate.keep,
             };
         }

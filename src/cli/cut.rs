@@ -3,8 +3,7 @@
 use super::failure::Failure;
 use super::files::is_dash;
 use super::project::Opened;
-use super::staged::Staged;
-use super::{Common, Outcome};
+use super::{Common, Outcome, staged};
 use clap::Args;
 use khatt::pipeline::project::{CellTable, Cells, Layout};
 use khatt::pipeline::{self, Page};
@@ -57,16 +56,16 @@ impl Cut {
         }
         let text = format!("{:#}\n", Value::Array(list));
         files.0.insert("cells.json".to_owned(), text.into_bytes());
-        let mut staged = Staged::default();
+        let mut outputs = Vec::new();
         if let Some(output) = &self.output {
-            staged.add(output, &files)?;
+            outputs.push((output.clone(), files));
         }
         if let Some(path) = &self.write_overrides {
             let tables = toml::to_string(&cells).map_err(|e| Failure::at(path.display(), &e))?;
             let text = format!("{HEAD}{tables}");
-            staged.add(path, &Files::single(text.into_bytes()))?;
+            outputs.push((path.clone(), Files::single(text.into_bytes())));
         }
-        staged.commit()?;
+        staged::write(&outputs, &opened.named())?;
         if !common.quiet {
             eprint!("{said}");
         }

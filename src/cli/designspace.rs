@@ -1,7 +1,7 @@
 //! `khatt designspace`: the UFOs of several weights as one family.
 
 use super::failure::Failure;
-use super::staged::Staged;
+use super::staged::{self, parent, place};
 use super::{Common, Outcome, files};
 use clap::Args;
 use khatt::types::Files;
@@ -23,15 +23,14 @@ impl Designspace {
     pub(crate) fn run(&self, common: &Common) -> Outcome {
         let masters = self.masters.iter().map(|ufo| {
             Ok(Master {
-                path: self.path_to(ufo)?,
+                path: self.path_to(ufo),
                 files: files::folder(ufo)?,
             })
         });
         let masters = masters.collect::<Result<Vec<_>, Failure>>()?;
         let made = designspace(&masters).map_err(|e| Failure::at(files::name(&self.output), &e))?;
-        let mut staged = Staged::default();
-        staged.add(&self.output, &Files::single(made.document.into_bytes()))?;
-        staged.commit()?;
+        let document = Files::single(made.document.into_bytes());
+        staged::write(&[(self.output.clone(), document)], &self.masters)?;
         if !made.apart.is_empty() && !common.quiet {
             eprintln!(
                 "{} glyphs are not built alike, so that the axis is discrete: no font between the masters can be made",
@@ -43,17 +42,13 @@ impl Designspace {
     }
 
     /// The way from the designspace's folder to a UFO, with `/` on every system.
-    fn path_to(&self, ufo: &Path) -> Result<String, Failure> {
-        let whole = |path: &Path| {
-            let found = path.canonicalize();
-            found.map_err(|e| Failure::at(path.display(), &e))
-        };
-        let (from, to) = (whole(super::staged::parent(&self.output))?, whole(ufo)?);
+    fn path_to(&self, ufo: &Path) -> String {
+        let (from, to) = (place(parent(&self.output)), place(ufo));
         let shared = from.components().zip(to.components());
         let shared = shared.take_while(|(a, b)| a == b).count();
         let up = from.components().skip(shared).map(|_| "..".to_owned());
         let down = to.components().skip(shared);
         let down = down.map(|c: Component<'_>| c.as_os_str().to_string_lossy().into_owned());
-        Ok(up.chain(down).collect::<Vec<_>>().join("/"))
+        up.chain(down).collect::<Vec<_>>().join("/")
     }
 }

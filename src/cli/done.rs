@@ -2,6 +2,7 @@
 
 use super::cache::Cache;
 use super::project::Opened;
+use super::staged::strays;
 use khatt::pipeline::{Store, digest};
 use khatt::types::Files;
 use rayon::prelude::*;
@@ -57,7 +58,9 @@ impl Done {
                 "" => path.clone(),
                 name => path.join(name),
             };
-            files.iter().all(|(name, wanted)| is(&at(name), wanted))
+            let part = |name: &str| files.iter().any(|(n, _)| n == name);
+            let whole = files.iter().all(|(name, wanted)| is(&at(name), wanted));
+            whole && strays(path, part).is_empty()
         };
         (inputs.iter().all(|same| *same) && done.outputs.iter().all(output)).then_some(done.said)
     }

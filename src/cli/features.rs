@@ -10,6 +10,7 @@ use khatt::types::Contour;
 use kurbo::{BezPath, Point, Rect, Shape};
 use std::fmt::Write as _;
 use std::path::PathBuf;
+use std::slice;
 
 /// Side of the square that shows a contour, and height of its diagram, SVG units.
 const SIDE: f64 = 240.0;
@@ -53,7 +54,12 @@ impl Features {
         if contours.is_empty() {
             return Err(Failure::new(format!("{name} has no ink to trace")));
         }
-        files::write(&self.output, diagram(&contours, &rule).as_bytes())
+        let diagram = diagram(&contours, &rule);
+        files::write(
+            &self.output,
+            diagram.as_bytes(),
+            slice::from_ref(&self.picture),
+        )
     }
 }
 

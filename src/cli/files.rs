@@ -1,12 +1,11 @@
 //! Bytes in and out: files, or `-` for standard input and output.
 
 use super::failure::Failure;
-use super::staged::Staged;
-use super::{Outcome, say};
+use super::{Outcome, say, staged};
 use khatt::types::Files;
 use std::fs;
 use std::io::{self, Read};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Whether the user means standard input or output.
 pub(crate) fn is_dash(path: &Path) -> bool {
@@ -50,32 +49,26 @@ pub(crate) fn last(path: &Path) -> Option<String> {
     file.and_then(|_| fs::read_to_string(path).ok())
 }
 
-/// Writes a file in one step, or to standard output: a reader sees the old file or the new one.
-pub(crate) fn write(path: &Path, content: &[u8]) -> Result<(), Failure> {
+/// Writes a file in one step, or to standard output, in a job that reads `inputs`: a reader sees the old file or the
+/// new one.
+pub(crate) fn write(path: &Path, content: &[u8], inputs: &[PathBuf]) -> Result<(), Failure> {
     if is_dash(path) {
         return say::print(content);
     }
-    let mut staged = Staged::default();
-    staged.add(path, &Files::single(content.to_vec()))?;
-    staged.commit()
+    let files = Files::single(content.to_vec());
+    staged::write(&[(path.to_owned(), files)], inputs)
 }
 
 /// Everything in a folder and the folders below it.
 pub(crate) fn folder(root: &Path) -> Result<Files, Failure> {
-    let fail = |e: &io::Error| Failure::at(root.display(), e);
-    let mut out = Files::default();
-    let mut open = vec![root.to_owned()];
-    while let Some(folder) = open.pop() {
-        for entry in fs::read_dir(folder).map_err(|e| fail(&e))? {
-            let path = entry.map_err(|e| fail(&e))?.path();
-            if path.is_dir() {
-                open.push(path);
-            } else {
-                let within = path.strip_prefix(root).unwrap_or(&path);
-                let name: Vec<_> = within.iter().map(|p| p.to_string_lossy()).collect();
-                out.0.insert(name.join("/"), read(&path)?);
-            }
-        }
-    }
-    Ok(out)
+    let names = staged::names(root).map_err(|e| Failure::at(root.display(), &e))?;
+    let file = |name: String| {
+        let content = read(&root.join(&name))?;
+        Ok((name, content))
+    };
+    names
+        .into_iter()
+        .map(file)
+        .collect::<Result<_, _>>()
+        .map(Files)
 }

@@ -23,7 +23,7 @@ impl Init {
             let what = format!("{} exists already and stays as it is", path.display());
             return Err(Failure::new(what).help("give another folder, or delete the file first"));
         }
-        files::write(&path, PROJECT.as_bytes())?;
+        files::write(&path, PROJECT.as_bytes(), &[])?;
         let (project, folder) = (path.display(), self.folder.display());
         let steps = format!(
             "{project} is ready. Print pages to draw on:\n    khatt sheet {project} -o pages.pdf\n\

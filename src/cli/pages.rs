@@ -6,8 +6,7 @@
 use super::build::Build;
 use super::failure::{Complaint, Failure};
 use super::project::Opened;
-use super::staged::Staged;
-use super::{Common, Outcome, files};
+use super::{Common, Outcome, files, staged};
 use clap::Args;
 use khatt::pipeline::{self, Store};
 use khatt::types::Files;
@@ -61,9 +60,8 @@ impl Page {
             bytes.extend(crc32fast::hash(&content).to_le_bytes());
             bytes.extend(content);
         }
-        let mut staged = Staged::default();
-        staged.add(&self.output, &Files::single(bytes))?;
-        staged.commit()
+        let output = (self.output.clone(), Files::single(bytes));
+        staged::write(&[output], &opened.named())
     }
 }
 
@@ -76,6 +74,7 @@ impl Merge {
             }
         }
         let opened = Opened::new(&self.project)?;
+        staged::apart(&opened.outputs(), &self.results)?;
         let missing = opened.work_with(&results, common, |project, world| {
             pipeline::sheets_without_result(project, world)
         })?;

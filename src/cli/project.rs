@@ -11,7 +11,7 @@ use miette::{
 };
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 use std::{env, fmt, iter};
 
@@ -23,7 +23,7 @@ pub(crate) struct Opened {
     text: String,
     folder: PathBuf,
     file: PathBuf,
-    digests: Digests,
+    digests: Arc<Digests>,
     /// What was asked for beside the project file.
     used: Mutex<BTreeSet<PathBuf>>,
 }
@@ -31,6 +31,11 @@ pub(crate) struct Opened {
 impl Opened {
     /// Reads a project file.
     pub(crate) fn new(path: &Path) -> Result<Self, Failure> {
+        Self::noted(path, Arc::default())
+    }
+
+    /// Reads a project file; what is read for it is noted in `digests`.
+    pub(crate) fn noted(path: &Path, digests: Arc<Digests>) -> Result<Self, Failure> {
         let name = files::name(path);
         if path.is_dir() {
             let file = files::name(&path.join("font.toml"));
@@ -38,7 +43,6 @@ impl Opened {
                 .help(format!("name the project file in it: {file}")));
         }
         let bytes = files::read(path)?;
-        let digests = Digests::default();
         digests.is(path, &bytes);
         let text = String::from_utf8(bytes).map_err(|e| Failure::at(&name, &e))?;
         let project =
@@ -117,7 +121,19 @@ impl Opened {
         iter::once(&self.file).chain(others).cloned().collect()
     }
 
-    /// The digest of a file as it was last read.
+    /// The project file and all files that it names, read or not.
+    pub(crate) fn named(&self) -> Vec<PathBuf> {
+        let others = self.project.inputs().map(|path| self.path(path));
+        iter::once(self.file.clone()).chain(others).collect()
+    }
+
+    /// Where the project's outputs go.
+    pub(crate) fn outputs(&self) -> Vec<PathBuf> {
+        let paths = self.project.output.paths();
+        paths.map(|path| self.path(path)).collect()
+    }
+
+    /// The digest of a file as it was first read.
     pub(crate) fn digest_of(&self, path: &Path) -> Option<String> {
         self.digests.of(path).ok()
     }

@@ -28,6 +28,6 @@ impl Proof {
             let built = pipeline::build(project, world)?;
             pipeline::proof(project, &built, last.as_deref(), world)
         })?;
-        files::write(&self.output, page.as_bytes())
+        files::write(&self.output, page.as_bytes(), &opened.named())
     }
 }

@@ -3,8 +3,7 @@
 use super::failure::Failure;
 use super::files::{self, is_dash};
 use super::project::Opened;
-use super::staged::Staged;
-use super::{Common, Outcome};
+use super::{Common, Outcome, staged};
 use clap::Args;
 use khatt::pipeline;
 use khatt::template;
@@ -31,12 +30,13 @@ impl Sheet {
         let (pages, ..) = opened.work(common, pipeline::sheets)?;
         let each = |draw: &dyn Fn(&template::Page) -> Result<Vec<u8>, Failure>| {
             let drawn = pages.iter().map(draw).collect::<Result<Vec<_>, _>>()?;
-            self.numbered(drawn)
+            self.numbered(drawn, &opened.named())
         };
         let kind = self.output.extension().map(|e| e.to_ascii_lowercase());
+        let pdf = || files::write(&self.output, &template::pdf(&pages), &opened.named());
         match kind.as_ref().and_then(|k| k.to_str()) {
-            _ if is_dash(&self.output) => files::write(&self.output, &template::pdf(&pages)),
-            Some("pdf") => files::write(&self.output, &template::pdf(&pages)),
+            _ if is_dash(&self.output) => pdf(),
+            Some("pdf") => pdf(),
             Some("svg") => each(&|page| Ok(template::svg(page).into_bytes())),
             Some("png") => each(&|page| {
                 let picture = template::png(page, f64::from(self.dpi));
@@ -50,15 +50,15 @@ impl Sheet {
     }
 
     /// Writes one page under the name that was given, several under it and their numbers.
-    fn numbered(&self, pages: Vec<Vec<u8>>) -> Outcome {
+    fn numbered(&self, pages: Vec<Vec<u8>>, inputs: &[PathBuf]) -> Outcome {
         if let [page] = pages.as_slice() {
-            return files::write(&self.output, page);
+            return files::write(&self.output, page, inputs);
         }
-        let mut staged = Staged::default();
-        for (page, n) in pages.into_iter().zip(1..) {
-            staged.add(&with_number(&self.output, n), &Files::single(page))?;
-        }
-        staged.commit()
+        let numbered = pages.into_iter().zip(1..);
+        let outputs: Vec<_> = numbered
+            .map(|(page, n)| (with_number(&self.output, n), Files::single(page)))
+            .collect();
+        staged::write(&outputs, inputs)
     }
 }
 

@@ -19,7 +19,7 @@ impl Completions {
     pub(crate) fn run(&self) -> Outcome {
         let mut text = Vec::new();
         clap_complete::generate(self.shell, &mut Khatt::command(), "khatt", &mut text);
-        files::write(Path::new("-"), &text)
+        files::write(Path::new("-"), &text, &[])
     }
 }
 
@@ -28,12 +28,12 @@ pub(crate) fn man() -> Outcome {
     let mut text = Vec::new();
     let rendered = Man::new(Khatt::command()).render(&mut text);
     debug_assert!(rendered.is_ok(), "memory takes everything");
-    files::write(Path::new("-"), &text)
+    files::write(Path::new("-"), &text, &[])
 }
 
 /// Prints the JSON schema of the report
 pub(crate) fn schema() -> Outcome {
     let schema = schemars::schema_for!(Report);
     let text = format!("{:#}\n", schema.as_value());
-    files::write(Path::new("-"), text.as_bytes())
+    files::write(Path::new("-"), text.as_bytes(), &[])
 }

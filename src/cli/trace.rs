@@ -1,8 +1,7 @@
 //! `khatt trace`: one picture becomes one SVG path.
 
 use super::failure::{Failure, chain};
-use super::staged::Staged;
-use super::{Outcome, files};
+use super::{Outcome, files, staged};
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 use khatt::assemble::names;
@@ -13,6 +12,7 @@ use khatt::types::{Gray, Label};
 use khatt::write::{centerline, picture};
 use khatt::{corner, fit};
 use std::path::PathBuf;
+use std::slice;
 
 /// Pixels of a picture that is traced as a whole: more would take over two gigabytes.
 const LARGEST: usize = 100_000_000;
@@ -71,7 +71,7 @@ impl Trace {
         let paths =
             trace_picture(&page.gray, &self.options()).map_err(|e| Failure::at(&name, &e))?;
         let size = (page.gray.width(), page.gray.height());
-        files::write(&self.output, picture::svg(size, &paths).as_bytes())
+        self.write(&picture::svg(size, &paths))
     }
 
     /// Writes the middle of the lines: a UFO where the output is named so, else an SVG. The UFO's glyph bears the output's
@@ -81,7 +81,7 @@ impl Trace {
         let size = (gray.width(), gray.height());
         let kind = self.output.extension();
         if kind.is_none_or(|e| !e.eq_ignore_ascii_case("ufo")) {
-            return files::write(&self.output, centerline::svg(size, &drawn).as_bytes());
+            return self.write(&centerline::svg(size, &drawn));
         }
         let stem = self.output.file_stem().and_then(|s| s.to_str());
         let known = names::identify(&Label(stem.unwrap_or_default().to_owned())).ok();
@@ -92,9 +92,13 @@ impl Trace {
         };
         let ufo = centerline::ufo(size, &drawn, (name, character));
         let ufo = ufo.map_err(|e| Failure::at(self.output.display(), &e))?;
-        let mut staged = Staged::default();
-        staged.add(&self.output, &ufo)?;
-        staged.commit()
+        let inputs = slice::from_ref(&self.picture);
+        staged::write(&[(self.output.clone(), ufo)], inputs)
+    }
+
+    fn write(&self, svg: &str) -> Outcome {
+        let inputs = slice::from_ref(&self.picture);
+        files::write(&self.output, svg.as_bytes(), inputs)
     }
 
     /// The defaults with what the command line changes.

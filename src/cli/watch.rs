@@ -3,6 +3,7 @@
 use super::build::Build;
 use super::cache::CacheArgs;
 use super::failure::Failure;
+use super::inputs::Digests;
 use super::page_server::{Page, PageServer};
 use super::project::Opened;
 use super::{Common, Outcome};
@@ -11,7 +12,8 @@ use khatt::pipeline;
 use notify::{RecommendedWatcher, RecursiveMode, Watcher};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
-use std::sync::mpsc::{Receiver, Sender, channel};
+use std::sync::Arc;
+use std::sync::mpsc::{Sender, channel};
 use std::time::Duration;
 
 /// Builds again whenever a file of the project changes, and shows its proof in a browser
@@ -34,13 +36,11 @@ impl Watch {
     pub(crate) fn run(&self, common: &Common) -> Outcome {
         let server = PageServer::start(self.port)?;
         eprintln!("the proof is at {} (Ctrl-C ends)", server.address());
-        let (changed, changes) = channel();
-        let mut inputs: BTreeSet<PathBuf> = BTreeSet::from([self.project.clone()]);
         let mut last: Option<String> = None;
         loop {
-            match self.build(last.as_deref(), common) {
-                Ok((page, read)) => {
-                    inputs = read;
+            let read = Arc::new(Digests::default());
+            match self.build(&read, last.as_deref(), common) {
+                Ok(page) => {
                     last = Some(page.clone());
                     server.show(Page::Proof(page));
                 }
@@ -49,33 +49,58 @@ impl Watch {
                     server.show(Page::Failure(failure.to_string()));
                 }
             }
-            let watcher = watcher(&inputs, changed.clone())?;
-            wait(&changes, &inputs)?;
-            drop(watcher);
-            while changes.recv_timeout(SETTLED).is_ok() {}
+            wait(&read)?;
         }
     }
 
-    /// The outputs are made; the proof, which shows what has changed since `last`, and the files that it follows from.
+    /// The outputs are made; the proof, which shows what has changed since `last`. What both follow from is noted in
+    /// `read`.
     fn build(
         &self,
+        read: &Arc<Digests>,
         last: Option<&str>,
         common: &Common,
-    ) -> Result<(String, BTreeSet<PathBuf>), Failure> {
+    ) -> Result<String, Failure> {
+        // a project file that is missing is waited for
+        read.of(&self.project).unwrap_or_default();
+        let opened = Opened::noted(&self.project, Arc::clone(read))?;
         let build = Build::of(self.project.clone()).cached(self.cache.clone());
-        build.run(common)?;
-        let opened = Opened::new(&self.project)?;
+        build.build(&opened, common)?;
         let (page, ..) = opened.work_with(&self.cache.open(), common, |project, world| {
             let built = pipeline::build(project, world)?;
             pipeline::proof(project, &built, last, world)
         })?;
-        Ok((page, opened.inputs().into_iter().collect()))
+        Ok(page)
     }
 }
 
-/// Sends the paths that change in the folders of these files: a program may replace a file by a new one.
+/// Until one of these files is not what was read, or was written again.
+fn wait(read: &Digests) -> Outcome {
+    let files = read.files();
+    let names: BTreeSet<_> = files.iter().filter_map(|p| p.file_name()).collect();
+    let (changed, changes) = channel();
+    loop {
+        // each time anew: a folder that was missing may be there by now
+        let _watcher = watcher(&files, changed.clone())?;
+        let mut again = read.changed();
+        if !again {
+            let paths = changes
+                .recv()
+                .map_err(|e| Failure::new(format!("files cannot be watched: {e}")))?;
+            let ours = |p: &PathBuf| p.file_name().is_some_and(|n| names.contains(n));
+            again = paths.iter().any(ours);
+        }
+        while changes.recv_timeout(SETTLED).is_ok() {}
+        if again {
+            return Ok(());
+        }
+    }
+}
+
+/// Sends the paths that change in the folders of these files, as far as there are such folders: a program may replace
+/// a file by a new one.
 fn watcher(
-    inputs: &BTreeSet<PathBuf>,
+    files: &[PathBuf],
     changed: Sender<Vec<PathBuf>>,
 ) -> Result<RecommendedWatcher, Failure> {
     let tell = move |event: notify::Result<notify::Event>| {
@@ -91,25 +116,15 @@ fn watcher(
             .help("run khatt build after each change")
     };
     let mut watcher = notify::recommended_watcher(tell).map_err(fail)?;
-    let folders: BTreeSet<&Path> = inputs.iter().map(|p| super::staged::parent(p)).collect();
-    for folder in folders {
+    let folder = |file: &PathBuf| {
+        let whole = std::path::absolute(file).ok()?;
+        let mut above = whole.ancestors().skip(1);
+        above.find(|folder| folder.is_dir()).map(Path::to_owned)
+    };
+    for folder in files.iter().filter_map(folder).collect::<BTreeSet<_>>() {
         watcher
-            .watch(folder, RecursiveMode::NonRecursive)
+            .watch(&folder, RecursiveMode::NonRecursive)
             .map_err(fail)?;
     }
     Ok(watcher)
-}
-
-/// Until one of these files has changed.
-fn wait(changes: &Receiver<Vec<PathBuf>>, inputs: &BTreeSet<PathBuf>) -> Outcome {
-    let names: BTreeSet<_> = inputs.iter().filter_map(|p| p.file_name()).collect();
-    loop {
-        let paths = changes
-            .recv()
-            .map_err(|e| Failure::new(format!("files cannot be watched: {e}")))?;
-        let ours = |p: &PathBuf| p.file_name().is_some_and(|n| names.contains(n));
-        if paths.iter().any(ours) {
-            return Ok(());
-        }
-    }
 }

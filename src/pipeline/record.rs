@@ -3,7 +3,6 @@
 use super::batch::Batch;
 use super::letter::Letter;
 use super::page::{Page, Traced};
-use super::report::corners;
 use crate::scan::{Colour, Cut, Reason, Rejected, Warning};
 use crate::template::Gain;
 use crate::types::{Contour, Guides, Label, Png};
@@ -194,6 +193,11 @@ impl LetterRecord {
 
 fn pair(p: &Point) -> (f64, f64) {
     (*p).into()
+}
+
+/// Left, top, right and bottom.
+pub(super) const fn corners(r: Rect) -> [f64; 4] {
+    [r.x0, r.y0, r.x1, r.y1]
 }
 
 fn rect([x0, y0, x1, y1]: [f64; 4]) -> Rect {

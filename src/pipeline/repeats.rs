@@ -69,7 +69,14 @@ pub(super) fn settle(
                 ring.push(format!("{name}.ss{:02}", set + 1));
                 letters[i].label = Label(format!("{name}.ss{:02}", set + 1));
             }
-            out.extend(all.iter().skip(SETS + 1).copied());
+            let rest = all.iter().skip(SETS + 1).copied();
+            if rest.len() > 0 {
+                notes.push(note(format!(
+                    "there are {SETS} stylistic sets, and the last {} drawings are left out",
+                    rest.len()
+                )));
+            }
+            out.extend(rest);
             rings.push(ring);
             continue;
         }

@@ -6,11 +6,12 @@ use super::letter::Letter;
 use super::page::Page;
 use super::problem::{Place, Problem};
 use super::project::GateTable;
+use super::record::corners;
 use crate::assemble::words::Gap;
 use crate::assemble::{Note, names};
 use crate::template::Gain;
 use crate::types::Font;
-use kurbo::{Point, Rect};
+use kurbo::Point;
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -209,11 +210,6 @@ fn page_row(page: &Page) -> PageRow {
         specks: page.cut.specks,
         warnings: warnings.collect(),
     }
-}
-
-/// Left, top, right and bottom.
-pub(super) const fn corners(r: Rect) -> [f64; 4] {
-    [r.x0, r.y0, r.x1, r.y1]
 }
 
 fn row(built: &Built, letter: &Letter, measured: &Measured) -> Option<Row> {

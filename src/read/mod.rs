@@ -96,16 +96,17 @@ impl Names {
     }
 
     fn lost(&self) -> Option<String> {
-        let n = self.changed.len();
-        let some = self
-            .changed
-            .iter()
-            .take(5)
-            .cloned()
-            .collect::<Vec<_>>()
-            .join(", ");
-        (n > 0).then(|| format!("{n} glyph names that are illegal or not unique: {some}"))
+        listed("glyph names that are illegal or not unique", &self.changed)
     }
+}
+
+/// A line for people: how many there are, of what, and the first of them.
+fn listed(what: &str, all: &[String]) -> Option<String> {
+    /// As many as a line has room for.
+    const SHOWN: usize = 5;
+    let more = if all.len() > SHOWN { ", …" } else { "" };
+    let some = all[..all.len().min(SHOWN)].join(", ");
+    (!all.is_empty()).then(|| format!("{} {what}: {some}{more}", all.len()))
 }
 
 /// An empty `.notdef`.

@@ -20,13 +20,12 @@ use std::collections::BTreeMap;
 const EPOCH_1904: i64 = 2_082_844_800;
 
 /// Outlines and what is rebuilt with them.
-const REBUILT: [&[u8; 4]; 12] = [
-    b"glyf", b"loca", b"CFF ", b"CFF2", b"VORG", b"head", b"maxp", b"hhea", b"hmtx", b"post",
-    b"gasp", b"vmtx",
+const REBUILT: [&[u8; 4]; 10] = [
+    b"glyf", b"loca", b"CFF ", b"CFF2", b"head", b"maxp", b"hhea", b"hmtx", b"post", b"gasp",
 ];
 
 /// What is lost, by what it was for.
-const LOST: [(&str, &[&[u8; 4]]); 3] = [
+const LOST: [(&str, &[&[u8; 4]]); 4] = [
     (
         "hinting",
         &[
@@ -39,6 +38,8 @@ const LOST: [(&str, &[&[u8; 4]]); 3] = [
             b"fvar", b"gvar", b"avar", b"HVAR", b"VVAR", b"MVAR", b"STAT",
         ],
     ),
+    // bearings from outlines that change, by which programs place them
+    ("vertical metrics", &[b"vhea", b"vmtx", b"VORG"]),
     ("the signature", &[b"DSIG"]),
 ];
 

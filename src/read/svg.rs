@@ -1,9 +1,11 @@
 //! SVG drawings → Font, a glyph each.
 
-use super::{Names, ReadError, Reading, notdef};
-use crate::types::{Font, Glyph, Info, Metrics, Outline};
+use super::{Names, ReadError, Reading, listed, notdef};
+use crate::types::{Font, Glyph, Info, Metrics, Outline, characters};
 use kurbo::{Affine, BezPath, Point, Rect, Shape};
+use std::collections::BTreeSet;
 use std::path::Path as FilePath;
+use usvg::roxmltree::Document;
 use usvg::tiny_skia_path::{Path, PathSegment, Point as PathPoint};
 use usvg::{FillRule, Node, Options, Tree};
 
@@ -13,17 +15,19 @@ const FARTHEST: f64 = 32_767.0;
 const EM: f64 = 1000.0;
 
 /// A font of drawings, one glyph each, named and encoded by the file's name: `A_.svg` (a `_` after a
-/// capital is not part of it) is A, `uni0628.svg` is beh, `beh-ar.init.svg` is an alternate.
+/// capital is not part of it) is A, `eacute.svg` é, `uni0628.svg` beh, `beh-ar.init.svg` an alternate.
 ///
 /// Where the view box begins above zero, the user space is the em itself, baseline at y = 0, one
-/// font unit a user unit; else the box stands on the baseline and its height is the em. Fills and
-/// expanded strokes count, whatever their colour.
+/// font unit a user unit; else the box stands on the baseline and its height is the em. The advance is the box's
+/// width, or what `data-advance` says; then the glyph begins at x = 0. Fills and expanded strokes count, whatever
+/// their colour.
 ///
 /// # Errors
 /// A file is no SVG, or nothing is drawn in any of them.
 pub fn svg(files: &[(String, Vec<u8>)]) -> Result<Reading, ReadError> {
     let (mut names, mut lost) = (Names::default(), Vec::new());
     let mut glyphs = Vec::new();
+    let (mut encoded, mut mute) = (BTreeSet::new(), Vec::new());
     let mut reach = (0.0_f64, 0.0_f64);
     for (path, bytes) in files {
         let stem = FilePath::new(path)
@@ -35,7 +39,15 @@ pub fn svg(files: &[(String, Vec<u8>)]) -> Result<Reading, ReadError> {
             reach.0.max(drawing.top),
             reach.1.min(drawing.top - drawing.height),
         );
-        let chars = character(&wanted).into_iter().collect();
+        let chars = match stands_for(&wanted).as_deref() {
+            Some([c]) if encoded.insert(*c) => vec![*c],
+            Some([_]) | None => {
+                mute.push(wanted.clone());
+                Vec::new()
+            }
+            // ligatures and alternates have none of their own
+            Some(_) => Vec::new(),
+        };
         let mut glyph = Glyph::new(names.claim(&wanted, glyphs.len() + 1), chars, drawing.width);
         glyph.outline = drawing.outline;
         glyphs.push(glyph);
@@ -60,6 +72,10 @@ pub fn svg(files: &[(String, Vec<u8>)]) -> Result<Reading, ReadError> {
         },
         glyphs,
     )?;
+    lost.extend(listed(
+        "characters that names do not tell, or that another drawing has",
+        &mute,
+    ));
     lost.extend(names.lost());
     Ok(Reading { font, lost })
 }
@@ -83,15 +99,20 @@ fn drawing(bytes: &[u8], file: &str, lost: &mut Vec<String>) -> Result<Drawing, 
     let tree = Tree::from_data(bytes, &Options::default()).map_err(|e| bad(&e))?;
     let size = tree.size();
     let (w, h) = (f64::from(size.width()), f64::from(size.height()));
-    let [x, y, bw, bh] = view_box(bytes).unwrap_or([0.0, 0.0, w, h]);
+    let Frame {
+        view,
+        user,
+        advance,
+    } = frame(bytes, [w, h]);
+    let [x, y, bw, bh] = view;
     // From the picture's pixels, y down, to the user space, and from there to the em.
-    let user = Affine::translate((x, y)) * Affine::scale_non_uniform(bw / w, bh / h);
     let (scale, base) = if y < 0.0 {
         (1.0, 0.0)
     } else {
         (EM / bh, y + bh)
     };
-    let place = Affine::scale(scale) * Affine::translate((-x, base)) * Affine::FLIP_Y * user;
+    let (left, width) = advance.map_or((x, bw), |advance| (0.0, advance));
+    let place = Affine::scale(scale) * Affine::translate((-left, base)) * Affine::FLIP_Y * user;
     let mut contours = Vec::new();
     collect(tree.root(), place, &mut contours, (file, lost));
     let outline = Outline::new(contours).map_err(|e| bad(&e))?;
@@ -102,17 +123,47 @@ fn drawing(bytes: &[u8], file: &str, lost: &mut Vec<String>) -> Result<Drawing, 
     }
     Ok(Drawing {
         outline,
-        width: bw * scale,
+        width: width * scale,
         top: scale * (base - y),
         height: bh * scale,
     })
 }
 
-/// The root's view box, if it has a good one.
-fn view_box(bytes: &[u8]) -> Option<[f64; 4]> {
-    let text = std::str::from_utf8(bytes).ok()?;
-    let document = usvg::roxmltree::Document::parse(text).ok()?;
-    let given = document.root_element().attribute("viewBox")?;
+/// What the root says of where the drawing stands.
+struct Frame {
+    /// The part of the user space that is shown: left, top, width, height.
+    view: [f64; 4],
+    /// From the picture's pixels to the user space.
+    user: Affine,
+    /// The advance, user units, where it is not the view's width.
+    advance: Option<f64>,
+}
+
+/// The frame of a picture of that size, px.
+fn frame(bytes: &[u8], size: [f64; 2]) -> Frame {
+    let text = std::str::from_utf8(bytes).unwrap_or_default();
+    let document = Document::parse(text).ok();
+    let said = |name| document.as_ref()?.root_element().attribute(name);
+    let advance = said("data-advance").and_then(|v| v.parse().ok());
+    let advance = advance.filter(|v: &f64| v.is_finite() && *v >= 0.0);
+    let Some(view) = said("viewBox").and_then(view_box) else {
+        let view = [0.0, 0.0, size[0], size[1]];
+        return Frame {
+            view,
+            user: Affine::IDENTITY,
+            advance,
+        };
+    };
+    let aspect = said("preserveAspectRatio").unwrap_or_default();
+    Frame {
+        view,
+        user: unfitted(view, size, aspect),
+        advance,
+    }
+}
+
+/// A view box, if it is a good one.
+fn view_box(given: &str) -> Option<[f64; 4]> {
     let numbers: Vec<f64> = given
         .split([' ', ',', '\n', '\t'])
         .filter(|s| !s.is_empty())
@@ -120,6 +171,30 @@ fn view_box(bytes: &[u8]) -> Option<[f64; 4]> {
         .collect();
     let four: [f64; 4] = numbers.try_into().ok()?;
     (four.iter().all(|v| v.is_finite()) && four[2] > 0.0 && four[3] > 0.0).then_some(four)
+}
+
+/// The way back from a picture into which a view box was fitted, as `preserveAspectRatio` says: whole and in its
+/// middle where it says nothing.
+fn unfitted([x, y, bw, bh]: [f64; 4], [w, h]: [f64; 2], aspect: &str) -> Affine {
+    let has = |word: &str| aspect.contains(word);
+    let (sx, sy) = (w / bw, h / bh);
+    let (sx, sy) = if has("none") {
+        (sx, sy)
+    } else if has("slice") {
+        (sx.max(sy), sx.max(sy))
+    } else {
+        (sx.min(sy), sx.min(sy))
+    };
+    let shift = |room: f64, [least, most]: [&str; 2]| match (has(least), has(most)) {
+        (true, _) => 0.0,
+        (_, true) => room,
+        _ => room / 2.0,
+    };
+    let dx = shift(w - bw * sx, ["xMin", "xMax"]);
+    let dy = shift(h - bh * sy, ["YMin", "YMax"]);
+    Affine::translate((x, y))
+        * Affine::scale_non_uniform(1.0 / sx, 1.0 / sy)
+        * Affine::translate((-dx, -dy))
 }
 
 fn collect(
@@ -214,22 +289,15 @@ fn glyph_name(stem: &str) -> String {
     out
 }
 
-/// The character that a glyph name stands for: itself, `uniXXXX`, `uXXXXX`, or `space`.
-fn character(name: &str) -> Option<char> {
-    let mut chars = name.chars();
-    if let (Some(c), None) = (chars.next(), chars.next()) {
-        return Some(c);
+/// The characters that a name stands for: itself where it is one, else what the lists of names say; none by
+/// itself where it has a suffix. `None` for a name that is in no list.
+fn stands_for(name: &str) -> Option<Vec<char>> {
+    if name.contains('.') {
+        return Some(Vec::new());
     }
-    let hex = |digits: &str| {
-        u32::from_str_radix(digits, 16)
-            .ok()
-            .and_then(char::from_u32)
-    };
-    match name.strip_prefix("uni").filter(|d| d.len() == 4) {
-        Some(digits) => hex(digits),
-        None => name
-            .strip_prefix('u')
-            .filter(|d| (4..=6).contains(&d.len()))
-            .and_then(hex),
+    let itself: Vec<char> = name.chars().collect();
+    if itself.len() == 1 {
+        return Some(itself);
     }
+    characters::of(name)
 }

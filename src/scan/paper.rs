@@ -119,8 +119,8 @@ fn edges(regions: &[usize], columns: usize) -> Vec<bool> {
 
 /// The blocks to the left and right of one of `count` in rows of `columns`, above and below it.
 pub(super) fn beside(i: usize, columns: usize, count: usize) -> impl Iterator<Item = usize> {
-    let left = (i % columns > 0).then(|| i - 1);
-    let right = (i % columns + 1 < columns).then_some(i + 1);
+    let left = (!i.is_multiple_of(columns)).then(|| i - 1);
+    let right = (!(i + 1).is_multiple_of(columns)).then_some(i + 1);
     let up = i.checked_sub(columns);
     let down = Some(i + columns).filter(|&d| d < count);
     [left, right, up, down].into_iter().flatten()

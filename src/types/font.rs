@@ -90,6 +90,64 @@ impl Default for Info {
     }
 }
 
+/// How a style is split between the old family menu and the typographic one.
+pub(crate) struct LinkedStyle {
+    pub(crate) family: String,
+    pub(crate) linked: &'static str,
+    pub(crate) is_bold: bool,
+    pub(crate) is_italic: bool,
+}
+
+impl Info {
+    /// The style as four-style menus show it: others become families of their own.
+    pub(crate) fn linked_style(&self) -> LinkedStyle {
+        let words: Vec<&str> = self.style.split_whitespace().collect();
+        let is = |word: &str, names: &[&str]| names.iter().any(|n| n.eq_ignore_ascii_case(word));
+        let (is_italic, upright) = match words.split_last() {
+            Some((last, rest)) if is(last, &["Italic", "Oblique"]) => (true, rest),
+            _ => (false, words.as_slice()),
+        };
+        let is_bold = matches!(upright, [word] if is(word, &["Bold"]));
+        let is_plain = match upright {
+            [] => true,
+            [word] => is(word, &["Regular", "Bold"]),
+            _ => false,
+        };
+        LinkedStyle {
+            family: if is_plain {
+                self.family.clone()
+            } else {
+                format!("{} {}", self.family, upright.join(" "))
+            },
+            linked: match (is_bold, is_italic) {
+                (false, false) => "Regular",
+                (false, true) => "Italic",
+                (true, false) => "Bold",
+                (true, true) => "Bold Italic",
+            },
+            is_bold,
+            is_italic,
+        }
+    }
+
+    /// The PostScript name: printable ASCII without brackets, slashes, percent and space, 63 at most.
+    pub(crate) fn postscript_name(&self) -> String {
+        let keep = |text: &str| -> String {
+            text.chars()
+                .filter(|c| c.is_ascii_graphic() && !"[](){}<>/%-".contains(*c))
+                .collect()
+        };
+        let family = Some(keep(&self.family)).filter(|f| !f.is_empty());
+        let style = Some(keep(&self.style)).filter(|s| !s.is_empty());
+        let whole = format!(
+            "{}-{}",
+            family.as_deref().unwrap_or("Font"),
+            style.as_deref().unwrap_or("Regular")
+        );
+        whole.chars().take(63).collect()
+    }
+}
+
 /// Vertical measures, font units.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Metrics {
@@ -229,5 +287,48 @@ impl Font {
     #[must_use]
     pub fn glyph(&self, name: &str) -> Option<&Glyph> {
         self.glyphs.iter().find(|g| g.name.as_str() == name)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn postscript_names_are_legal() {
+        let info = |family: &str, style: &str| Info {
+            family: family.to_owned(),
+            style: style.to_owned(),
+            ..Info::default()
+        };
+        let name = info("Khatt Latin", "Bold Italic").postscript_name();
+        assert_eq!(name, "KhattLatin-BoldItalic");
+        assert_eq!(info("خط", "").postscript_name(), "Font-Regular");
+        assert_eq!(info(&"x".repeat(90), "R").postscript_name().len(), 63);
+    }
+
+    #[test]
+    fn every_family_of_four_styles_has_its_italic() {
+        for (name, family, linked) in [
+            ("Medium", "A Medium", "Regular"),
+            ("SemiBold Italic", "A SemiBold", "Italic"),
+            ("bold italic", "A", "Bold Italic"),
+            ("Oblique", "A", "Italic"),
+            ("Bold Condensed", "A Bold Condensed", "Regular"),
+            ("", "A", "Regular"),
+        ] {
+            let info = Info {
+                family: "A".to_owned(),
+                style: name.to_owned(),
+                ..Info::default()
+            };
+            let style = info.linked_style();
+            assert_eq!(
+                (style.family.as_str(), style.linked),
+                (family, linked),
+                "{name}"
+            );
+            assert_eq!(style.is_italic, linked.contains("Italic"), "{name}");
+        }
     }
 }

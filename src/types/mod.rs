@@ -16,6 +16,7 @@
 //! (y down to y up) and `finish::place` (px to font units).
 
 mod centerline;
+pub(crate) mod characters;
 mod contour;
 mod curve;
 mod files;

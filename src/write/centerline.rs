@@ -4,6 +4,7 @@ use super::WriteError;
 use super::path::path_data;
 use super::picture::{pixels, to_picture};
 use super::ufo::files::bytes;
+use super::ufo::states::sign;
 use crate::types::{Centerline, Files, PenDot, PenLine};
 use kurbo::{Affine, BezPath, PathEl, Point};
 use norad::{Codepoints, Contour, ContourPoint, PointType};
@@ -64,6 +65,7 @@ pub fn ufo(
     glyph.lib.insert(WIDTHS.to_owned(), widths);
     let mut font = norad::Font::new();
     font.default_layer_mut().insert_glyph(glyph);
+    sign(&mut font)?;
     bytes(&font)
 }
 

@@ -58,6 +58,13 @@ pub fn merge(old: &Files, new: &Files) -> Result<(Files, Kept), WriteError> {
     Ok((files, merge.kept))
 }
 
+/// Whether khatt has made the UFO whose `lib.plist` that is.
+#[must_use]
+pub fn is_built(lib: &[u8]) -> bool {
+    let lib = plist::from_bytes::<Value>(lib);
+    lib.is_ok_and(|lib| lib.as_dictionary().and_then(signed).is_some())
+}
+
 #[derive(Default)]
 struct Merge {
     kept: Kept,

@@ -8,52 +8,6 @@ use write_fonts::types::NameId;
 /// Windows, Unicode BMP, US English: what every program reads.
 const PLATFORM: (u16, u16, u16) = (3, 1, 0x409);
 
-/// The four styles that one family menu can hold.
-const LINKED_STYLES: [&str; 4] = ["Regular", "Italic", "Bold", "Bold Italic"];
-
-/// How a style is split between the old family menu and the typographic one.
-pub(super) struct Style {
-    pub(super) family: String,
-    pub(super) linked: &'static str,
-    pub(super) is_bold: bool,
-    pub(super) is_italic: bool,
-}
-
-/// The style as four-style menus show it: others become families of their own.
-pub(super) fn style(info: &Info) -> Style {
-    let linked = LINKED_STYLES
-        .into_iter()
-        .find(|s| s.eq_ignore_ascii_case(&info.style));
-    let family = match linked {
-        Some(_) => info.family.clone(),
-        None => format!("{} {}", info.family, info.style),
-    };
-    let linked = linked.unwrap_or("Regular");
-    Style {
-        family,
-        linked,
-        is_bold: linked.contains("Bold"),
-        is_italic: linked.contains("Italic"),
-    }
-}
-
-/// The PostScript name: printable ASCII without brackets, slashes, percent and space, 63 at most.
-pub(super) fn postscript(info: &Info) -> String {
-    let keep = |text: &str| -> String {
-        text.chars()
-            .filter(|c| c.is_ascii_graphic() && !"[](){}<>/%-".contains(*c))
-            .collect()
-    };
-    let family = Some(keep(&info.family)).filter(|f| !f.is_empty());
-    let style = Some(keep(&info.style)).filter(|s| !s.is_empty());
-    let whole = format!(
-        "{}-{}",
-        family.as_deref().unwrap_or("Font"),
-        style.as_deref().unwrap_or("Regular")
-    );
-    whole.chars().take(63).collect()
-}
-
 /// `1.000`, as fonts write versions.
 pub(super) fn version(info: &Info) -> String {
     let (major, minor) = info.version;
@@ -62,14 +16,15 @@ pub(super) fn version(info: &Info) -> String {
 
 /// The table.
 pub(super) fn table(info: &Info) -> Result<Name, WriteError> {
-    let style = style(info);
-    let is_split = style.family != info.family;
+    let style = info.linked_style();
+    let is_other = !info.style.is_empty() && !style.linked.eq_ignore_ascii_case(&info.style);
+    let is_split = style.family != info.family || is_other;
     let full = if is_split || style.linked != "Regular" {
         format!("{} {}", info.family, info.style)
     } else {
         format!("{} Regular", info.family)
     };
-    let postscript = postscript(info);
+    let postscript = info.postscript_name();
     let vendor = String::from_utf8_lossy(&info.vendor_id).into_owned();
     let unique = format!("{};{};{postscript}", version(info), vendor.trim());
     let typographic = |text: &String| is_split.then(|| text.clone());
@@ -102,25 +57,4 @@ pub(super) fn table(info: &Info) -> Result<Name, WriteError> {
             .map(|t| NameRecord::new(platform, encoding, language, NameId::new(id), t.into()))
     };
     Ok(Name::new(texts.into_iter().filter_map(record).collect()))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn postscript_names_are_legal() {
-        let info = |family: &str, style: &str| Info {
-            family: family.to_owned(),
-            style: style.to_owned(),
-            ..Info::default()
-        };
-        assert_eq!(
-            postscript(&info("Khatt Latin", "Bold Italic")),
-            "KhattLatin-BoldItalic"
-        );
-        assert_eq!(postscript(&info("خط", "")), "Font-Regular");
-        assert_eq!(postscript(&info(&"x".repeat(90), "R")).len(), 63);
-        assert_eq!(style(&info("A", "Medium")).family, "A Medium");
-    }
 }

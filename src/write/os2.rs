@@ -1,7 +1,7 @@
 //! The OS/2 table: weight, heights, and the blocks and code pages that the font covers.
 
+use super::WriteError;
 use super::numbers::{to_i16, to_u16};
-use super::{WriteError, names};
 use crate::types::{Font, Info};
 use kurbo::Rect;
 use std::collections::BTreeSet;
@@ -162,7 +162,7 @@ fn average(advances: &[u16]) -> i16 {
 }
 
 fn selection(info: &Info) -> SelectionFlags {
-    let style = names::style(info);
+    let style = info.linked_style();
     let when = |set: bool, flag| if set { flag } else { SelectionFlags::empty() };
     SelectionFlags::USE_TYPO_METRICS
         | when(style.is_bold, SelectionFlags::BOLD)

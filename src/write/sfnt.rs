@@ -178,7 +178,7 @@ fn head(font: &Font, extents: &[Option<Rect>]) -> Result<Head, WriteError> {
     let all = extents.iter().flatten().copied().reduce(|a, b| a.union(b));
     let all = all.unwrap_or(Rect::ZERO);
     let edge = |v: f64| to_i16(v, || "the edge of a glyph".to_owned());
-    let style = names::style(&font.info);
+    let style = font.info.linked_style();
     let when = |set: bool, flag| if set { flag } else { MacStyle::empty() };
     let (major, minor) = font.info.version;
     let created = LongDateTime::new(font.info.created.saturating_add(EPOCH_1904));

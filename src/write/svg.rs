@@ -1,4 +1,5 @@
-//! One SVG a glyph: user space in font units, y down, the em box from ascender to descender.
+//! One SVG a glyph: user space in font units, y down, the box from ascender to descender and as wide as the
+//! advance; where that is 0 the box is as wide as the ink, and `data-advance` says so.
 
 use super::WriteError;
 use super::path::path_data;
@@ -9,7 +10,7 @@ use std::collections::BTreeSet;
 /// Numbers are cut to thousandths of a unit: below what a rasteriser can show.
 const PER_UNIT: f64 = 1000.0;
 
-/// A file for every glyph that has ink; colours lie in the glyph whose layers they are.
+/// A file for every glyph that has ink or a character; colours lie in the glyph whose layers they are.
 #[expect(
     clippy::unnecessary_wraps,
     reason = "every writer in the table has one signature"
@@ -24,8 +25,8 @@ pub(super) fn files(font: &Font) -> Result<Files, WriteError> {
         .map(|l| &l.glyph)
         .collect();
     for glyph in font.glyphs() {
-        let shape = font.shape(glyph);
-        if shape.is_empty() || layers.contains(&glyph.name) {
+        let is_blank = font.shape(glyph).is_empty() && glyph.codepoints.is_empty();
+        if is_blank || layers.contains(&glyph.name) {
             continue;
         }
         let name = file_name(glyph.name.as_str(), &mut taken);
@@ -69,10 +70,17 @@ fn document(font: &Font, glyph: &Glyph) -> String {
         glyph.layers.iter().filter_map(layer).collect()
     };
     let (top, height) = (number(-m.ascender), number(m.ascender - m.descender));
-    let width = number(glyph.advance);
-    format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 {top} {width} {height}\">\n{paths}</svg>\n"
-    )
+    let advance = number(glyph.advance);
+    let (left, width, said) = if advance == "0" {
+        // a box without a width shows nothing: a mark's goes around its ink
+        let ink = font.shape(glyph).bounds().unwrap_or_default();
+        let said = format!(" data-advance=\"{advance}\"");
+        (number(ink.x0), number(ink.width().max(1.0)), said)
+    } else {
+        (number(0.0), advance, String::new())
+    };
+    let view = format!("viewBox=\"{left} {top} {width} {height}\"{said}");
+    format!("<svg xmlns=\"http://www.w3.org/2000/svg\" {view}>\n{paths}</svg>\n")
 }
 
 fn number(v: f64) -> String {

@@ -68,6 +68,21 @@ pub struct Project {
     pub output: OutputTable,
 }
 
+impl Project {
+    /// The files that are read, relative to the project file.
+    pub fn inputs(&self) -> impl Iterator<Item = &PathBuf> {
+        let pages = self.sheets.iter().flat_map(|sheet| {
+            let names = match &sheet.glyphs {
+                Labels::File { file } => Some(file),
+                Labels::Text(_) => None,
+            };
+            sheet.image.iter().chain(names)
+        });
+        let single = self.cells_file.iter().chain(&self.font.features);
+        pages.chain(single).chain(&self.matching.reference)
+    }
+}
+
 /// How cells are compared with a reference's letters.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
@@ -146,5 +161,11 @@ impl OutputTable {
         };
         let named = FORMATS.iter().filter_map(|f| Some((f, path(f.name)?)));
         named.collect()
+    }
+
+    /// Where all that is made goes.
+    pub fn paths(&self) -> impl Iterator<Item = &PathBuf> {
+        let fonts = self.fonts().into_iter().map(|(_, path)| path);
+        fonts.chain(&self.proof).chain(&self.report)
     }
 }

@@ -198,7 +198,7 @@ impl Layout {
                 return bad(option, format!("{}", self.height(option)), range);
             }
         }
-        if !(self.ascender - self.descender >= LEAST_LINE) {
+        if self.ascender - self.descender < LEAST_LINE {
             let range = "ascender and descender must be at least 0.1 em apart";
             return bad("ascender", format!("{}", self.ascender), range);
         }

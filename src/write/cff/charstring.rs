@@ -362,8 +362,13 @@ fn number(out: &mut Vec<u8>, v: i64) {
     if v % ONE == 0 && short_integer(out, whole) {
         return;
     }
+    let fixed = i32::try_from(v);
+    debug_assert!(
+        fixed.is_ok(),
+        "coordinates and widths are kept within 16 bits"
+    );
     out.push(255);
-    out.extend(i32::try_from(v).unwrap_or_default().to_be_bytes());
+    out.extend(fixed.unwrap_or_default().to_be_bytes());
 }
 
 /// Writes an integer that takes 1 to 3 bytes, in DICT and charstring alike; false where it takes more.

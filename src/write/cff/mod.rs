@@ -55,7 +55,7 @@ pub(super) fn table(
         .zip(advances)
         .map(|(shape, &advance)| charstring::encode(shape, widths.operand(advance)))
         .collect();
-    let names = index(&[names::postscript(&font.info).into_bytes()])?;
+    let names = index(&[font.info.postscript_name().into_bytes()])?;
     let tail = Tail {
         strings: index(&strings.bytes())?,
         charset,

@@ -20,25 +20,27 @@ impl Widths {
     }
 }
 
-/// Largest numbers that take one and two bytes.
-const STEPS: [i32; 2] = [107, 1131];
+/// Largest numbers that take one, two and three bytes.
+const STEPS: [i32; 3] = [107, 1131, 32_767];
+
+/// What a number costs that no charstring can say: more than all others of a font together.
+const UNSAYABLE: u64 = 1 << 20;
 
 /// Bytes that a number takes in a charstring.
-const fn cost(v: i32) -> usize {
-    let size = v.abs();
-    if size <= STEPS[0] {
-        1
-    } else if size <= STEPS[1] {
-        2
-    } else {
-        3
+const fn cost(v: i32) -> u64 {
+    match v {
+        -107..=107 => 1,
+        -1131..=1131 => 2,
+        -32_768..=32_767 => 3,
+        _ => UNSAYABLE,
     }
 }
 
 /// The pair for which the advances take fewest bytes: the best nominal width has some advance at the
-/// edge of a step, so these edges are all that need be tried.
+/// edge of a step, so these edges are all that need be tried. Of 16-bit advances there is always one that says
+/// them all.
 pub(super) fn choose(advances: &[i32]) -> Widths {
-    let mut counts: BTreeMap<i32, usize> = BTreeMap::new();
+    let mut counts: BTreeMap<i32, u64> = BTreeMap::new();
     for &a in advances {
         *counts.entry(a).or_default() += 1;
     }
@@ -47,7 +49,7 @@ pub(super) fn choose(advances: &[i32]) -> Widths {
         .flat_map(|&w| STEPS.into_iter().flat_map(move |s| [w - s, w + s]));
     let candidates = std::iter::once(0).chain(edges);
     let best = candidates.map(|nominal| {
-        let bytes: usize = counts.iter().map(|(&w, n)| n * cost(w - nominal)).sum();
+        let bytes: u64 = counts.iter().map(|(&w, n)| n * cost(w - nominal)).sum();
         let saved = counts
             .iter()
             .map(|(&w, n)| (n * cost(w - nominal), std::cmp::Reverse(w)))
@@ -75,6 +77,17 @@ mod tests {
         assert_eq!(w.operand(600), None);
         for a in [500, 550, 700] {
             assert!(w.operand(a).is_some_and(|v| v.abs() <= 107), "{a}");
+        }
+    }
+
+    #[test]
+    fn every_advance_of_a_font_can_be_said() {
+        let many = [vec![500; 300], vec![0, 60_000, 65_535, 40_000]].concat();
+        for advances in [&many[..], &[600, 600, 60_000], &[0, 65_535]] {
+            let w = choose(advances);
+            let said = advances.iter().filter_map(|&a| w.operand(a));
+            let beyond: Vec<i32> = said.filter(|v| i16::try_from(*v).is_err()).collect();
+            assert!(beyond.is_empty(), "{w:?}: {beyond:?}");
         }
     }
 

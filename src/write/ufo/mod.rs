@@ -7,8 +7,8 @@
 pub(super) mod files;
 pub(super) mod states;
 
+use super::WriteError;
 use super::layout::{self, Class};
-use super::{WriteError, names};
 use crate::types::{Files, Font, Glyph, Info, Layer};
 use files::{bytes, failed};
 use kurbo::{BezPath, PathEl, Point, Vec2};
@@ -139,7 +139,7 @@ fn category(glyph: &Glyph) -> Option<(String, Value)> {
 
 fn info(info: &Info) -> FontInfo {
     let m = info.metrics;
-    let style = names::style(info);
+    let style = info.linked_style();
     let whole = |v: f64| super::numbers::to_i16(v, String::new).ok().map(i32::from);
     FontInfo {
         family_name: Some(info.family.clone()),
@@ -151,7 +151,7 @@ fn info(info: &Info) -> FontInfo {
             (true, false) => StyleMapStyle::Bold,
             (true, true) => StyleMapStyle::BoldItalic,
         }),
-        postscript_font_name: Some(names::postscript(info)),
+        postscript_font_name: Some(info.postscript_name()),
         version_major: Some(i32::from(info.version.0)),
         version_minor: Some(u32::from(info.version.1)),
         units_per_em: NonNegativeIntegerOrFloat::new(f64::from(info.units_per_em)),

@@ -5,7 +5,11 @@ use super::*;
 #[test]
 fn rows_without_names_are_told() {
     let cut = |names: &str| cut_page(&grid_page(0.0), names, &options(Layout::Grid(4, 5)));
-    for (names, place) in [("n i p n l", (2, 1)), ("n i p n l n n p i n", (3, 1))] {
+    for (names, place) in [
+        ("n", (1, 2)),
+        ("n i p n l", (2, 1)),
+        ("n i p n l n n p i n", (3, 1)),
+    ] {
         let error = cut(names).unwrap_err();
         let ScanError::TooFewNames { row, column, .. } = error else {
             panic!("{error}");

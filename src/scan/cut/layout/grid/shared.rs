@@ -13,6 +13,8 @@ use std::ops::Range;
 pub(super) const NEAR: f64 = 0.2;
 /// Ink from this share of a usual letter's on is not dust beside the grid, not even where letters are small and dust is large.
 const LARGE: f64 = 0.3;
+/// A usual letter is at most so many times as large as its largest piece.
+const WHOLE: f64 = 2.0;
 /// Letters without names at least that tell of a row or a column whose names are missing.
 const NAMELESS: usize = 2;
 
@@ -105,8 +107,10 @@ fn axes(
         let y = Axis::fit(&down, plan.rows, rows)?;
         Some((x, y))
     };
-    let ink: usize = letters.iter().map(|&i| all[i].area).sum();
-    let usual = ink as f64 / places.len().max(1) as f64;
+    let usual = usual(
+        letters.iter().map(|&i| all[i].area).collect(),
+        places.len().max(1),
+    );
     let above = |share: f64| -> Vec<usize> {
         let pieces = letters.iter().copied();
         let above = pieces.filter(|&i| all[i].area as f64 >= share * usual);
@@ -131,6 +135,15 @@ fn axes(
         named >= held(&ours).0 && others >= NAMELESS.max(named / 2)
     });
     Some(whole.unwrap_or(ours))
+}
+
+/// The area of a usual letter among pieces of these areas: an even share of all ink, but no more than the middle one of the largest
+/// pieces says, a piece a letter, since many letters may have no names.
+fn usual(mut areas: Vec<usize>, letters: usize) -> f64 {
+    let even = areas.iter().sum::<usize>() as f64 / letters as f64;
+    areas.sort_unstable_by(|a, b| b.cmp(a));
+    let middle = areas.get(letters.min(areas.len()) / 2);
+    even.min(middle.map_or(0.0, |&m| WHOLE * m as f64))
 }
 
 /// A cell and those around it.

@@ -4,25 +4,30 @@
 //! disk do new and old change places, each pair in one step; when one of these steps fails, the earlier
 //! ones are taken back. What is left under a temporary name is deleted at the end.
 
+mod folder;
+mod places;
+
+pub(crate) use folder::{names, strays};
+pub(crate) use places::{apart, place};
+
 use super::failure::{Complaint, Failure};
+use folder::LIST;
 use khatt::types::Files;
-use std::collections::BTreeSet;
-use std::ffi::OsStr;
-use std::fs::{self, File};
+use std::fs::{self, File, OpenOptions};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process;
+use std::time::Duration;
 use tempfile::{Builder, TempDir, TempPath};
 
 /// How temporary names begin; the number of the process follows.
 const PREFIX: &str = ".khatt-";
 
-/// Outputs on the disk under temporary names.
-#[derive(Debug, Default)]
-pub(crate) struct Staged {
-    items: Vec<Item>,
-}
+/// How much older than what is written now a temporary file must be to be one that nobody writes any more. The file
+/// system dates both, so that the machines that share a folder may be of different opinions.
+const ABANDONED: Duration = Duration::from_hours(24);
 
+/// An output on the disk under a temporary name.
 #[derive(Debug)]
 struct Item {
     target: PathBuf,
@@ -45,36 +50,56 @@ enum Placed {
     Exchanged(Item),
 }
 
-impl Staged {
-    /// Writes an output beside `target`: one file, or a folder of files.
-    pub(crate) fn add(&mut self, target: &Path, files: &Files) -> Result<(), Failure> {
-        let fail = |e: io::Error| Failure::at(target.display(), &e);
-        let temporary = match files.0.get("") {
-            Some(content) => file(target, content),
-            None => folder(target, files),
-        };
-        self.items.push(Item {
-            target: target.to_owned(),
-            temporary: temporary.map_err(fail)?,
-        });
-        Ok(())
-    }
-
-    /// Gives everything its name.
-    pub(crate) fn commit(self) -> Result<(), Failure> {
-        let mut done = Vec::new();
-        for item in self.items {
-            let target = item.target.clone();
-            match item.place() {
-                Ok(placed) => done.push(placed),
-                Err(e) => {
-                    done.into_iter().rev().for_each(Placed::undo);
-                    return Err(Failure::at(target.display(), &e));
-                }
-            }
+/// Writes outputs, each a file or a folder of files, of a job that reads `inputs`.
+pub(crate) fn write<'a>(
+    outputs: impl IntoIterator<Item = &'a (PathBuf, Files)>,
+    inputs: &[PathBuf],
+) -> Result<(), Failure> {
+    let outputs: Vec<_> = outputs.into_iter().collect();
+    apart(outputs.iter().map(|(target, _)| target), inputs)?;
+    for (target, files) in &outputs {
+        match files.0.get("") {
+            Some(_) => refuse_folder(target)?,
+            None => folder::refuse_foreign(target, files)?,
         }
-        Ok(())
     }
+    let (streams, outputs): (Vec<_>, Vec<_>) = outputs
+        .into_iter()
+        .partition(|(target, _)| is_stream(target));
+    let items = outputs
+        .iter()
+        .map(|(target, files)| Item::new(target, files));
+    let items = items.collect::<Result<Vec<_>, _>>()?;
+    let mut done = Vec::new();
+    let places = items.into_iter().try_for_each(|item| {
+        let target = item.target.clone();
+        let placed = item.place();
+        done.push(placed.map_err(|e| Failure::at(target.display(), &e))?);
+        Ok(())
+    });
+    let written = places.and_then(|()| {
+        let mut streams = streams.iter();
+        streams.try_for_each(|(target, files)| {
+            pour(target, files).map_err(|e| Failure::at(target.display(), &e))
+        })
+    });
+    if written.is_err() {
+        done.into_iter().rev().for_each(Placed::undo);
+    }
+    written
+}
+
+/// Whether a device or a pipe is there, which takes what is written and is not replaced.
+fn is_stream(target: &Path) -> bool {
+    fs::metadata(target).is_ok_and(|there| !there.is_file() && !there.is_dir())
+}
+
+fn pour(target: &Path, files: &Files) -> io::Result<()> {
+    let mut stream = OpenOptions::new().write(true).open(target)?;
+    files
+        .0
+        .values()
+        .try_for_each(|content| stream.write_all(content))
 }
 
 impl Temporary {
@@ -87,6 +112,17 @@ impl Temporary {
 }
 
 impl Item {
+    fn new(name: &Path, files: &Files) -> Result<Self, Failure> {
+        // a link stays one: what it leads to is replaced
+        let target = place(name);
+        let temporary = match files.0.get("") {
+            Some(content) => file(&target, content),
+            None => folder(&target, files),
+        };
+        let temporary = temporary.map_err(|e| Failure::at(name.display(), &e))?;
+        Ok(Self { target, temporary })
+    }
+
     fn place(self) -> io::Result<Placed> {
         if self.target.exists() {
             exchange(self.temporary.path(), &self.target)?;
@@ -130,23 +166,32 @@ fn exchange(a: &Path, b: &Path) -> io::Result<()> {
     fs::rename(&old, a)
 }
 
-fn file(target: &Path, content: &[u8]) -> io::Result<Temporary> {
+fn refuse_folder(target: &Path) -> Result<(), Failure> {
     if target.is_dir() {
-        return Err(io::Error::other("is a folder; give the name of a file"));
+        let what = format!("{} is a folder", target.display());
+        return Err(Failure::new(what).help("give the name of a file"));
     }
+    Ok(())
+}
+
+fn file(target: &Path, content: &[u8]) -> io::Result<Temporary> {
     let mut file = builder(&own_prefix(), target, 0o666)?.tempfile_in(parent(target))?;
     file.write_all(content)?;
+    sweep(parent(target), file.path())?;
     Ok(Temporary::File(file.into_temp_path()))
 }
 
 fn folder(target: &Path, files: &Files) -> io::Result<Temporary> {
-    refuse_foreign(target, files)?;
     let folder = builder(&own_prefix(), target, 0o777)?.tempdir_in(parent(target))?;
     for (name, content) in &files.0 {
         let path = folder.path().join(name);
         fs::create_dir_all(parent(&path))?;
         File::create(path)?.write_all(content)?;
     }
+    if let Some(list) = folder::list(files) {
+        File::create(folder.path().join(LIST))?.write_all(list.as_bytes())?;
+    }
+    sweep(parent(target), folder.path())?;
     Ok(Temporary::Folder(folder))
 }
 
@@ -154,7 +199,6 @@ fn folder(target: &Path, files: &Files) -> io::Result<Temporary> {
 /// anything that a program makes.
 fn builder<'a>(prefix: &'a str, target: &Path, mode: u32) -> io::Result<Builder<'a, 'static>> {
     fs::create_dir_all(parent(target))?;
-    sweep(parent(target))?;
     let mut builder = Builder::new();
     builder.prefix(prefix);
     #[cfg(unix)]
@@ -172,19 +216,21 @@ fn own_prefix() -> String {
     format!("{PREFIX}{}-", process::id())
 }
 
-/// Deletes what a process left that was killed while it wrote. Only Linux tells which processes live.
-fn sweep(folder: &Path) -> io::Result<()> {
-    if !Path::new("/proc/self").exists() {
-        return Ok(());
-    }
+/// Deletes what a process left that was killed while it wrote, long before `temporary` was written.
+fn sweep(folder: &Path, temporary: &Path) -> io::Result<()> {
+    let now = fs::metadata(temporary)?.modified()?;
     for entry in fs::read_dir(folder)? {
         let entry = entry?;
         let name = entry.file_name();
         let owner = name
             .to_str()
-            .and_then(|n| n.strip_prefix(PREFIX)?.split('-').next());
-        let owner = owner.filter(|o| !o.is_empty() && o.bytes().all(|b| b.is_ascii_digit()));
-        if owner.is_some_and(|pid| !Path::new("/proc").join(pid).exists()) {
+            .and_then(|n| n.strip_prefix(PREFIX)?.split_once('-'));
+        let ours =
+            owner.is_some_and(|(n, _)| !n.is_empty() && n.bytes().all(|b| b.is_ascii_digit()));
+        let written = || entry.metadata().and_then(|m| m.modified());
+        if ours
+            && written().is_ok_and(|then| now.duration_since(then).is_ok_and(|age| age > ABANDONED))
+        {
             let path = entry.path();
             // somebody else may have deleted it in the meantime
             let gone = if path.is_dir() {
@@ -193,34 +239,6 @@ fn sweep(folder: &Path) -> io::Result<()> {
                 fs::remove_file(path)
             };
             gone.unwrap_or_default();
-        }
-    }
-    Ok(())
-}
-
-/// A folder is replaced only when nothing in it is of another kind than what replaces it.
-fn refuse_foreign(target: &Path, files: &Files) -> io::Result<()> {
-    let ours: BTreeSet<&OsStr> = files
-        .0
-        .keys()
-        .filter_map(|name| Path::new(name).extension())
-        .collect();
-    let mut folders = vec![target.to_owned()];
-    while let Some(folder) = folders.pop() {
-        if !folder.exists() {
-            continue;
-        }
-        for entry in fs::read_dir(&folder)? {
-            let path = entry?.path();
-            if path.is_dir() {
-                folders.push(path);
-            } else if !path.extension().is_some_and(|e| ours.contains(e)) {
-                let why = format!(
-                    "would be replaced, but holds {}, which khatt did not make; give another folder",
-                    path.display()
-                );
-                return Err(io::Error::other(why));
-            }
         }
     }
     Ok(())
@@ -240,6 +258,7 @@ pub(crate) fn same(outputs: &[(PathBuf, Files)]) -> Result<(), Failure> {
                 changed.push(path);
             }
         }
+        changed.extend(strays(target, |name| files.0.contains_key(name)));
     }
     let complaint = |path: &PathBuf| {
         let what = format!("{} is not what this project builds", path.display());

@@ -4,15 +4,17 @@ use glyphs_reader::glyphdata::GlyphData;
 use read_fonts::ps::agl;
 
 /// The characters of a name without suffix; `None` when no list knows it.
-pub(super) fn of(base: &str) -> Option<Vec<char>> {
-    let known: Vec<Vec<char>> = base
+pub(crate) fn of(base: &str) -> Option<Vec<char>> {
+    listed(base).or_else(|| friendly(base))
+}
+
+/// Those of the Adobe Glyph List and of hexadecimal names, `f_i` and `uni0628`.
+fn listed(base: &str) -> Option<Vec<char>> {
+    let parts = base
         .split('_')
-        .map(|part| agl::name_to_chars(part).collect())
-        .collect();
-    if known.iter().all(|k| !k.is_empty()) {
-        return Some(known.concat());
-    }
-    friendly(base)
+        .map(|part| agl::name_to_chars(part).collect());
+    let parts: Vec<Vec<char>> = parts.collect();
+    parts.iter().all(|p| !p.is_empty()).then(|| parts.concat())
 }
 
 /// The characters of a name as Glyphs writes it, `lam_alef-ar`.
@@ -23,10 +25,5 @@ fn friendly(base: &str) -> Option<Vec<char>> {
         return Some(vec![c]);
     }
     let production = known.production_name?.to_string();
-    let stem = production.split('.').next().unwrap_or_default();
-    let parts: Vec<Vec<char>> = stem
-        .split('_')
-        .map(|part| agl::name_to_chars(part).collect())
-        .collect();
-    (parts.iter().all(|p| !p.is_empty())).then(|| parts.concat())
+    listed(production.split('.').next().unwrap_or_default())
 }

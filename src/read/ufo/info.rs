@@ -1,0 +1,171 @@
+//! What a UFO says about itself.
+
+use crate::types::{Info, Metrics};
+use plist::Value;
+
+/// Keys of the information that a font has as they are.
+const READ: [&str; 14] = [
+    "versionMajor",
+    "versionMinor",
+    "unitsPerEm",
+    "openTypeOS2WeightClass",
+    "italicAngle",
+    "openTypeHeadCreated",
+    "copyright",
+    "openTypeNameDesigner",
+    "openTypeNameManufacturer",
+    "openTypeNameManufacturerURL",
+    "openTypeNameLicense",
+    "openTypeNameLicenseURL",
+    "xHeight",
+    "capHeight",
+];
+
+/// The bit of OS/2 fsSelection that every font of ours has.
+const USE_TYPO_METRICS: u8 = 7;
+
+/// Heights of OpenType are whole: another that differs by less is the same.
+const WHOLE: f64 = 1.0;
+
+/// The information of a font: what is said for OpenType counts before what is said for all.
+pub(super) fn info(source: &norad::FontInfo) -> Info {
+    let default = Info::default();
+    let em = source.units_per_em.as_ref().map_or(1000.0, |v| **v);
+    let number = |v: Option<f64>| v.unwrap_or(0.0);
+    let either = |first: &Option<String>, second: &Option<String>| first.clone().or(second.clone());
+    Info {
+        family: either(
+            &source.open_type_name_preferred_family_name,
+            &source.family_name,
+        )
+        .unwrap_or(default.family),
+        style: either(
+            &source.open_type_name_preferred_subfamily_name,
+            &source.style_name,
+        )
+        .unwrap_or(default.style),
+        version: (
+            small(source.version_major.map(f64::from), 1),
+            small(source.version_minor.map(f64::from), 0),
+        ),
+        units_per_em: small(Some(em), 1000).clamp(16, 16384),
+        weight: small(source.open_type_os2_weight_class.map(f64::from), 400).clamp(1, 1000),
+        italic_angle: number(source.italic_angle),
+        created: source
+            .open_type_head_created
+            .as_deref()
+            .and_then(seconds)
+            .unwrap_or(default.created),
+        copyright: source.copyright.clone(),
+        designer: source.open_type_name_designer.clone(),
+        manufacturer: source.open_type_name_manufacturer.clone(),
+        license: source.open_type_name_license.clone(),
+        license_url: source.open_type_name_license_url.clone(),
+        vendor_url: source.open_type_name_manufacturer_url.clone(),
+        vendor_id: source
+            .open_type_os2_vendor_id
+            .as_deref()
+            .and_then(vendor)
+            .unwrap_or(default.vendor_id),
+        metrics: Metrics {
+            ascender: height(
+                source.ascender,
+                [
+                    source.open_type_hhea_ascender,
+                    source.open_type_os2_typo_ascender,
+                ],
+            )
+            .unwrap_or(0.8 * em),
+            descender: height(
+                source.descender,
+                [
+                    source.open_type_hhea_descender,
+                    source.open_type_os2_typo_descender,
+                ],
+            )
+            .unwrap_or(-0.2 * em)
+            .min(0.0),
+            line_gap: number(height(
+                None,
+                [
+                    source.open_type_hhea_line_gap,
+                    source.open_type_os2_typo_line_gap,
+                ],
+            )),
+            x_height: number(source.x_height),
+            cap_height: number(source.cap_height),
+        },
+    }
+}
+
+/// A height: the first one that is said for OpenType. Those are whole, so that a fraction beside it says more.
+fn height(own: Option<f64>, opentype: [Option<i32>; 2]) -> Option<f64> {
+    let whole = opentype.into_iter().flatten().next().map(f64::from);
+    let own = own.filter(|v| whole.is_none_or(|w| (w - v).abs() < WHOLE));
+    own.or(whole)
+}
+
+/// The four letters of a vendor, filled up with spaces.
+fn vendor(text: &str) -> Option<[u8; 4]> {
+    format!("{text:4}").into_bytes().try_into().ok()
+}
+
+/// Seconds since 1970 of `YYYY/MM/DD HH:MM:SS`, UTC, by the proleptic Gregorian calendar.
+fn seconds(date: &str) -> Option<i64> {
+    let numbers = date.split(['/', ' ', ':']).map(|n| n.parse().ok());
+    let numbers: Vec<i64> = numbers.collect::<Option<_>>()?;
+    let [year, month, day, h, m, s]: [i64; 6] = numbers.try_into().ok()?;
+    // years begin in March here, so that the leap day ends them; day 0 is 0000-03-01
+    let (year, month) = if month > 2 {
+        (year, month - 3)
+    } else {
+        (year - 1, month + 9)
+    };
+    let leaps = year.div_euclid(4) - year.div_euclid(100) + year.div_euclid(400);
+    let days = 365 * year + leaps + (153 * month + 2) / 5 + day - 1 - 719_468;
+    Some(((days * 24 + h) * 60 + m) * 60 + s)
+}
+
+/// The keys of the information whose values the font does not have.
+pub(super) fn unread(source: &norad::FontInfo, info: &Info) -> Option<String> {
+    let (m, style) = (info.metrics, info.linked_style());
+    let near = |v: &Value, held: f64| {
+        let whole = v.as_signed_integer().and_then(|v| i32::try_from(v).ok());
+        let v = v.as_real().or(whole.map(f64::from));
+        v.is_some_and(|v| (v - held).abs() < WHOLE)
+    };
+    let is = |v: &Value, held: &str| {
+        v.as_string()
+            .is_some_and(|v| v.trim_end() == held.trim_end())
+    };
+    let kept = |(key, v): &(String, Value)| match key.as_str() {
+        "ascender" | "openTypeHheaAscender" | "openTypeOS2TypoAscender" => near(v, m.ascender),
+        "descender" | "openTypeHheaDescender" | "openTypeOS2TypoDescender" => near(v, m.descender),
+        "openTypeHheaLineGap" | "openTypeOS2TypoLineGap" => near(v, m.line_gap),
+        "familyName" | "openTypeNamePreferredFamilyName" => is(v, &info.family),
+        "styleName" | "openTypeNamePreferredSubfamilyName" => is(v, &info.style),
+        "styleMapFamilyName" => is(v, &style.family),
+        "styleMapStyleName" => is(v, &style.linked.to_lowercase()),
+        "postscriptFontName" => is(v, &info.postscript_name()),
+        "openTypeOS2VendorID" => is(v, &String::from_utf8_lossy(&info.vendor_id)),
+        "openTypeOS2Selection" => *v == Value::Array(vec![USE_TYPO_METRICS.into()]),
+        key => READ.contains(&key),
+    };
+    let all = plist::to_value(source)
+        .ok()
+        .and_then(Value::into_dictionary);
+    let all = all.into_iter().flatten().filter(|entry| !kept(entry));
+    let mut keys: Vec<String> = all.map(|(key, _)| key).collect();
+    keys.sort();
+    (!keys.is_empty()).then(|| format!("font information ({})", keys.join(", ")))
+}
+
+/// A whole number of 16 bits, or what stands for a missing one.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "clamped to 16 bits before"
+)]
+fn small(v: Option<f64>, missing: u16) -> u16 {
+    v.map_or(missing, |v| v.round().clamp(0.0, 65535.0) as u16)
+}
