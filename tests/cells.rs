@@ -627,3 +627,31 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn the_cell_of_a_space_is_empty() {
+    let names = LETTERS.replace(" c L", " space uni00A0");
+    let built = |empty: &[usize]| {
+        let dir = project(&names, &page(empty));
+        let out = khatt(dir.path(), &["build", "font.toml"]);
+        let said = String::from_utf8_lossy(&out.stderr).into_owned();
+        assert_eq!(out.status.code(), Some(0), "{said}");
+        assert!(said.contains("7 glyphs"), "{said}");
+        assert!(!said.contains("the cell is empty"), "{said}");
+        let warned = said.matches("a space has no ink").count();
+        (font(dir.path()), warned)
+    };
+    let (empty, warned) = built(&[7, 8]);
+    assert_eq!(warned, 0);
+    let (drawn, warned) = built(&[8]);
+    assert_eq!(warned, 1);
+    assert_eq!(built(&[]).1, 2);
+    for bytes in [empty, drawn] {
+        let face = ttf_parser::Face::parse(&bytes, 0).expect("a font");
+        for c in [' ', '\u{a0}'] {
+            let space = face.glyph_index(c).expect("a space");
+            assert!(face.glyph_bounding_box(space).is_none());
+            assert!(face.glyph_hor_advance(space) > Some(0));
+        }
+    }
+}

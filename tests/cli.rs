@@ -239,3 +239,83 @@ fn features_are_plotted() {
         "{blank:?}"
     );
 }
+
+/// As after `khatt methods | head -1`.
+#[test]
+fn a_reader_that_has_had_enough_is_no_error() {
+    let dir = tempfile::tempdir().expect("a folder");
+    fs::write(dir.path().join("disc.png"), png(80, 60, disc)).expect("a picture");
+    let closed = || std::io::pipe().expect("a pipe").1;
+    let cases: [&[&str]; 5] = [
+        &["methods"],
+        &["methods", "--json"],
+        &["schema"],
+        &["init", "letters"],
+        &["trace", "disc.png", "-o", "-"],
+    ];
+    for args in cases {
+        let out = command(dir.path(), args).stdout(closed()).output();
+        let out = out.expect("the program runs");
+        let stderr = String::from_utf8_lossy(&out.stderr);
+        assert_eq!((out.status.code(), &*stderr), (Some(0), ""), "{args:?}");
+    }
+    // nor is one of messages
+    let failed = command(dir.path(), &["init", "letters"])
+        .stderr(closed())
+        .output();
+    assert_eq!(failed.expect("the program runs").status.code(), Some(1));
+}
+
+#[test]
+fn no_more_threads_than_can_be_of_use() {
+    let dir = tempfile::tempdir().expect("a folder");
+    fs::write(dir.path().join("disc.png"), png(80, 60, disc)).expect("a picture");
+    let run = |jobs: &str| {
+        let args = ["trace", "disc.png", "-o", "-", "--jobs", jobs];
+        khatt(dir.path(), &args)
+    };
+    for jobs in ["0", "1025", "99999", "99999999999999999999", "-1", "two"] {
+        let out = run(jobs);
+        let stderr = String::from_utf8_lossy(&out.stderr);
+        assert_eq!(out.status.code(), Some(2), "{jobs}: {stderr}");
+    }
+    let many = run("99999");
+    let stderr = String::from_utf8_lossy(&many.stderr);
+    assert!(
+        stderr.contains("must be a whole number from 1 to 1024"),
+        "{stderr}"
+    );
+    assert_eq!(run("1024").stdout, run("1").stdout);
+}
+
+#[test]
+fn names_that_promise_another_kind_are_refused() {
+    let dir = tempfile::tempdir().expect("a folder");
+    fs::write(dir.path().join("disc.png"), png(80, 60, disc)).expect("a picture");
+    let wrong: [&[&str]; 5] = [
+        &["trace", "disc.png", "-o", "out.png"],
+        &["trace", "disc.png", "-o", "out.ufo"],
+        &["trace", "disc.png", "-o", "out.ttf", "--centerline"],
+        &["features", "disc.png", "-o", "out.pdf"],
+        &["cut", "font.toml", "-o", "-"],
+    ];
+    for args in wrong {
+        let out = khatt(dir.path(), args);
+        let stderr = String::from_utf8_lossy(&out.stderr);
+        assert_eq!(out.status.code(), Some(1), "{args:?}: {stderr}");
+        assert!(stderr.contains("  help: "), "{args:?}: {stderr}");
+        let left = fs::read_dir(dir.path()).expect("the folder").count();
+        assert_eq!(left, 1, "{args:?} wrote something");
+    }
+    let right: [&[&str]; 4] = [
+        &["trace", "disc.png", "-o", "out.SVG"],
+        &["trace", "disc.png", "-o", "out"],
+        &["trace", "disc.png", "-o", "o.UFO", "--centerline"],
+        &["features", "disc.png", "-o", "features.svg"],
+    ];
+    for args in right {
+        let out = khatt(dir.path(), args);
+        assert_eq!(out.status.code(), Some(0), "{args:?}: {out:?}");
+    }
+    assert!(dir.path().join("o.UFO/metainfo.plist").exists());
+}

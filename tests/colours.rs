@@ -153,6 +153,11 @@ fn every_ink_is_a_layer_where_it_lay() {
         ('C', vec![([0, 0, 150, 500], black)]),
         ('e', vec![([0, 0, 350, 150], black)]),
     ];
+    // black by its numbers is black
+    let (hex, out) = build(&page(drawn), "[\"#1e1c20\", \"#c8282d\"]");
+    assert_eq!(out.status.code(), Some(0), "{}", error(&out));
+    let ttf = |folder: &Path| fs::read(folder.join("t.ttf")).expect("a font");
+    assert_eq!(ttf(hex.path()), ttf(dir.path()));
     for file in ["t.ttf", "t.otf", "t.woff2"] {
         let bytes = fs::read(dir.path().join(file)).expect("a font");
         let bytes = wuff::decompress_woff2(&bytes).unwrap_or(bytes);
@@ -214,7 +219,7 @@ fn no_colours_are_made_where_none_are_asked_for() {
 }
 
 #[test]
-fn a_sheet_without_one_of_its_inks_is_refused_and_one_without_colours_remarked() {
+fn a_sheet_without_one_of_its_inks_or_without_colours_is_refused() {
     let black = page(|cell, x, y| match drawn(cell, x, y) {
         RED => BLACK,
         other => other,
@@ -233,10 +238,15 @@ fn a_sheet_without_one_of_its_inks_is_refused_and_one_without_colours_remarked()
     grey.write_to(&mut bytes, ImageFormat::Png)
         .expect("a picture in memory");
     let (dir, out) = build(&bytes.into_inner(), "[\"black\", \"red\"]");
-    assert_eq!(out.status.code(), Some(0), "{}", error(&out));
-    assert!(error(&out).contains("has no colours, so `ink` tells nothing apart"));
-    let font = fs::read(dir.path().join("t.ttf")).expect("a font");
-    assert!(FontRef::new(&font).expect("a font").colr().is_err());
+    assert_eq!(out.status.code(), Some(1));
+    let text = error(&out);
+    assert!(
+        text.contains(
+            "page.png has no colours by which the inks that `ink` lists could be told apart"
+        ),
+        "{text}"
+    );
+    assert!(!dir.path().join("t.ttf").exists());
     for (ink, why) in [
         ("[\"red\", \"#c02020\"]", "too alike"),
         ("[]", "names each of them"),

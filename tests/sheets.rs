@@ -450,6 +450,23 @@ fn pages_and_names_that_do_not_match_name_the_cells_and_write_nothing() {
     }
 }
 
+#[test]
+fn a_file_of_names_may_begin_with_a_byte_order_mark() {
+    let dir = project(LETTERS, &page(&[]));
+    let path = dir.path().join("font.toml");
+    let text = fs::read_to_string(&path).expect("the project");
+    let names = format!("glyphs = \"{LETTERS}\"");
+    let text = text.replace(&names, "glyphs = { file = \"names.txt\" }");
+    fs::write(&path, format!("\u{feff}{text}")).expect("a project");
+    fs::write(
+        dir.path().join("names.txt"),
+        format!("\u{feff}{LETTERS}\r\n"),
+    )
+    .expect("names");
+    let out = khatt(dir.path(), &["build", "font.toml"]);
+    assert_eq!(out.status.code(), Some(0), "{out:?}");
+}
+
 /// The first half of a JPEG of the page.
 fn truncated_jpeg() -> Vec<u8> {
     let picture = image::load_from_memory(&page(&[])).expect("a picture");

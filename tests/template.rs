@@ -669,3 +669,52 @@ fn pages_to_draw_on_are_written_in_every_format() {
         &transcript(&["sheet", "font.toml", "-o", "page.txt"], &out),
     );
 }
+
+#[test]
+fn a_printed_page_under_another_layout_is_told() {
+    let (layout, pages) = printed(PROJECT);
+    let picture = drawn(&layout, &pages[0], FLATBED);
+    for other in [
+        "{ grid = [4, 4] }",
+        "{ grid = [3, 7] }",
+        "\"free\"",
+        "\"boxes\"",
+    ] {
+        let dir = folder(&[("page.png", &picture)]);
+        let path = dir.path().join("font.toml");
+        let text = fs::read_to_string(&path).expect("the project");
+        let text = text.replace("layout = \"template\"", &format!("layout = {other}"));
+        fs::write(&path, text).expect("a project");
+        let out = khatt(dir.path(), &["build", "font.toml"]);
+        let stderr = String::from_utf8_lossy(&out.stderr);
+        assert_eq!(out.status.code(), Some(1), "{other}: {stderr}");
+        assert!(
+            stderr.contains("page.png: this is page 1 of those that `khatt sheet` prints")
+                && stderr.contains("write layout = \"template\""),
+            "{other}: {stderr}"
+        );
+        assert_eq!(stderr.matches("error: ").count(), 1, "{other}: {stderr}");
+    }
+}
+
+/// What `khatt init` writes goes with what the README says to do next.
+#[test]
+fn a_new_project_prints_its_pages_and_builds_what_is_drawn_on_them() {
+    let dir = tempfile::tempdir().expect("a folder");
+    let done = |args: &[&str]| {
+        let out = khatt(dir.path(), args);
+        let stderr = String::from_utf8_lossy(&out.stderr);
+        assert_eq!(out.status.code(), Some(0), "{args:?}: {stderr}");
+    };
+    done(&["init", "letters"]);
+    done(&["sheet", "letters/font.toml", "-o", "pages.pdf"]);
+    let project = fs::read_to_string(dir.path().join("letters/font.toml")).expect("a project");
+    let (layout, pages) = printed(&project);
+    let [page] = pages.as_slice() else {
+        panic!("{} pages", pages.len());
+    };
+    let picture = drawn(&layout, page, FLATBED);
+    fs::write(dir.path().join("letters/page.png"), picture).expect("a picture");
+    done(&["build", "letters/font.toml"]);
+    assert!(dir.path().join("letters/build/MyLetters.ttf").exists());
+}

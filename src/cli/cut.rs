@@ -1,6 +1,7 @@
 //! `khatt cut`: the cells of a project's pages as pictures, and where they come from.
 
 use super::failure::Failure;
+use super::files::is_dash;
 use super::project::Opened;
 use super::{Common, Outcome, staged};
 use clap::Args;
@@ -33,6 +34,10 @@ pub(crate) struct Cut {
 
 impl Cut {
     pub(crate) fn run(&self, common: &Common) -> Outcome {
+        if self.output.as_deref().is_some_and(is_dash) {
+            let what = "- is standard output, and the cells' pictures are a folder of files";
+            return Err(Failure::new(what).help("name a folder: -o DIR"));
+        }
         let opened = Opened::new(&self.project)?;
         let (pages, ..) = opened.work(common, |project, world| {
             pipeline::pages(project, world, |page| {

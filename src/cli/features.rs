@@ -38,6 +38,7 @@ pub(crate) struct Features {
 
 impl Features {
     pub(crate) fn run(&self) -> Outcome {
+        files::ends_in(&self.output, &["svg"])?;
         let name = files::name(&self.picture);
         let pages = scan::load(&files::read(&self.picture)?, &name, Polarity::Auto)
             .map_err(|e| Failure::new(chain(&e)))?;

@@ -1,10 +1,10 @@
 //! Bytes in and out: files, or `-` for standard input and output.
 
 use super::failure::Failure;
-use super::staged;
+use super::{Outcome, say, staged};
 use khatt::types::Files;
 use std::fs;
-use std::io::{self, Read, Write};
+use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
 /// Whether the user means standard input or output.
@@ -19,6 +19,16 @@ pub(crate) fn name(path: &Path) -> String {
     } else {
         path.display().to_string()
     }
+}
+
+/// Whether a file's name ends as its kind should, or has no ending at all.
+pub(crate) fn ends_in(path: &Path, kinds: &[&str]) -> Outcome {
+    let ending = path.extension().map(|e| e.to_ascii_lowercase());
+    if ending.is_none_or(|e| kinds.iter().any(|kind| e == *kind)) {
+        return Ok(());
+    }
+    let what = format!("{} is no name for what is written there", path.display());
+    Err(Failure::new(what).help(format!("end it in .{}", kinds.join(" or ."))))
 }
 
 /// The whole content of a file or of standard input.
@@ -43,9 +53,7 @@ pub(crate) fn last(path: &Path) -> Option<String> {
 /// new one.
 pub(crate) fn write(path: &Path, content: &[u8], inputs: &[PathBuf]) -> Result<(), Failure> {
     if is_dash(path) {
-        let mut out = io::stdout().lock();
-        let done = out.write_all(content).and_then(|()| out.flush());
-        return done.map_err(|e| Failure::at("standard output", &e));
+        return say::print(content);
     }
     let files = Files::single(content.to_vec());
     staged::write(&[(path.to_owned(), files)], inputs)

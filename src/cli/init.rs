@@ -1,7 +1,7 @@
 //! `khatt init`: a project to start from.
 
 use super::failure::Failure;
-use super::{Outcome, files};
+use super::{Outcome, files, say};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -24,11 +24,12 @@ impl Init {
             return Err(Failure::new(what).help("give another folder, or delete the file first"));
         }
         files::write(&path, PROJECT.as_bytes(), &[])?;
-        println!(
-            "{} is ready; put page.png beside it and run",
-            path.display()
+        let (project, folder) = (path.display(), self.folder.display());
+        let steps = format!(
+            "{project} is ready. Print pages to draw on:\n    khatt sheet {project} -o pages.pdf\n\
+             Scan or photograph what was drawn as {folder}/page.png (or name the pictures in the file), and run\n    \
+             khatt build {project}\n"
         );
-        println!("    khatt build {}", path.display());
-        Ok(())
+        say::print(steps.as_bytes())
     }
 }

@@ -1,7 +1,7 @@
 //! `khatt match`: which letters the cells hold.
 
 use super::project::Opened;
-use super::{Common, Outcome};
+use super::{Common, Outcome, say};
 use clap::Args;
 use khatt::pipeline::{Matched, match_letters};
 use serde_json::{Value, json};
@@ -34,16 +34,13 @@ impl Match {
         if self.json {
             let cells: Vec<Value> = cells.iter().map(entry).collect();
             let remarks: Vec<String> = remarks.iter().map(ToString::to_string).collect();
-            println!("{:#}", json!({ "cells": cells, "remarks": remarks }));
-            return Ok(());
+            let text = format!("{:#}\n", json!({ "cells": cells, "remarks": remarks }));
+            return say::print(text.as_bytes());
         }
-        for cell in &cells {
-            println!("{}", line(cell));
-        }
-        for remark in &remarks {
-            println!("{remark}");
-        }
-        Ok(())
+        let lines = cells.iter().map(line);
+        let lines = lines.chain(remarks.iter().map(ToString::to_string));
+        let text: String = lines.map(|line| line + "\n").collect();
+        say::print(text.as_bytes())
     }
 }
 

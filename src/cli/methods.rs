@@ -1,6 +1,6 @@
 //! `khatt methods`: what can be chosen.
 
-use super::Outcome;
+use super::{Outcome, say};
 use clap::Args;
 use khatt::{corner, fit, quadratic, recognise};
 use serde::Serialize;
@@ -25,18 +25,18 @@ impl Methods {
     pub(crate) fn run(&self) -> Outcome {
         let rows = rows();
         if self.json {
-            println!("{:#}", serde_json::json!(rows));
-            return Ok(());
+            let text = format!("{:#}\n", serde_json::json!(rows));
+            return say::print(text.as_bytes());
         }
-        let mut stage = "";
+        let (mut text, mut stage) = (String::new(), "");
         for row in &rows {
             if row.stage != stage {
                 stage = row.stage;
-                println!("{stage}:");
+                text += &format!("{stage}:\n");
             }
-            println!("  {:<12}  {}", row.method, row.about);
+            text += &format!("  {:<12}  {}\n", row.method, row.about);
         }
-        Ok(())
+        say::print(text.as_bytes())
     }
 }
 

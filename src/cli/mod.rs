@@ -1,11 +1,9 @@
 //! What a user types: arguments in, files and messages out.
 //!
 //! Exit status: 0 done, 1 the job failed, 2 the command line is wrong.
-#![expect(
-    clippy::print_stdout,
-    clippy::print_stderr,
-    reason = "the program is where the outside world enters"
-)]
+
+#[macro_use]
+mod say;
 
 mod build;
 mod cache;
@@ -35,7 +33,6 @@ mod watch;
 
 use clap::{Args, Parser, Subcommand};
 use failure::Failure;
-use std::num::NonZeroUsize;
 use std::process::ExitCode;
 
 /// What every command's work gives back.
@@ -59,8 +56,8 @@ struct Common {
     #[arg(short, long, global = true, display_order = 100)]
     quiet: bool,
     /// Threads to work with [default: one a processor]
-    #[arg(short, long, value_name = "N", global = true, display_order = 101)]
-    jobs: Option<NonZeroUsize>,
+    #[arg(short, long, value_name = "N", global = true, display_order = 101, value_parser = jobs)]
+    jobs: Option<usize>,
 }
 
 #[derive(Debug, Subcommand)]
@@ -86,10 +83,21 @@ enum Command {
     Schema,
 }
 
+/// Threads that a job may have: no machine has processors for more, and of tens of thousands none comes to its work.
+const MOST_JOBS: usize = 1024;
+
+fn jobs(text: &str) -> Result<usize, String> {
+    let number = text.parse().ok();
+    let wrong = || format!("must be a whole number from 1 to {MOST_JOBS}");
+    number
+        .filter(|n| (1..=MOST_JOBS).contains(n))
+        .ok_or_else(wrong)
+}
+
 /// Reads the arguments, does the work, says how it ended.
 pub(crate) fn main() -> ExitCode {
     let args = Khatt::parse();
-    let threads = args.common.jobs.map_or(0, NonZeroUsize::get);
+    let threads = args.common.jobs.unwrap_or(0);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
     let outcome = match pool {
         Ok(pool) => pool.install(|| run(&args)),

@@ -45,6 +45,12 @@ pub(crate) struct Trace {
 
 impl Trace {
     pub(crate) fn run(&self) -> Outcome {
+        let kinds: &[&str] = if self.centerline {
+            &["svg", "ufo"]
+        } else {
+            &["svg"]
+        };
+        files::ends_in(&self.output, kinds)?;
         let bytes = files::read(&self.picture)?;
         let name = files::name(&self.picture);
         let pages =
@@ -73,7 +79,8 @@ impl Trace {
     fn write_lines(&self, gray: &Gray) -> Outcome {
         let drawn = recognise::centerline(gray);
         let size = (gray.width(), gray.height());
-        if self.output.extension().is_none_or(|e| e != "ufo") {
+        let kind = self.output.extension();
+        if kind.is_none_or(|e| !e.eq_ignore_ascii_case("ufo")) {
             return self.write(&centerline::svg(size, &drawn));
         }
         let stem = self.output.file_stem().and_then(|s| s.to_str());

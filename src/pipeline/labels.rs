@@ -23,6 +23,11 @@ pub(super) fn skips(label: &Label) -> bool {
     label.0 == SKIP
 }
 
+/// Whether the label's glyph is a space: nobody draws it.
+pub(super) fn is_space(label: &Label) -> bool {
+    names::identify(label).is_ok_and(|id| matches!(id.chars[..], [' ' | '\u{a0}']))
+}
+
 /// The labels of every page of a project, all of them known and none of them twice.
 pub(super) fn of(project: &Project, world: World<'_>) -> Result<Vec<Vec<Label>>, Vec<Problem>> {
     let sheets = &project.sheets;
@@ -62,7 +67,12 @@ pub(super) fn lines(sheet: &SheetTable, world: World<'_>) -> Result<Vec<usize>, 
 fn text(sheet: &SheetTable, world: World<'_>) -> Result<String, Problem> {
     match &sheet.glyphs {
         Labels::Text(text) => Ok(text.clone()),
-        Labels::File { file } => Ok(String::from_utf8_lossy(&world.file(file)?).into_owned()),
+        Labels::File { file } => {
+            let bytes = world.file(file)?;
+            let text = String::from_utf8_lossy(&bytes);
+            // some editors put a byte order mark first
+            Ok(text.trim_start_matches('\u{feff}').to_owned())
+        }
     }
 }
 

@@ -3,11 +3,11 @@
 use super::labels;
 use super::letter::Letter;
 use super::problem::Problem;
-use super::project::SheetTable;
+use super::project::{Project, SheetTable};
 use super::watch::Stage;
 use super::world::World;
 use crate::scan::{self, Cut, Grain, Options, Pin, Turn, Warning};
-use crate::template::Gain;
+use crate::template::{self, Gain};
 use crate::types::{Label, Sheet};
 
 /// A page and what it was cut into.
@@ -41,14 +41,14 @@ const FAR_BETTER: f64 = 0.6;
 pub(super) fn read(
     table: &SheetTable,
     named: (&[Label], &[Pin]),
-    units_per_em: u16,
+    project: &Project,
     world: World<'_>,
 ) -> Result<Page, Vec<Problem>> {
     let first = read_turned(
         table,
         table.turn.unwrap_or_default(),
         named,
-        (units_per_em, world),
+        (project, world),
     );
     let badly = |page: &Page| page.cut.misfit.unwrap_or(0.0);
     let limit = match &first {
@@ -64,7 +64,7 @@ pub(super) fn read(
     }
     let turns = [Turn::Quarter, Turn::Half, Turn::ThreeQuarters].into_iter();
     let others = turns.filter_map(|turn| {
-        let page = read_turned(table, turn, named, (units_per_em, world)).ok()?;
+        let page = read_turned(table, turn, named, (project, world)).ok()?;
         Some((page.cut.misfit?, turn, page))
     });
     let best = others.min_by(|a, b| a.0.total_cmp(&b.0));
@@ -92,7 +92,7 @@ fn read_turned(
     table: &SheetTable,
     turn: Turn,
     (labels, pins): (&[Label], &[Pin]),
-    (units_per_em, world): (u16, World<'_>),
+    (project, world): (&Project, World<'_>),
 ) -> Result<Page, Problem> {
     let wrong = |why| {
         let sheet = table.name();
@@ -100,14 +100,16 @@ fn read_turned(
     };
     let options = Options {
         lines: labels::lines(table, world)?,
-        ..table.cut_options(units_per_em).map_err(wrong)?
+        ..table
+            .cut_options(project.font.units_per_em)
+            .map_err(wrong)?
     };
     let cut = |page: scan::Page| {
         let _time = world.watch.enter(Stage::Cut);
         let cut = scan::cut_with(&page, labels, &options, pins).map_err(Problem::from)?;
         Ok((cut, page.sheet.dpi))
     };
-    let sheet = || load(table, turn, world);
+    let sheet = || load(table, turn, (project, world));
     let clean = |sheet: Sheet| {
         let _time = world.watch.enter(Stage::Clean);
         scan::clean(sheet).map_err(Problem::from)
@@ -129,8 +131,12 @@ fn read_turned(
     })
 }
 
-/// The one picture that a table names.
-fn load(table: &SheetTable, turn: Turn, world: World<'_>) -> Result<Sheet, Problem> {
+/// The one picture that a table names; none that khatt printed, where captions and marks would be taken for letters.
+fn load(
+    table: &SheetTable,
+    turn: Turn,
+    (project, world): (&Project, World<'_>),
+) -> Result<Sheet, Problem> {
     let wrong = |why: String| Problem::Sheet {
         sheet: table.name(),
         why,
@@ -149,14 +155,24 @@ fn load(table: &SheetTable, turn: Turn, world: World<'_>) -> Result<Sheet, Probl
     };
     let mut pages = scan::load_turned(&bytes, &name, table.polarity, (turn, grain))?;
     let count = pages.len();
-    match table.page {
-        None if count == 1 => Ok(pages.swap_remove(0)),
-        None => Err(wrong(format!(
-            "the file holds {count} pages; say which one with page = 1"
+    let page = match table.page {
+        None if count == 1 => pages.swap_remove(0),
+        None => {
+            let why = format!("the file holds {count} pages; say which one with page = 1");
+            return Err(wrong(why));
+        }
+        Some(n) if (1..=count).contains(&n) => pages.swap_remove(n - 1),
+        Some(n) => {
+            let why = format!("there is no page {n}: the file holds {count}");
+            return Err(wrong(why));
+        }
+    };
+    match template::find(&page, &project.template) {
+        Ok(found) => Err(wrong(format!(
+            "this is page {} of those that `khatt sheet` prints, and cannot be cut by another layout: write \
+             layout = \"template\", and take scale and order away where they are given: the page says both itself",
+            found.code.page
         ))),
-        Some(n) if (1..=count).contains(&n) => Ok(pages.swap_remove(n - 1)),
-        Some(n) => Err(wrong(format!(
-            "there is no page {n}: the file holds {count}"
-        ))),
+        Err(_) => Ok(page),
     }
 }

@@ -97,8 +97,8 @@ impl<'a> Printing<'a> {
         if !table.ink.layers().is_empty() {
             return Err(Problem::Sheet {
                 sheet: table.name(),
-                why: "layers of several inks are made from a grid, free or boxes: give one ink to a template, or name \
-                      another layout"
+                why: "layers of several inks are made from pages of your own (grid, free or boxes): give one ink to a \
+                      template, or draw on other pages"
                     .to_owned(),
             });
         }

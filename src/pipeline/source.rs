@@ -2,7 +2,7 @@
 
 use super::batch::{self, Batch};
 use super::corrections::Corrections;
-use super::labels::skips;
+use super::labels::{is_space, skips};
 use super::page::{self, Page};
 use super::picture;
 use super::printing::Printing;
@@ -10,6 +10,7 @@ use super::problem::{Place, Problem};
 use super::project::{Cells, Layout, Project, SheetTable};
 use super::world::World;
 use crate::assemble::names;
+use crate::scan::{Cut, Reason, Rejected, Warning};
 use crate::types::{Cell, Label};
 use std::collections::BTreeSet;
 use std::mem;
@@ -18,6 +19,13 @@ use std::path::Path;
 /// Empty cells from which on it is asked whether the grid is the page's.
 const MANY: usize = 3;
 
+/// Coverage from which a pixel counts as ink.
+const INK: f32 = 0.5;
+
+/// What is said of ink in a space's cell.
+const STAINED: &str =
+    "a space has no ink: what lies in its cell is left out; is this the name of another cell?";
+
 /// The pictures of one `[[sheet]]` and the way to its pages.
 pub(super) struct Source<'a> {
     /// Its place in the project file, from 0.
@@ -25,7 +33,7 @@ pub(super) struct Source<'a> {
     pub(super) table: &'a SheetTable,
     pub(super) labels: &'a [Label],
     corrections: Corrections,
-    units_per_em: u16,
+    project: &'a Project,
     /// What was printed, where the pages are a template's.
     printing: Option<Printing<'a>>,
 }
@@ -51,7 +59,7 @@ impl<'a> Source<'a> {
             table,
             labels,
             corrections,
-            units_per_em: project.font.units_per_em,
+            project,
             printing,
         })
     }
@@ -71,7 +79,7 @@ impl<'a> Source<'a> {
         let Some((printing, image)) = self.printing.as_ref().zip(image) else {
             let labels = self.corrections.kept(self.labels);
             let pins = self.corrections.pins(&labels);
-            let page = page::read(self.table, (&labels, &pins), self.units_per_em, world);
+            let page = page::read(self.table, (&labels, &pins), self.project, world);
             let wanted: Vec<(usize, Label)> = labels.into_iter().enumerate().collect();
             let page = page.and_then(|page| self.checked(page, &wanted));
             return match page {
@@ -96,8 +104,9 @@ impl<'a> Source<'a> {
     /// The page corrected, where no name is without a drawing.
     fn checked(&self, mut page: Page, wanted: &[(usize, Label)]) -> Result<Page, Vec<Problem>> {
         let corrections = &self.corrections;
-        corrections.apply(&mut page.cut, self.units_per_em);
+        corrections.apply(&mut page.cut, self.project.font.units_per_em);
         page.cut.cells.retain(|c| !corrections.ignores(&c.label));
+        clear_spaces(&mut page.cut);
         let wanted = wanted.iter().filter(|w| !corrections.ignores(&w.1));
         let mut problems = gaps(&page, wanted);
         if let (Layout::Grid(rows, columns), true) = (self.table.layout, problems.len() >= MANY) {
@@ -170,14 +179,44 @@ pub(super) fn cells(
         let pages = printing.join(images.map(|i| printing.read(i, world)).collect())?;
         return Ok(pages.into_iter().flat_map(|p| p.cut.cells).collect());
     }
-    let page = page::read(table, (labels, &[]), project.font.units_per_em, world)?;
+    let page = page::read(table, (labels, &[]), project, world)?;
     Ok(page.cut.cells)
+}
+
+/// Takes out what lies in the cells of spaces, and warns of it; that they are empty is right.
+fn clear_spaces(cut: &mut Cut) {
+    let of_space = |w: &Warning| w.label.as_ref().is_some_and(is_space);
+    cut.warnings.retain(|w| !of_space(w));
+    let cells = mem::take(&mut cut.cells).into_iter();
+    let (spaces, letters) = cells.partition(|c| is_space(&c.label));
+    cut.cells = letters;
+    for Cell {
+        label,
+        index,
+        in_sheet,
+        gray,
+        ..
+    } in spaces
+    {
+        let ink = gray.samples().iter().filter(|v| **v >= INK);
+        cut.rejected.push(Rejected {
+            in_sheet,
+            area_px: ink.count(),
+            reason: Reason::Skipped,
+        });
+        cut.warnings.push(Warning {
+            index: Some(index),
+            label: Some(label),
+            message: STAINED.to_owned(),
+        });
+    }
+    cut.warnings.sort_by_key(|w| w.index);
 }
 
 /// Names without a letter.
 fn gaps<'a>(page: &Page, wanted: impl Iterator<Item = &'a (usize, Label)>) -> Vec<Problem> {
     let drawn: BTreeSet<usize> = page.cut.cells.iter().map(|c| c.index).collect();
-    let named = wanted.filter(|(_, label)| !skips(label));
+    let named = wanted.filter(|(_, label)| !skips(label) && !is_space(label));
     let empty = named.filter(|(index, _)| !drawn.contains(index));
     let empty = empty.map(|(index, label)| {
         Problem::Empty(Place {

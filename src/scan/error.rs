@@ -65,6 +65,17 @@ pub enum ScanError {
         /// the ink that was asked for
         ink: String,
     },
+    /// Several inks are to be told apart where there are no colours.
+    #[error(
+        "{source_name} has no colours by which the inks that `ink` lists could be told apart ({inks}); scan it \
+         in colour, dark ink on light paper, or leave `ink` out"
+    )]
+    NoColours {
+        /// the file
+        source_name: String,
+        /// the inks that were asked for
+        inks: String,
+    },
     /// More names than cells.
     #[error(
         "{source_name} has {cells} cells, but {names} names are given, the first too many being “{extra}”; \
@@ -140,6 +151,18 @@ pub enum ScanError {
         names: usize,
         /// where letters and names part
         doubts: String,
+    },
+    /// Nothing on a bare page is like a letter.
+    #[error(
+        "{source_name} has no ink that could be letters of its {names} names, but lines alone; write \
+         layout = {{ grid = [rows, columns] }}, which goes by places, or say where each letter stands: box under \
+         [cells.NAME]"
+    )]
+    NoLetters {
+        /// the file
+        source_name: String,
+        /// names given
+        names: usize,
     },
     /// Far less ink than names on a bare page.
     #[error(

@@ -77,7 +77,7 @@ impl TryFrom<String> for Ink {
             ("any", _) => Ok(Self::Any),
             ("black", _) => Ok(Self::Black),
             (_, Some((_, hue))) => Ok(Self::Hue(*hue)),
-            _ => hex(&text).map(Self::Hue).ok_or_else(|| {
+            _ => hex(&text).map(Self::looking).ok_or_else(|| {
                 let names: Vec<&str> = NAMED.iter().map(|n| n.0).collect();
                 format!("ink must be any, black, {} or #rrggbb", names.join(", "))
             }),
@@ -220,6 +220,15 @@ impl Inks {
 }
 
 impl Ink {
+    /// The ink that looks like this on white paper; what has no hue there has none on a page.
+    fn looking(look: [u8; 3]) -> Self {
+        if Self::Black.is_like(look.map(|v| 255.0 - f64::from(v))) {
+            Self::Black
+        } else {
+            Self::Hue(look)
+        }
+    }
+
     /// Cosine of the angle to ink that swallows these shares on the circle of hues; 1 for inks without a hue.
     fn cosine(self, swallowed: [f64; 3]) -> f64 {
         let Self::Hue(look) = self else { return 1.0 };
@@ -316,6 +325,9 @@ mod tests {
             ("red", [0.1, 0.8, 0.7], true),
             ("red", [0.9, 0.82, 0.59], false),
             ("#1030c0", [0.9, 0.8, 0.2], true),
+            ("#000000", [0.97, 0.95, 0.88], true),
+            ("#1e1e22", [0.97, 0.95, 0.93], true),
+            ("#1e1e22", [0.9, 0.8, 0.2], false),
             ("any", [0.3, 0.3, 0.3], true),
         ];
         for (name, seen, like) in cases {
@@ -351,7 +363,11 @@ mod tests {
     #[test]
     fn inks_of_a_list_are_told_apart() {
         let wrong = |json: &str| serde_json::from_str::<Inks>(json).unwrap_err().to_string();
-        assert!(wrong("[\"orange\", \"brown\"]").contains("orange and brown are too alike"));
+        for pair in [["orange", "brown"], ["black", "#202020"]] {
+            let problem = wrong(&serde_json::to_string(&pair).unwrap());
+            let alike = format!("{} and {} are too alike", pair[0], pair[1]);
+            assert!(problem.contains(&alike), "{problem}");
+        }
         for json in ["[]", "[\"black\", \"any\"]"] {
             assert!(wrong(json).contains("names each of them"), "{json}");
         }

@@ -7,6 +7,7 @@
 
 use super::chamfer::distances;
 use super::components::{Component, components};
+use super::error::ScanError;
 use super::ink::{Ink, Inks, more, paper, pixels};
 use super::whole::narrow;
 use crate::types::{Colours, Gray, Sheet};
@@ -67,15 +68,25 @@ pub(super) struct Part<'a> {
 }
 
 impl<'a> Separation<'a> {
-    /// Measures the inks of a page on its letters, of which `least` px² can be drawn; the ink of which there is none.
+    /// Measures the inks of a page on its letters, of which `least` px² can be drawn.
+    ///
+    /// # Errors
+    /// The page has no colours, or too little of one of the inks.
     pub(super) fn measure(
         sheet: &'a Sheet,
         letters: &[Component],
         inks: &Inks,
         least: f64,
-    ) -> Result<Option<Self>, String> {
-        let Some(colours) = sheet.colours.as_ref().filter(|_| !inks.layers().is_empty()) else {
+    ) -> Result<Option<Self>, ScanError> {
+        if inks.layers().is_empty() {
             return Ok(None);
+        }
+        let source_name = || sheet.source.clone();
+        let Some(colours) = &sheet.colours else {
+            return Err(ScanError::NoColours {
+                source_name: source_name(),
+                inks: inks.to_string(),
+            });
         };
         let paper = paper(colours);
         let mut seen: Vec<Vec<([u8; 3], f32)>> = vec![Vec::new(); inks.layers().len()];
@@ -88,7 +99,10 @@ impl<'a> Separation<'a> {
         }
         let solid = |(&ink, mut seen): (&Ink, Vec<([u8; 3], f32)>)| {
             if (seen.len() as f64) < least {
-                return Err(String::from(ink));
+                return Err(ScanError::OtherInk {
+                    source_name: source_name(),
+                    ink: ink.into(),
+                });
             }
             let middle = seen.len() / 2;
             let look =
@@ -114,7 +128,8 @@ impl<'a> Separation<'a> {
                 },
             })
         };
-        let inks: Result<Vec<Solid>, String> = inks.layers().iter().zip(seen).map(solid).collect();
+        let inks: Result<Vec<Solid>, ScanError> =
+            inks.layers().iter().zip(seen).map(solid).collect();
         Ok(Some(Self {
             colours,
             paper,

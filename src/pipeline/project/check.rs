@@ -13,10 +13,15 @@ const WEIGHT: RangeInclusive<u16> = 1..=1000;
 
 pub(super) fn named<'de, D: Deserializer<'de>>(from: D) -> Result<String, D::Error> {
     let text = String::deserialize(from)?;
-    if text.trim().is_empty() || text.chars().any(char::is_control) {
-        return Err(D::Error::custom("must be a name of at least one letter"));
+    match () {
+        () if text.trim().is_empty() => {
+            Err(D::Error::custom("must be a name of at least one letter"))
+        }
+        () if text.chars().any(char::is_control) => Err(D::Error::custom(
+            "must be a name in one line, without control characters",
+        )),
+        () => Ok(text),
     }
-    Ok(text)
 }
 
 /// One path, or a list of them.

@@ -30,6 +30,18 @@ impl Project {
 /// The decoder's error with the key that was probably meant.
 fn explain(text: &str, error: &TomlError) -> ProjectError {
     let message = error.message().trim_end();
+    let span = error.span();
+    let span = span.map(|s| s.start.min(text.len())..s.end.min(text.len()));
+    if message.contains("expected internally tagged enum") {
+        let word = message.split('"').nth(1).unwrap_or("…");
+        return ProjectError {
+            message: format!("must be a table: {{ method = \"{word}\" }}"),
+            span,
+            help: Some(
+                "`khatt methods --json` lists methods and what else the table may hold".to_owned(),
+            ),
+        };
+    }
     let mut quoted = message.split('`').skip(1).step_by(2);
     let unknown = message.starts_with("unknown ");
     let help = unknown.then(|| quoted.next()).flatten().and_then(|wrong| {
@@ -38,9 +50,7 @@ fn explain(text: &str, error: &TomlError) -> ProjectError {
     });
     ProjectError {
         message: message.to_owned(),
-        span: error
-            .span()
-            .map(|s| s.start.min(text.len())..s.end.min(text.len())),
+        span,
         help,
     }
 }
@@ -161,6 +171,27 @@ ttf = "build/KhattLatin.ttf"
             ),
             ("0.06", "-0.06", "must be between 0 and 1", "-0.06", ""),
             ("grid", "grad", "unknown variant", "grad", "grid"),
+            (
+                "Khatt Latin",
+                "Khatt\\nLatin",
+                "must be a name in one line",
+                "\"Khatt\\nLatin\"",
+                "",
+            ),
+            (
+                "[compose]",
+                "fit = \"qbc\"\n[compose]",
+                "must be a table: { method = \"qbc\" }",
+                "\"qbc\"",
+                "khatt methods",
+            ),
+            (
+                "[compose]",
+                "[quadratic]\nconvert = \"split\"\n[compose]",
+                "must be a table: { method = \"split\" }",
+                "\"split\"",
+                "khatt methods",
+            ),
         ];
         for (right, wrong, message, at, help) in cases {
             let text = GOOD.replacen(right, wrong, 1);

@@ -35,7 +35,7 @@ use crate::types::{Cell, Label};
 use kurbo::{Affine, Point, Rect};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
-use sieve::{Inks, other_ink, sort, speck_limit, stroke_width};
+use sieve::{Inks, sort, speck_limit, stroke_width};
 use stance::Stance;
 use std::fmt;
 
@@ -236,8 +236,7 @@ pub fn cut_with(
         mut small,
         specks,
     } = sort(components(gray, low, SEED.max(low)), page, options)?;
-    let separation = Separation::measure(&page.sheet, &all, &options.ink, speck_limit(&all));
-    let separation = separation.map_err(|ink| other_ink(page, ink))?;
+    let separation = Separation::measure(&page.sheet, &all, &options.ink, speck_limit(&all))?;
     let edges = Edges::new(&all.iter().collect::<Vec<_>>());
     let skew_deg = Some(skew_deg(&edges)).filter(|s| s.abs() >= LEAST_SKEW_DEG);
     let skew_deg = skew_deg.unwrap_or(0.0);

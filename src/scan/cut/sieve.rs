@@ -39,7 +39,10 @@ pub(super) fn sort(all: Vec<Component>, page: &Page, options: &Options) -> Resul
     let (found, mut beyond): (Vec<_>, Vec<_>) = all.into_iter().partition(|c| on_paper(c, page));
     let (mut letters, mut other) = options.ink.part(found, page.sheet.colours.as_ref());
     if letters.is_empty() && !other.is_empty() {
-        return Err(other_ink(page, options.ink.to_string()));
+        return Err(ScanError::OtherInk {
+            source_name: page.sheet.source.clone(),
+            ink: options.ink.to_string(),
+        });
     }
     let least = speck_limit(&letters);
     let mut specks = 0;
@@ -63,13 +66,6 @@ pub(super) fn sort(all: Vec<Component>, page: &Page, options: &Options) -> Resul
         small,
         specks,
     })
-}
-
-pub(super) fn other_ink(page: &Page, ink: String) -> ScanError {
-    ScanError::OtherInk {
-        source_name: page.sheet.source.clone(),
-        ink,
-    }
 }
 
 /// Whether most of a piece of ink lies on the paper.

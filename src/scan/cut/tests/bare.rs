@@ -292,6 +292,18 @@ fn far_more_names_than_ink_are_refused_before_they_are_read() {
     ));
 }
 
+#[test]
+fn a_page_of_lines_alone_is_told() {
+    let mut paper = Paper::new(760, 400, 0.0);
+    paper.bar(60.0, 100.0, 640.0, 20.0);
+    paper.bar(60.0, 250.0, 640.0, 20.0);
+    let error = cut_page(&paper, "A B", &free()).unwrap_err();
+    assert!(
+        matches!(error, ScanError::NoLetters { names: 2, .. }),
+        "{error}"
+    );
+}
+
 /// A name whose letter was not drawn takes no other one's dot.
 #[test]
 fn a_name_too_many_is_told() {

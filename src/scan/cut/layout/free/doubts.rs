@@ -114,6 +114,12 @@ impl Unread {
     ) -> ScanError {
         // places that only dirt makes are no rows
         let rows: Vec<usize> = self.rows.iter().copied().filter(|&n| n > 0).collect();
+        if rows.is_empty() {
+            return ScanError::NoLetters {
+                source_name: source.to_owned(),
+                names,
+            };
+        }
         let place = |row: usize| {
             let before = self.rows.iter().take(row);
             before.filter(|&&n| n > 0).count().max(1)
