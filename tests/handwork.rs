@@ -73,3 +73,24 @@ fn a_ufo_built_again_keeps_hand_work() {
     build(dir.path(), &["--overwrite"]);
     assert_eq!(holds(), (false, 0, None));
 }
+
+#[test]
+fn a_damaged_ufo_is_told_with_its_file_and_the_reason() {
+    let dir = project(LETTERS, &page(&[]));
+    let ufo = dir.path().join("out/test.ufo");
+    build(dir.path(), &[]);
+    for (file, content) in [("glyphs/H_.glif", "<glyph"), ("groups.plist", "<plist")] {
+        let whole = fs::read(ufo.join(file)).ok();
+        fs::write(ufo.join(file), content).expect("a damaged file");
+        let out = khatt(dir.path(), &["build", "font.toml"]);
+        let said = String::from_utf8_lossy(&out.stderr);
+        assert_eq!(out.status.code(), Some(1), "{file}: {said}");
+        let name = file.rsplit('/').next().expect("a name");
+        assert!(said.contains("the UFO there cannot be read"), "{said}");
+        assert!(said.contains(name), "{file}: {said}");
+        match whole {
+            Some(whole) => fs::write(ufo.join(file), whole).expect("the file again"),
+            None => fs::remove_file(ufo.join(file)).expect("no such file before"),
+        }
+    }
+}

@@ -15,7 +15,9 @@ fn within<E: Error>(value: f64, range: &RangeInclusive<f64>) -> Result<f64, E> {
         Ok(value)
     } else {
         let (low, high) = (range.start(), range.end());
-        Err(E::custom(format!("must be between {low} and {high}")))
+        Err(E::custom(format!(
+            "must be between {low} and {high}; lengths are parts of the em"
+        )))
     }
 }
 

@@ -44,6 +44,9 @@ pub enum WriteError {
     /// A feature file that does not compile, with the compiler's message and line.
     #[error("the OpenType features do not compile:\n{0}")]
     Features(String),
+    /// A UFO that lies where one is to be written, and is none.
+    #[error("the UFO there cannot be read: {0}")]
+    Unread(String),
     /// A table that does not fit together.
     #[error("cannot build the {table} table: {message}")]
     Table {

@@ -106,11 +106,14 @@ ttf = "build/KhattLatin.ttf"
             ("spacing.letters", "sidebearing", "nan"),
             ("spacing.kerning", "strength", "1e300"),
             ("spacing", "space", "-1.0"),
+            ("spacing", "space", "250"),
             ("spacing.heights", "descender", "0.3"),
         ] {
             let text = format!("{GOOD}[{table}]\n{option} = {value}\n");
             let problem = Project::parse(&text).expect_err(&text).to_string();
             assert!(problem.contains("must be"), "{option} = {value}: {problem}");
+            let told = option == "edges" || problem.contains("lengths are parts of the em");
+            assert!(told, "{option} = {value}: {problem}");
         }
     }
 

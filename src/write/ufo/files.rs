@@ -3,7 +3,9 @@
 use crate::types::Files;
 use crate::write::WriteError;
 use norad::{DataRequest, Font, WriteOptions};
+use std::error::Error;
 use std::io;
+use std::iter;
 use std::path::Path;
 use std::sync::Mutex;
 
@@ -25,7 +27,7 @@ pub(in crate::write) fn bytes(ufo: &Font) -> Result<Files, WriteError> {
     files.into_inner().map_err(|e| failed(&e))
 }
 
-pub(in crate::write) fn failed(error: &dyn std::error::Error) -> WriteError {
+pub(in crate::write) fn failed(error: &dyn Error) -> WriteError {
     WriteError::table("UFO", error)
 }
 
@@ -38,5 +40,13 @@ pub(in crate::write) fn load(files: &Files) -> Result<Font, WriteError> {
             .get(&name.join("/"))
             .map(|content| Ok::<_, io::Error>(content.clone()))
     };
-    Font::load_from_source(&DataRequest::all(), &source).map_err(|e| failed(&e))
+    let font = Font::load_from_source(&DataRequest::all(), &source);
+    font.map_err(|e| WriteError::Unread(causes(&e)))
+}
+
+/// An error and its causes, which name the file and the reason.
+fn causes(error: &dyn Error) -> String {
+    let all = iter::successors(Some(error), |e| (*e).source());
+    let all: Vec<String> = all.map(ToString::to_string).collect();
+    all.join(": ")
 }
