@@ -32,6 +32,7 @@ pub use contour::{Contour, ContourError, Span, Spans};
 pub use curve::{Fitted, Verdict};
 pub use files::Files;
 pub use font::{Font, FontError, Info, Kerning, Metrics};
+pub(crate) use glyph::label;
 pub use glyph::{Anchor, Component, Glyph, Layer, Name, NameError};
 pub use outline::{Frame, Outline, OutlineError};
 pub use png::Png;
