@@ -22,6 +22,7 @@ mod curve;
 mod files;
 mod font;
 mod glyph;
+mod naming;
 mod outline;
 mod png;
 mod raster;
