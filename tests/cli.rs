@@ -163,6 +163,27 @@ fn dust_is_what_the_user_says() {
 }
 
 #[test]
+fn faint_ink_and_dark_paper_are_traced_and_nothing_is_told() {
+    let dir = tempfile::tempdir().expect("a folder");
+    for (paper, ink, contours) in [(255, 160, 1), (120, 10, 1), (90, 200, 1), (255, 255, 0)] {
+        let level = |x: u32, y: u32| (20..60).contains(&x) && (20..60).contains(&y);
+        let picture = image::GrayImage::from_fn(80, 80, |x, y| {
+            image::Luma([if level(x, y) { ink } else { paper }])
+        });
+        picture.save(dir.path().join("in.png")).expect("a picture");
+        let out = khatt(dir.path(), &["trace", "in.png", "-o", "out.svg"]);
+        let svg = fs::read_to_string(dir.path().join("out.svg")).expect("an SVG");
+        assert_eq!(svg.matches('M').count(), contours, "{paper} {ink}: {svg}");
+        let said = String::from_utf8_lossy(&out.stderr);
+        assert_eq!(
+            said.contains("no ink to trace"),
+            contours == 0,
+            "{paper} {ink}: {said}"
+        );
+    }
+}
+
+#[test]
 fn pictures_that_cannot_be_traced() {
     let dir = tempfile::tempdir().expect("a folder");
     fs::write(dir.path().join("text.png"), "this is no picture").expect("a file");

@@ -12,6 +12,7 @@ mod detectors;
 mod fitters;
 mod fonts;
 mod handwork;
+mod kept;
 mod layers;
 mod outlines;
 mod outputs;

@@ -39,6 +39,9 @@ pub(crate) struct Convert {
     /// Place of a variable font on an axis, as in wght=700
     #[arg(long, value_name = "AXIS=VALUE", value_parser = axis)]
     location: Vec<(String, f64)>,
+    /// Which font of a collection: its number, from 1, or its name
+    #[arg(long, value_name = "FACE")]
+    face: Option<String>,
 }
 
 impl Convert {
@@ -86,6 +89,11 @@ impl Convert {
         let name = files::name(&self.input);
         let fail = |e: &read::ReadError| Failure::new(format!("{name}: {}", chain(e)));
         let is_ufo = self.input.join("metainfo.plist").exists();
+        let ending = self.input.extension().and_then(OsStr::to_str);
+        let is_drawn = ending.is_some_and(|e| e.eq_ignore_ascii_case("svg"));
+        if is_ufo || is_drawn || self.input.is_dir() {
+            self.refuse_places();
+        }
         if is_ufo {
             return read::ufo(&self.input).map_err(|e| fail(&e));
         }
@@ -93,17 +101,24 @@ impl Convert {
             return read::svg(&drawings(&self.input)?).map_err(|e| fail(&e));
         }
         let bytes = files::read(&self.input)?;
-        let ending = self
-            .input
-            .extension()
-            .and_then(OsStr::to_str)
-            .unwrap_or_default();
-        let reading = if ending.eq_ignore_ascii_case("svg") {
+        let reading = if is_drawn {
             read::svg(&[(name.clone(), bytes)])
         } else {
-            read::font(&bytes, &self.location)
+            read::font(&bytes, self.face.as_deref(), &self.location)
         };
         reading.map_err(|e| fail(&e))
+    }
+
+    /// Drawings and UFOs hold one font, and it does not vary.
+    fn refuse_places(&self) {
+        if self.face.is_some() || !self.location.is_empty() {
+            let name = self.input.display();
+            let why =
+                format!("--face and --location are for TTF, OTF and WOFF2 files; {name} is none");
+            Khatt::command()
+                .error(ErrorKind::ArgumentConflict, why)
+                .exit();
+        }
     }
 
     fn options(&self) -> Options {

@@ -68,8 +68,15 @@ impl Trace {
         if self.centerline {
             return self.write_lines(&page.gray);
         }
-        let paths =
-            trace_picture(&page.gray, &self.options()).map_err(|e| Failure::at(&name, &e))?;
+        let options = self.options();
+        let trace = |gray: &Gray| trace_picture(gray, &options).map_err(|e| Failure::at(&name, &e));
+        let mut paths = trace(&page.gray)?;
+        if let (true, Some(gray)) = (paths.is_empty(), scan::full_range(&page.gray)) {
+            paths = trace(&gray)?;
+        }
+        if paths.is_empty() {
+            eprintln!("warning: {name} has no ink to trace: the drawing is empty");
+        }
         let size = (page.gray.width(), page.gray.height());
         self.write(&picture::svg(size, &paths))
     }

@@ -7,6 +7,9 @@
 //! Whatever the bytes are, the answer is a font or an error, never a panic.
 
 mod cff;
+mod collection;
+mod instance;
+mod names;
 mod pen;
 mod sfnt;
 mod svg;
@@ -36,6 +39,36 @@ pub enum ReadError {
     /// A place on an axis that the font does not have.
     #[error("the font has no axis “{0}”; it has: {1}")]
     Axis(String, String),
+    /// A place on an axis of a font that has none.
+    #[error("the font has no axes, thus no “{0}”: it is no variable font; leave --location out")]
+    NoAxes(String),
+    /// A place beyond the end of an axis.
+    #[error("{axis}={value} lies beyond the axis, which runs from {} to {}", range[0], range[1])]
+    Beyond {
+        /// the axis' tag
+        axis: String,
+        /// the place that was asked for
+        value: f64,
+        /// the axis' ends
+        range: [f64; 2],
+    },
+    /// A collection of several fonts, and none was chosen.
+    #[error("there are several fonts in it; choose one by number or name, --face: {0}")]
+    Faces(String),
+    /// A font that is not in the file.
+    #[error("there is no font “{0}” in it (--face); it has: {1}")]
+    Face(String, String),
+    /// A drawing of which nothing can be read.
+    #[error(
+        "{file} has nothing that can be read as an outline, but {what}; make paths of it in a drawing program, \
+         or take the file away"
+    )]
+    Undrawn {
+        /// the drawing
+        file: String,
+        /// its elements
+        what: String,
+    },
     /// There is nothing to draw in it.
     #[error("there are no outlines in it")]
     Empty,

@@ -1,6 +1,7 @@
 //! TTF, OTF, WOFF2 → Font, with every table that is not an outline carried along.
 
-use super::{Names, ReadError, Reading, cff::Charstrings, pen::Pen};
+use super::{Names, ReadError, Reading, cff::Charstrings, instance::Place, pen::Pen};
+use super::{collection, names};
 use crate::types::{Component, Font, Glyph, Info, Metrics, Outline};
 use kurbo::{Affine, BezPath};
 use skrifa::instance::{Location, Size};
@@ -20,8 +21,8 @@ use std::collections::BTreeMap;
 const EPOCH_1904: i64 = 2_082_844_800;
 
 /// Outlines and what is rebuilt with them.
-const REBUILT: [&[u8; 4]; 10] = [
-    b"glyf", b"loca", b"CFF ", b"CFF2", b"head", b"maxp", b"hhea", b"hmtx", b"post", b"gasp",
+const REBUILT: [&[u8; 4]; 7] = [
+    b"glyf", b"loca", b"CFF ", b"CFF2", b"maxp", b"hmtx", b"gasp",
 ];
 
 /// What is lost, by what it was for.
@@ -43,46 +44,48 @@ const LOST: [(&str, &[&[u8; 4]]); 4] = [
     ("the signature", &[b"DSIG"]),
 ];
 
-/// A font from the bytes of a TrueType, OpenType or WOFF2 file; a variable one at the given places
-/// on its axes (tag, value), else at its default; there composites stay, elsewhere they are resolved.
+/// A font from the bytes of a TrueType, OpenType or WOFF2 file; of a collection the one of that number, from 1, or
+/// name; a variable one at the given places on its axes (tag, value), else at its default; there composites stay,
+/// elsewhere they are resolved.
 ///
 /// # Errors
-/// The bytes are no font with outlines, or it has no such axis.
-pub fn font(bytes: &[u8], location: &[(String, f64)]) -> Result<Reading, ReadError> {
+/// The bytes are no font with outlines, it has no such axis, or it is not told which font of a collection.
+pub fn font(
+    bytes: &[u8],
+    face: Option<&str>,
+    location: &[(String, f64)],
+) -> Result<Reading, ReadError> {
     let plain: Cow<'_, [u8]> = if bytes.starts_with(b"wOF2") {
         let unpacked = wuff::decompress_woff2(bytes);
         Cow::Owned(unpacked.map_err(|e| ReadError::damaged("WOFF2", format!("{e:?}")))?)
     } else {
         Cow::Borrowed(bytes)
     };
-    let source = FontRef::from_index(&plain, 0).map_err(|e| ReadError::damaged("a font", e))?;
-    let at = place(&source, location)?;
+    let source = collection::face(&plain, face)?;
+    let place = Place::of(&source, location)?;
     let mut names = Names::default();
-    let glyphs = glyphs(&source, &at, &mut names)?;
+    let glyphs = glyphs(&source, &place.location, &mut names)?;
     if glyphs.iter().all(|g| g.outline.is_empty()) {
         return Err(ReadError::Empty);
     }
-    let mut font = Font::new(info(&source, &at), glyphs)?;
-    font.carried = carried(&source);
+    let (mut info, mut carried) = (info(&source, &place.location), carried(&source));
     let mut lost = lost(&source);
+    if place.moved() {
+        place.describe(&source, &mut info);
+        place.rewrite(&source, &info, &glyphs, &mut carried);
+        lost.extend(varying(&source));
+    }
+    let mut font = Font::new(info, glyphs)?;
+    font.carried = carried;
     lost.extend(names.lost());
     Ok(Reading { font, lost })
 }
 
-fn place(font: &FontRef<'_>, location: &[(String, f64)]) -> Result<Location, ReadError> {
-    let axes = font.axes();
-    for (tag, _) in location {
-        if !axes.iter().any(|a| a.tag().to_string() == *tag) {
-            let known: Vec<_> = axes.iter().map(|a| a.tag().to_string()).collect();
-            return Err(ReadError::Axis(tag.clone(), known.join(", ")));
-        }
-    }
-    #[expect(
-        clippy::cast_possible_truncation,
-        reason = "axis values are stored with 16 bits before the point"
-    )]
-    let settings = location.iter().map(|(tag, v)| (tag.as_str(), *v as f32));
-    Ok(axes.location(settings))
+/// A line where kerning and anchors vary, too: they stay those of the default.
+fn varying(font: &FontRef<'_>) -> Option<String> {
+    let store = font.gdef().ok()?.item_var_store()?;
+    store.ok()?;
+    Some("variations of kerning and anchors (GDEF): they are the default's".to_owned())
 }
 
 fn glyphs(font: &FontRef<'_>, at: &Location, names: &mut Names) -> Result<Vec<Glyph>, ReadError> {
@@ -213,13 +216,7 @@ fn closed(contours: impl Iterator<Item = BezPath>, id: GlyphId) -> Result<Outlin
 }
 
 fn info(font: &FontRef<'_>, at: &Location) -> Info {
-    let text = |id: StringId| {
-        let s = font
-            .localized_strings(id)
-            .english_or_first()
-            .map(|s| s.to_string());
-        s.filter(|s| !s.is_empty())
-    };
+    let text = |id: StringId| names::text(font, id);
     let default = Info::default();
     let m = font.metrics(Size::unscaled(), at);
     let (head, os2) = (font.head().ok(), font.os2().ok());

@@ -23,6 +23,7 @@ mod load;
 mod options;
 mod paper;
 mod perspective;
+mod range;
 mod separation;
 mod whole;
 
@@ -33,4 +34,5 @@ pub use error::ScanError;
 pub use ink::{Ink, Inks};
 pub use load::{Grain, Polarity, Turn, load, load_turned};
 pub use options::{Direction, Layout, Options, Order, Scale};
+pub use range::full_range;
 pub use separation::Colour;

@@ -188,7 +188,8 @@ pub struct Font {
     /// from [`Self::kerning`] and the glyphs' anchors when a font is written.
     pub features: String,
     /// Tag → binary tables that came with a font file and go into the next one as they are.
-    /// They win over what would be built: glyph ids and characters must not have changed.
+    /// They win over what would be built, but for what follows from outlines in `head`, `hhea` and
+    /// `post`: glyph ids and characters must not have changed.
     pub carried: BTreeMap<[u8; 4], Vec<u8>>,
 }
 

@@ -55,6 +55,18 @@ impl fmt::Display for Name {
     }
 }
 
+/// A name as the classes and lookups of a feature file can have it, and one that is free.
+pub(crate) fn label(name: &str, is_free: impl Fn(&str) -> bool) -> String {
+    let fits = |c: &char| c.is_ascii_alphanumeric() || matches!(c, '.' | '_' | '-');
+    let plain = name.chars().map(|c| Some(c).filter(fits).unwrap_or('_'));
+    let plain: String = plain.collect();
+    if is_free(&plain) {
+        return plain;
+    }
+    let mut more = (1..).map(|k| format!("{plain}.{k}"));
+    more.find(|n| is_free(n)).unwrap_or_default()
+}
+
 /// A named point for attaching marks (`top`, `_top`, `entry`, `exit`), font units.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Anchor {

@@ -2,10 +2,11 @@
 
 use super::numbers::{count, to_i16, to_u16};
 use super::{WriteError, colour, layout, names, os2};
-use crate::types::{Font, Glyph};
+use crate::types::{Font, Glyph, Info};
 use kurbo::Rect;
 use std::collections::BTreeMap;
-use write_fonts::read::TopLevelTable;
+use write_fonts::read::tables::post::Post as StoredPost;
+use write_fonts::read::{FontData, FontRead, TopLevelTable};
 use write_fonts::tables::cmap::Cmap;
 use write_fonts::tables::gasp::{Gasp, GaspRange, GaspRangeBehavior};
 use write_fonts::tables::head::{Flags, Head, MacStyle};
@@ -46,7 +47,6 @@ pub(super) fn common(font: &Font, extents: &[Option<Rect>]) -> Result<Common, Wr
         add(&mut builder, "CPAL", &cpal)?;
     }
     let features = layout::compile(font)?;
-    let carried = font.carried.clone();
     if let Some(gsub) = &features.gsub {
         add(&mut builder, "GSUB", gsub)?;
     }
@@ -61,8 +61,16 @@ pub(super) fn common(font: &Font, extents: &[Option<Rect>]) -> Result<Common, Wr
         maxp: Maxp::new(count(font.glyphs().len(), "the number of glyphs")?),
         post: post(font)?,
         builder,
-        carried,
+        carried: font.carried.clone(),
     })
+}
+
+/// Carried tables of which only a part is kept: what does not follow from the outlines.
+const KEPT_IN_PART: [&[u8; 4]; 3] = [b"head", b"hhea", b"post"];
+
+/// A table that came with the font, where it is a readable one.
+fn carried<'a, T: FontRead<'a, Args = ()>>(font: &'a Font, tag: &[u8; 4]) -> Option<T> {
+    T::read(FontData::new(font.carried.get(tag)?)).ok()
 }
 
 impl Common {
@@ -75,7 +83,8 @@ impl Common {
         add(&mut self.builder, "maxp", &self.maxp)?;
         add(&mut self.builder, "post", &self.post)?;
         outlines(&mut self.builder)?;
-        for (tag, table) in self.carried {
+        let whole = |(tag, _): &([u8; 4], _)| !KEPT_IN_PART.contains(&tag);
+        for (tag, table) in self.carried.into_iter().filter(whole) {
             self.builder.add_raw(Tag::new(&tag), table);
         }
         Ok(self.builder.build())
@@ -122,7 +131,6 @@ fn hmtx(font: &Font, advances: &[u16], extents: &[Option<Rect>]) -> Result<Hmtx,
 }
 
 fn hhea(font: &Font, advances: &[u16], extents: &[Option<Rect>]) -> Result<Hhea, WriteError> {
-    let m = font.info.metrics;
     let inked: Vec<(f64, Rect)> = advances
         .iter()
         .zip(extents)
@@ -137,18 +145,30 @@ fn hhea(font: &Font, advances: &[u16], extents: &[Option<Rect>]) -> Result<Hhea,
         .rev()
         .take_while(|a| Some(*a) == last)
         .count();
-    let slope = caret_slope(font.info.italic_angle)?;
+    let own = match carried(font, b"hhea") {
+        Some(own) => own,
+        None => line(&font.info)?,
+    };
     Ok(Hhea {
-        ascender: word(m.ascender, "the ascender")?,
-        descender: word(m.descender, "the descender")?,
-        line_gap: word(m.line_gap, "the line gap")?,
         advance_width_max: UfWord::new(advances.iter().copied().max().unwrap_or(0)),
         min_left_side_bearing: word(least(&|(_, r)| r.x0), "a left sidebearing")?,
         min_right_side_bearing: word(least(&|(a, r)| a - r.x1), "a right sidebearing")?,
         x_max_extent: word(-least(&|(_, r)| -r.x1), "the right edge of a glyph")?,
+        number_of_h_metrics: count(advances.len() + 1 - tail.max(1), "the number of advances")?,
+        ..own
+    })
+}
+
+/// What a font says of its lines: their heights, and the slope of the text cursor.
+fn line(info: &Info) -> Result<Hhea, WriteError> {
+    let word = |v: f64, what: &str| to_i16(v, || what.to_owned()).map(FWord::new);
+    let (m, slope) = (info.metrics, caret_slope(info.italic_angle)?);
+    Ok(Hhea {
+        ascender: word(m.ascender, "the ascender")?,
+        descender: word(m.descender, "the descender")?,
+        line_gap: word(m.line_gap, "the line gap")?,
         caret_slope_rise: slope.0,
         caret_slope_run: slope.1,
-        number_of_h_metrics: count(advances.len() + 1 - tail.max(1), "the number of advances")?,
         ..Hhea::default()
     })
 }
@@ -178,23 +198,35 @@ fn head(font: &Font, extents: &[Option<Rect>]) -> Result<Head, WriteError> {
     let all = extents.iter().flatten().copied().reduce(|a, b| a.union(b));
     let all = all.unwrap_or(Rect::ZERO);
     let edge = |v: f64| to_i16(v, || "the edge of a glyph".to_owned());
-    let style = font.info.linked_style();
-    let when = |set: bool, flag| if set { flag } else { MacStyle::empty() };
-    let created = LongDateTime::new(font.info.created.saturating_add(EPOCH_1904));
+    let own = carried(font, b"head").unwrap_or_else(|| description(&font.info));
+    let instructed =
+        Flags::INSTRUCTIONS_MAY_DEPEND_ON_POINT_SIZE | Flags::INSTRUCTIONS_MAY_ALTER_ADVANCE_WIDTH;
     Ok(Head {
-        font_revision: Fixed::from_f64(names::version(&font.info).parse().unwrap_or_default()),
-        flags: Flags::BASELINE_AT_Y_0 | Flags::LSB_AT_X_0,
+        checksum_adjustment: 0,
+        flags: own.flags.difference(instructed) | Flags::LSB_AT_X_0,
         units_per_em: font.info.units_per_em,
-        created,
-        modified: created,
         x_min: edge(all.x0)?,
         y_min: edge(all.y0)?,
         x_max: edge(all.x1)?,
         y_max: edge(all.y1)?,
+        ..own
+    })
+}
+
+/// What a font says of its date, version and style.
+fn description(info: &Info) -> Head {
+    let style = info.linked_style();
+    let when = |set: bool, flag| if set { flag } else { MacStyle::empty() };
+    let created = LongDateTime::new(info.created.saturating_add(EPOCH_1904));
+    Head {
+        font_revision: Fixed::from_f64(info.version_text().parse().unwrap_or_default()),
+        flags: Flags::BASELINE_AT_Y_0,
+        created,
+        modified: created,
         mac_style: when(style.is_bold, MacStyle::BOLD) | when(style.is_italic, MacStyle::ITALIC),
         lowest_rec_ppem: 6,
         ..Head::default()
-    })
+    }
 }
 
 /// A table of names numbers them from behind the 258 of every Macintosh font, in 16 bits.
@@ -211,6 +243,15 @@ fn post(font: &Font) -> Result<Post, WriteError> {
             ..Post::default()
         }
     };
+    if let Some(own) = carried::<StoredPost<'_>>(font, b"post") {
+        return Ok(Post {
+            italic_angle: own.italic_angle(),
+            underline_position: own.underline_position(),
+            underline_thickness: own.underline_thickness(),
+            is_fixed_pitch: own.is_fixed_pitch(),
+            ..names
+        });
+    }
     let word = |v: f64| to_i16(v, || "the underline".to_owned()).map(FWord::new);
     Ok(Post {
         italic_angle: Fixed::from_f64(font.info.italic_angle),

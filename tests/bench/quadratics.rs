@@ -21,7 +21,7 @@ fn main() {
         return;
     };
     let data = fs::read(path).expect("a readable file");
-    let font = read::font(&data, &[]).expect("a font").font;
+    let font = read::font(&data, None, &[]).expect("a font").font;
     let all = args.iter().any(|a| a == "all");
     let wanted = |g: &&Glyph| all || g.codepoints.iter().any(|&c| LATIN.contains(c));
     let drawn = font.glyphs().iter().filter(wanted).map(|g| &g.outline);

@@ -2,7 +2,7 @@
 
 use super::{Named, held};
 use crate::read::{ReadError, listed};
-use crate::types::{Kerning, Name};
+use crate::types::{Kerning, Name, label};
 use std::collections::BTreeMap;
 
 /// What the names of kerning groups begin with, for the first and the second of a pair.
@@ -36,7 +36,7 @@ pub(super) fn kerning(
                 own == group.as_str()
                     || !groups[side].contains_key(name) && !source.groups.contains_key(own.as_str())
             };
-            let legal = legal(&group[SIDES[side].len()..], is_free);
+            let legal = label(&group[SIDES[side].len()..], is_free);
             sides[side].insert(group, format!("@{legal}"));
             groups[side].insert(legal, there);
         }
@@ -67,16 +67,4 @@ pub(super) fn kerning(
         second,
         pairs,
     })
-}
-
-/// A group's name as a feature file can have it, and one that is free.
-fn legal(group: &str, is_free: impl Fn(&str) -> bool) -> String {
-    let fits = |c: &char| c.is_ascii_alphanumeric() || matches!(c, '.' | '_' | '-');
-    let plain = group.chars().map(|c| Some(c).filter(fits).unwrap_or('_'));
-    let plain: String = plain.collect();
-    if is_free(&plain) {
-        return plain;
-    }
-    let mut more = (1..).map(|k| format!("{plain}.{k}"));
-    more.find(|n| is_free(n)).unwrap_or_default()
 }

@@ -3,14 +3,14 @@
 mod info;
 mod kerning;
 
-use super::{Names, ReadError, Reading, notdef};
+use super::{Names, ReadError, Reading, listed, notdef};
 use crate::types::{Anchor, Component, Font, Glyph, Name, Outline};
 use info::{info, unread};
 use kerning::kerning;
 use kurbo::{PathEl, Point};
 use norad::{ContourPoint, PointType};
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Key of the lib that says which glyphs are layers of which colour.
 const COLOURS: &str = "com.github.googlei18n.ufo2ft.colorLayers";
@@ -44,6 +44,7 @@ pub fn ufo(folder: &Path) -> Result<Reading, ReadError> {
     lost.extend(unread(&source.font_info, &font.info));
     font.kerning = kerning(&source, &named, &mut lost)?;
     font.features.clone_from(&source.features);
+    lost.extend(beside(&source, &all));
     let layers = source.iter_layers().count();
     lost.extend((layers > 1).then(|| format!("{} layers beside the default one", layers - 1)));
     let coloured = source.lib.contains_key(COLOURS);
@@ -52,6 +53,51 @@ pub fn ufo(folder: &Path) -> Result<Reading, ReadError> {
     );
     lost.extend(names.lost());
     Ok(Reading { font, lost })
+}
+
+/// Keys of libs that are read, or follow from what is.
+const ANSWERED: [&str; 4] = [
+    "public.glyphOrder",
+    COLOURS,
+    "com.github.googlei18n.ufo2ft.colorPalettes",
+    BUILT,
+];
+/// By this a build of khatt knows what it made.
+const BUILT: &str = "khatt.built";
+/// Classes of glyphs: they follow from anchors in a UFO that khatt made.
+const CLASSES: &str = "public.openTypeCategories";
+
+/// What a UFO has beside the font, a line a kind.
+fn beside(source: &norad::Font, all: &[&norad::Glyph]) -> Vec<String> {
+    let ours = source.lib.contains_key(BUILT);
+    let answered = |key: &str| ANSWERED.contains(&key) || ours && key == CLASSES;
+    let other = |key: &&String| !answered(key);
+    let keys: Vec<String> = source.lib.keys().filter(other).cloned().collect();
+    let files =
+        |keys: &mut dyn Iterator<Item = &PathBuf>| keys.map(|p| p.display().to_string()).collect();
+    let with = |has: &dyn Fn(&norad::Glyph) -> bool| -> Vec<String> {
+        let found = all.iter().filter(|g| has(g));
+        found.map(|g| g.name().to_string()).collect()
+    };
+    let kinds = [
+        ("keys of the lib", keys),
+        ("data files", files(&mut source.data.keys())),
+        ("pictures", files(&mut source.images.keys())),
+        ("pictures in glyphs", with(&|g| g.image.is_some())),
+        (
+            "glyphs with guidelines",
+            with(&|g| !g.guidelines.is_empty()),
+        ),
+        ("glyphs with notes", with(&|g| g.note.is_some())),
+        (
+            "glyphs with libs",
+            with(&|g| g.lib.keys().any(|k| other(&k))),
+        ),
+    ];
+    kinds
+        .iter()
+        .filter_map(|(what, found)| listed(what, found))
+        .collect()
 }
 
 /// Glyph names in the order the UFO gives, then the others by name.

@@ -7,8 +7,8 @@ mod charstring;
 mod dict;
 mod widths;
 
+use super::WriteError;
 use super::numbers::count;
-use super::{WriteError, names};
 use crate::types::Font;
 use dict::{Dict, index};
 use kurbo::{BezPath, Rect};
@@ -140,7 +140,7 @@ fn describe(font: &Font, top: &mut Dict, strings: &mut Strings) -> Result<(), Wr
     let info = &font.info;
     let full = format!("{} {}", info.family, info.style);
     let texts = [
-        (VERSION, Some(names::version(info))),
+        (VERSION, Some(info.version_text())),
         (NOTICE, info.copyright.clone()),
         (FULL_NAME, Some(full)),
         (FAMILY_NAME, Some(info.family.clone())),

@@ -1,8 +1,8 @@
 //! Where marks attach, by the anchors of glyphs: `mark`, `mkmk`, and the classes of glyphs; and `curs`.
 
 use super::push;
-use crate::types::{Anchor, Font, Glyph};
-use std::collections::BTreeMap;
+use crate::types::{Anchor, Font, Glyph, label};
+use std::collections::{BTreeMap, BTreeSet};
 
 /// The class of a glyph in GDEF.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -48,24 +48,41 @@ pub(super) fn cursive(font: &Font) -> String {
     format!("\nfeature curs {{\n    lookupflag RightToLeft IgnoreMarks;\n{rules}}} curs;\n")
 }
 
+/// The marks that attach by one anchor.
+struct Attaching<'a> {
+    /// The anchor's name as a feature file can have it.
+    label: String,
+    marks: Vec<(&'a Glyph, &'a Anchor)>,
+}
+
 /// Glyphs with anchors, sorted by what they are.
 pub(super) struct Marks<'a> {
-    /// Anchor name without `_` → the marks that attach by it.
-    attaching: BTreeMap<&'a str, Vec<(&'a Glyph, &'a Anchor)>>,
+    /// By the anchor's name without `_`.
+    attaching: BTreeMap<&'a str, Attaching<'a>>,
     classed: Vec<(&'a Glyph, Class)>,
 }
 
 impl<'a> Marks<'a> {
     pub(super) fn of(font: &'a Font) -> Self {
-        let mut attaching: BTreeMap<&str, Vec<(&Glyph, &Anchor)>> = BTreeMap::new();
+        let mut found: BTreeMap<&str, Vec<(&Glyph, &Anchor)>> = BTreeMap::new();
         let mut classed = Vec::new();
         for glyph in font.glyphs() {
             classed.extend(class(glyph).map(|c| (glyph, c)));
             for anchor in &glyph.anchors {
                 if let Some(name) = anchor.name.strip_prefix('_') {
-                    attaching.entry(name).or_default().push((glyph, anchor));
+                    found.entry(name).or_default().push((glyph, anchor));
                 }
             }
+        }
+        let names: BTreeSet<&str> = found.keys().copied().collect();
+        let mut attaching = BTreeMap::<&str, Attaching<'_>>::new();
+        for (name, marks) in found {
+            let free = |label: &str| {
+                label == name
+                    || !names.contains(label) && attaching.values().all(|a| a.label != label)
+            };
+            let label = label(name, free);
+            attaching.insert(name, Attaching { label, marks });
         }
         Self { attaching, classed }
     }
@@ -77,11 +94,11 @@ impl<'a> Marks<'a> {
 
     pub(super) fn classes(&self) -> String {
         let mut out = String::from("\n");
-        for (name, marks) in &self.attaching {
+        for Attaching { label, marks } in self.attaching.values() {
             for (glyph, anchor) in marks {
                 push(
                     &mut out,
-                    format_args!("markClass {} {} @mark.{name};\n", glyph.name, at(anchor)),
+                    format_args!("markClass {} {} @mark.{label};\n", glyph.name, at(anchor)),
                 );
             }
         }
@@ -91,17 +108,18 @@ impl<'a> Marks<'a> {
     /// A feature of one lookup for each anchor name and class of glyph that carries it.
     pub(super) fn feature(&self, tag: &str, carriers: &[Class]) -> String {
         let mut body = String::new();
-        for name in self.attaching.keys() {
+        for (name, Attaching { label, .. }) in &self.attaching {
             for &carrier in carriers {
                 let glyphs = self.classed.iter().filter(|(_, c)| *c == carrier);
-                let rules: String = glyphs.filter_map(|(g, _)| rule(g, carrier, name)).collect();
+                let rule = |g: &Glyph| rule(g, carrier, [name, label]);
+                let rules: String = glyphs.filter_map(|(g, _)| rule(g)).collect();
                 if !rules.is_empty() {
                     let kind = match carrier {
                         Class::Base => "base",
                         Class::Ligature => "ligature",
                         Class::Mark => "mark",
                     };
-                    let label = format!("{tag}_{kind}_{name}");
+                    let label = format!("{tag}_{kind}_{label}");
                     push(
                         &mut body,
                         format_args!("    lookup {label} {{\n{rules}    }} {label};\n"),
@@ -143,8 +161,8 @@ fn at(anchor: &Anchor) -> String {
     format!("<anchor {} {}>", anchor.at.x.round(), anchor.at.y.round())
 }
 
-/// How one glyph carries the marks of that anchor name.
-fn rule(glyph: &Glyph, carrier: Class, name: &str) -> Option<String> {
+/// How one glyph carries the marks of an anchor of that name and label.
+fn rule(glyph: &Glyph, carrier: Class, [name, label]: [&str; 2]) -> Option<String> {
     if carrier != Class::Ligature {
         let anchor = glyph.anchors.iter().find(|a| a.name == name)?;
         let kind = if carrier == Class::Mark {
@@ -153,7 +171,7 @@ fn rule(glyph: &Glyph, carrier: Class, name: &str) -> Option<String> {
             "base"
         };
         return Some(format!(
-            "        pos {kind} {} {} mark @mark.{name};\n",
+            "        pos {kind} {} {} mark @mark.{label};\n",
             glyph.name,
             at(anchor)
         ));
@@ -178,7 +196,7 @@ fn rule(glyph: &Glyph, carrier: Class, name: &str) -> Option<String> {
     }
     let one = |i: usize| {
         parts.get(&i).map_or("<anchor NULL>".to_owned(), |a| {
-            format!("{} mark @mark.{name}", at(a))
+            format!("{} mark @mark.{label}", at(a))
         })
     };
     let all: Vec<String> = (1..=last).map(one).collect();

@@ -1,13 +1,18 @@
 //! SVG drawings → Font, a glyph each.
 
+mod clip;
+mod unread;
+
 use super::{Names, ReadError, Reading, listed, notdef};
 use crate::types::{Font, Glyph, Info, Metrics, Outline, characters};
+use clip::within;
 use kurbo::{Affine, BezPath, Point, Rect, Shape};
 use std::collections::BTreeSet;
 use std::path::Path as FilePath;
+use unread::unread;
 use usvg::roxmltree::Document;
 use usvg::tiny_skia_path::{Path, PathSegment, Point as PathPoint};
-use usvg::{FillRule, Node, Options, Tree};
+use usvg::{FillRule, Node, Options, Transform, Tree};
 
 /// The largest coordinate that the tables of a font hold, font units.
 const FARTHEST: f64 = 32_767.0;
@@ -20,10 +25,10 @@ const EM: f64 = 1000.0;
 /// Where the view box begins above zero, the user space is the em itself, baseline at y = 0, one
 /// font unit a user unit; else the box stands on the baseline and its height is the em. The advance is the box's
 /// width, or what `data-advance` says; then the glyph begins at x = 0. Fills and expanded strokes count, whatever
-/// their colour.
+/// their colour, and clip paths.
 ///
 /// # Errors
-/// A file is no SVG, or nothing is drawn in any of them.
+/// A file is no SVG, nothing of what it has can be read, or nothing is drawn in any of them.
 pub fn svg(files: &[(String, Vec<u8>)]) -> Result<Reading, ReadError> {
     let (mut names, mut lost) = (Names::default(), Vec::new());
     let mut glyphs = Vec::new();
@@ -97,13 +102,14 @@ struct Drawing {
 fn drawing(bytes: &[u8], file: &str, lost: &mut Vec<String>) -> Result<Drawing, ReadError> {
     let bad = |e: &dyn ToString| ReadError::damaged("an SVG", format!("{file}: {}", e.to_string()));
     let tree = Tree::from_data(bytes, &Options::default()).map_err(|e| bad(&e))?;
+    let document = Document::parse(std::str::from_utf8(bytes).unwrap_or_default()).ok();
     let size = tree.size();
     let (w, h) = (f64::from(size.width()), f64::from(size.height()));
     let Frame {
         view,
         user,
         advance,
-    } = frame(bytes, [w, h]);
+    } = frame(document.as_ref(), [w, h]);
     let [x, y, bw, bh] = view;
     // From the picture's pixels, y down, to the user space, and from there to the em.
     let (scale, base) = if y < 0.0 {
@@ -113,8 +119,18 @@ fn drawing(bytes: &[u8], file: &str, lost: &mut Vec<String>) -> Result<Drawing, 
     };
     let (left, width) = advance.map_or((x, bw), |advance| (0.0, advance));
     let place = Affine::scale(scale) * Affine::translate((-left, base)) * Affine::FLIP_Y * user;
-    let mut contours = Vec::new();
-    collect(tree.root(), place, &mut contours, (file, lost));
+    let mut missing = document.as_ref().map_or_else(Vec::new, unread);
+    let contours = collect(tree.root(), place, &mut missing);
+    let missing = (!missing.is_empty()).then(|| missing.join(", "));
+    match missing {
+        Some(what) if contours.is_empty() => {
+            return Err(ReadError::Undrawn {
+                file: file.to_owned(),
+                what,
+            });
+        }
+        some => lost.extend(some.map(|what| format!("{file}: {what}"))),
+    }
     let outline = Outline::new(contours).map_err(|e| bad(&e))?;
     if let Some(far) = outline.bounds().map(farthest).filter(|far| *far > FARTHEST) {
         return Err(bad(&format!(
@@ -140,10 +156,8 @@ struct Frame {
 }
 
 /// The frame of a picture of that size, px.
-fn frame(bytes: &[u8], size: [f64; 2]) -> Frame {
-    let text = std::str::from_utf8(bytes).unwrap_or_default();
-    let document = Document::parse(text).ok();
-    let said = |name| document.as_ref()?.root_element().attribute(name);
+fn frame(document: Option<&Document<'_>>, size: [f64; 2]) -> Frame {
+    let said = |name| document?.root_element().attribute(name);
     let advance = said("data-advance").and_then(|v| v.parse().ok());
     let advance = advance.filter(|v: &f64| v.is_finite() && *v >= 0.0);
     let Some(view) = said("viewBox").and_then(view_box) else {
@@ -197,33 +211,43 @@ fn unfitted([x, y, bw, bh]: [f64; 4], [w, h]: [f64; 2], aspect: &str) -> Affine 
         * Affine::translate((-dx, -dy))
 }
 
-fn collect(
-    group: &usvg::Group,
-    place: Affine,
-    out: &mut Vec<BezPath>,
-    (file, lost): (&str, &mut Vec<String>),
-) {
+/// The contours of a group and of all in it, cut at its clip path.
+fn collect(group: &usvg::Group, place: Affine, lost: &mut Vec<String>) -> Vec<BezPath> {
+    let place = place * affine(group.transform());
+    let mut out = Vec::new();
     for node in group.children() {
         match node {
-            Node::Group(g) => collect(g, place, out, (file, lost)),
+            Node::Group(g) => out.extend(collect(g, place, lost)),
             Node::Path(p) if p.is_visible() => {
-                let t = p.abs_transform();
-                let own = Affine::new([t.sx, t.ky, t.kx, t.sy, t.tx, t.ty].map(f64::from));
                 if let Some(fill) = p.fill() {
-                    out.extend(contours(p.data(), place * own, fill.rule()));
+                    out.extend(contours(p.data(), place, fill.rule()));
                 }
                 let stroked = p
                     .stroke()
                     .and_then(|s| p.data().stroke(&s.to_tiny_skia(), 1.0));
                 if let Some(path) = stroked {
-                    out.extend(contours(&path, place * own, FillRule::NonZero));
+                    out.extend(contours(&path, place, FillRule::NonZero));
                 }
             }
-            Node::Path(_) => {}
-            Node::Image(_) => lost.push(format!("a picture in {file}")),
-            Node::Text(_) => lost.push(format!("text in {file}")),
+            // those that are no paths are listed by their elements
+            Node::Path(_) | Node::Image(_) | Node::Text(_) => {}
         }
     }
+    let mut clip = group.clip_path();
+    while let Some(one) = clip {
+        let area = collect(one.root(), place * affine(one.transform()), lost);
+        match within(&out, &area) {
+            Some(cut) => out = cut,
+            None => lost.push(format!("clip path {}", one.id())),
+        }
+        clip = one.clip_path();
+    }
+    lost.extend(group.mask().map(|m| format!("mask {}", m.id())));
+    out
+}
+
+fn affine(t: Transform) -> Affine {
+    Affine::new([t.sx, t.ky, t.kx, t.sy, t.tx, t.ty].map(f64::from))
 }
 
 /// A path's contours, closed, run so that what its rule fills is filled by winding, outside counter-clockwise.
