@@ -222,6 +222,33 @@ fn clip_paths_cut() {
     }
 }
 
+/// A stroke on a clip path of one path and a circle of that radius.
+fn stroked(ink: &str, clip: &str, radius: u16) -> Reading {
+    let svg = format!(
+        r#"<clipPath id="c"><path d="{clip}"/><circle cx="500" cy="500" r="{radius}"/></clipPath>
+        <path d="{ink}" clip-path="url(#c)" stroke="red" stroke-width="20"/>"#
+    );
+    drawings(&[("A", &svg)]).expect("a drawing")
+}
+
+#[test]
+fn what_cannot_be_cut_is_named_and_stays() {
+    let clip = "M550 -50L1050 -200A200.0 1050.0 10 0 1 450 400zM550 700L-64.567 886.214C1150 450 250 822.695 \
+        -100 750C-200 -200 250 -200 1050 1000Q800 600 -100 213.405T150 400z";
+    let ink = "M50 0C750 300.138 600 -100 0 850T150 -50Q850 200 100 650A550.0 1050.0 10 0 0 400 850T1050 \
+        1000zM650 -100C1100 203.716 450 1050 950 1100C250 -50 650 100 500 150H350z";
+    // the library would never come to an end
+    assert_eq!(stroked(ink, clip, 31).lost, ["A.svg: clip path c"]);
+}
+
+#[test]
+fn strokes_of_ends_a_hair_apart_are_cut() {
+    let clip = "M198 780.951L88 981zM1034 -69C75 -197 422 -91 724 -89V333.794T220 -119L652 323V739.332L480 95z";
+    let ink = "M1062 538L667.036 1033zM442 232V-89A1147.0 108.252 10 1 0 912 24H78.028L771 812H736T293 \
+        604.352V-107z";
+    assert_eq!(stroked(ink, clip, 262).lost, Vec::<String>::new());
+}
+
 #[test]
 fn what_is_not_drawn_is_named() {
     let square = r#"<rect width="100" height="100"/>"#;
