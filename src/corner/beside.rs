@@ -52,7 +52,7 @@ impl<'a> Corners<'a> {
         Self {
             points: contour.points(),
             clear: clearance_px(contour),
-            floor: scatter_px(contour.ragged_px()),
+            floor: scatter_px(contour.ragged_px()).hypot(contour.scatter_px()),
             reach: REACH_PX + RAGGED * contour.ragged_px(),
             at,
         }

@@ -8,7 +8,7 @@ use super::world::World;
 use crate::assemble::names;
 use crate::numeric::tone;
 use crate::scan::{Cut, Pin, Region};
-use crate::types::{Gray, Label, Name};
+use crate::types::{Label, Name};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The project with the corrections of the file that it names among its own, which go before them.
@@ -139,9 +139,9 @@ impl Corrections {
             }
             if let Some(level) = table.threshold {
                 let gray = &cell.gray;
-                cell.gray = Gray::from_fn(gray.width(), gray.height(), |x, y| {
-                    tone::at_half(gray.at(x, y), level)
-                });
+                let samples = gray.samples().iter();
+                let samples = samples.map(|v| tone::at_half(*v, level)).collect();
+                cell.gray = gray.with_samples(samples);
             }
         }
     }

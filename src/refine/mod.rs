@@ -126,7 +126,8 @@ impl<'a> Ring<'a> {
         let n = corners.len();
         let before = self.between(corners[(k + n - 1) % n], corners[k]);
         let after = self.between(corners[k], corners[(k + 1) % n]);
-        let floor = scatter_px(self.from.0.ragged_px());
+        let from = &self.from.0;
+        let floor = scatter_px(from.ragged_px()).hypot(from.scatter_px());
         let sides = (
             Side::beside(&before, Place::Before, floor)?,
             Side::beside(&after, Place::After, floor)?,

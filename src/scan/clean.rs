@@ -6,6 +6,7 @@
 use super::error::ScanError;
 use super::light::Field;
 use super::paper::Paper;
+use super::steps::softened;
 use super::whole::{floor, narrow, ratio};
 use crate::types::{Gray, Sheet};
 use rayon::prelude::*;
@@ -43,6 +44,7 @@ pub struct Page {
 /// # Errors
 /// Nothing on the page is darker than its paper.
 pub fn clean(sheet: Sheet) -> Result<Page, ScanError> {
+    let sheet = grey(sheet);
     let field = Field::measure(&sheet.gray);
     let paper = field.paper();
     even(sheet, &field, paper.filter(|p| p.share < SURROUNDED))
@@ -54,11 +56,20 @@ pub fn clean(sheet: Sheet) -> Result<Page, ScanError> {
 /// # Errors
 /// Nothing on the page is darker than its paper.
 pub fn clean_paper(sheet: Sheet) -> Result<Option<Page>, ScanError> {
+    let sheet = grey(sheet);
     let field = Field::measure(&sheet.gray);
     field
         .paper()
         .map(|p| even(sheet, &field, Some(p)))
         .transpose()
+}
+
+/// The sheet in grey levels, softened where it has but two.
+fn grey(sheet: Sheet) -> Sheet {
+    match softened(&sheet.gray) {
+        Some(gray) => Sheet { gray, ..sheet },
+        None => sheet,
+    }
 }
 
 fn even(sheet: Sheet, field: &Field, paper: Option<Paper>) -> Result<Page, ScanError> {
@@ -73,6 +84,7 @@ fn even(sheet: Sheet, field: &Field, paper: Option<Paper>) -> Result<Page, ScanE
     let levels = levels.ok_or_else(|| ScanError::Blank {
         source_name: source.clone(),
     })?;
+    let scatter_px = gray.scatter_px();
     let mut samples = gray.into_samples();
     let scale = 1.0 / (levels.ink - levels.paper);
     let (low, high) = (-Gray::OVERSHOOT, 1.0 + Gray::OVERSHOOT);
@@ -89,7 +101,7 @@ fn even(sheet: Sheet, field: &Field, paper: Option<Paper>) -> Result<Page, ScanE
     })?;
     Ok(Page {
         sheet: Sheet {
-            gray,
+            gray: gray.with_scatter(scatter_px),
             colours,
             dpi,
             source,

@@ -25,6 +25,7 @@ mod paper;
 mod perspective;
 mod range;
 mod separation;
+mod steps;
 mod whole;
 
 pub use clean::{Page, clean, clean_paper};
@@ -36,3 +37,4 @@ pub use load::{Grain, Polarity, Turn, load, load_turned};
 pub use options::{Direction, Layout, Options, Order, Scale};
 pub use range::full_range;
 pub use separation::Colour;
+pub use steps::softened;

@@ -82,7 +82,10 @@ pub fn trace(gray: &Gray, options: &Options) -> Vec<Contour> {
         even = large(rings, options).filter_map(spaced).collect();
     }
     let ragged = ragged::ragged_px(&even);
-    let told = |c: Contour| c.with_blur(blur).with_ragged(ragged);
+    let told = |c: Contour| {
+        let c = c.with_blur(blur).with_ragged(ragged);
+        c.with_scatter(gray.scatter_px())
+    };
     even.into_iter().map(told).collect()
 }
 

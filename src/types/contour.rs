@@ -33,6 +33,7 @@ pub struct Contour {
     points: Vec<Point>,
     blur_px: f64,
     ragged_px: f64,
+    scatter_px: f64,
 }
 
 impl Contour {
@@ -58,6 +59,7 @@ impl Contour {
                 points,
                 blur_px: Self::PIXEL_BLUR_PX,
                 ragged_px: 0.0,
+                scatter_px: 0.0,
             })
         }
     }
@@ -107,6 +109,21 @@ impl Contour {
         self.ragged_px
     }
 
+    /// The same ring, of a picture whose edges are off by a standard deviation of `scatter_px`.
+    #[must_use]
+    pub const fn with_scatter(mut self, scatter_px: f64) -> Self {
+        self.scatter_px = scatter_px;
+        self
+    }
+
+    /// How far off its points are beyond what they show themselves, a standard deviation, px ([`Gray::scatter_px`]).
+    ///
+    /// [`Gray::scatter_px`]: super::Gray::scatter_px
+    #[must_use]
+    pub const fn scatter_px(&self) -> f64 {
+        self.scatter_px
+    }
+
     /// Length once around, px.
     #[must_use]
     pub fn length(&self) -> f64 {
@@ -150,6 +167,7 @@ impl Contour {
             return Spans {
                 points: self.points.clone(),
                 ranges: Vec::new(),
+                scatter_px: self.scatter_px,
             };
         };
         let mut points = Vec::with_capacity(n + 1);
@@ -163,7 +181,11 @@ impl Contour {
                 Some(r)
             })
             .collect();
-        Spans { points, ranges }
+        Spans {
+            points,
+            ranges,
+            scatter_px: self.scatter_px,
+        }
     }
 }
 
@@ -172,9 +194,16 @@ impl Contour {
 pub struct Spans {
     points: Vec<Point>,
     ranges: Vec<Range<usize>>,
+    scatter_px: f64,
 }
 
 impl Spans {
+    /// How far off their points are beyond what they show themselves ([`Contour::scatter_px`]).
+    #[must_use]
+    pub const fn scatter_px(&self) -> f64 {
+        self.scatter_px
+    }
+
     /// The spans in order around the ring; each open one starts with the last point of the one before.
     pub fn iter(&self) -> impl Iterator<Item = Span<'_>> {
         let ring = self.ranges.is_empty().then_some(Span::Ring(&self.points));

@@ -35,6 +35,7 @@ pub struct Gray {
     width: usize,
     height: usize,
     samples: Vec<f32>,
+    scatter_px: f64,
 }
 
 impl Gray {
@@ -66,6 +67,7 @@ impl Gray {
             width,
             height,
             samples,
+            scatter_px: 0.0,
         })
     }
 
@@ -80,6 +82,7 @@ impl Gray {
             width,
             height,
             samples,
+            scatter_px: 0.0,
         }
     }
 
@@ -89,6 +92,20 @@ impl Gray {
         samples.resize(self.samples.len(), 0.0);
         samples.iter_mut().for_each(|v| *v = Self::cut(*v));
         Self { samples, ..*self }
+    }
+
+    /// The same picture, of edges that are off by a standard deviation of `scatter_px`, which its samples do not show.
+    #[must_use]
+    pub const fn with_scatter(mut self, scatter_px: f64) -> Self {
+        self.scatter_px = scatter_px;
+        self
+    }
+
+    /// How far off its edges are beyond what its samples show, a standard deviation, px: 0 of a grey picture, not of one
+    /// that had two levels.
+    #[must_use]
+    pub const fn scatter_px(&self) -> f64 {
+        self.scatter_px
     }
 
     fn cut(v: f32) -> f32 {

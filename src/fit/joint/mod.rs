@@ -51,6 +51,9 @@ const SHORT: usize = 16;
 /// A curve further than this from its span, in tolerances, has lost its way.
 const STRAY: f64 = 3.0;
 
+/// Errors that are spread evenly reach so many of their standard deviations.
+const EVEN: f64 = 1.732;
+
 impl Fitter for Joint {
     fn fit(&self, span: Span<'_>, tolerance_px: f64) -> Result<Fitted, FitError> {
         let (points, turned) = canonical(span);
@@ -66,11 +69,18 @@ impl Fitter for Joint {
     }
 
     fn contour(&self, spans: &Spans, tolerance_px: f64) -> Result<BezPath, FitError> {
-        let whole = contour::welded(self, spans, tolerance_px);
+        // points whose scatter they do not show themselves may lie as far off beside what is aimed at
+        let scatter = spans.scatter_px();
+        let least = self.least_noise * tolerance_px;
+        let tolerance_px = tolerance_px + EVEN * scatter;
+        let joint = Self {
+            least_noise: least.max(scatter) / tolerance_px,
+        };
+        let whole = contour::welded(&joint, spans, tolerance_px);
         if let Some((path, Verdict::Met)) = whole {
             return Ok(path);
         }
-        let apart = path::joined(self, spans, tolerance_px)?;
+        let apart = path::joined(&joint, spans, tolerance_px)?;
         let inner = |s: Span<'_>| {
             let within = s.points().iter().skip(1).rev().skip(1);
             within.copied().collect::<Vec<_>>()

@@ -8,6 +8,8 @@ pub use options::Options;
 
 use crate::fit::{self, FitError};
 use crate::refine::Cornered;
+use crate::scan;
+use crate::trace::Boundary;
 use crate::types::Gray;
 use contours::{found, sharp};
 use kurbo::BezPath;
@@ -18,7 +20,8 @@ use kurbo::BezPath;
 /// # Errors
 /// An option of the fitter is outside its range.
 pub fn trace_picture(gray: &Gray, options: &Options) -> Result<Vec<BezPath>, FitError> {
-    let (coverage, found) = found(gray, options);
+    let soft = softened(gray, options);
+    let (coverage, found) = found(soft.as_ref().unwrap_or(gray), options);
     let paths = options.curves(&sharp(&coverage, &found, options))?;
     if matches!(options.fit, fit::Method::Joint(_)) {
         review::reviewed(&coverage, &found, &paths, options)
@@ -27,9 +30,17 @@ pub fn trace_picture(gray: &Gray, options: &Options) -> Result<Vec<BezPath>, Fit
     }
 }
 
+/// The picture in grey levels, for the methods that look at them, where it has but two.
+fn softened(gray: &Gray, options: &Options) -> Option<Gray> {
+    let looks =
+        matches!(options.fit, fit::Method::Joint(_)) && options.trace.boundary == Boundary::Iso;
+    looks.then(|| scan::softened(gray)).flatten()
+}
+
 /// The contours of a picture's ink with their corners sharp, and the corners' indices.
 #[must_use]
 pub fn edges(gray: &Gray, options: &Options) -> Vec<Cornered> {
-    let (coverage, found) = found(gray, options);
+    let soft = softened(gray, options);
+    let (coverage, found) = found(soft.as_ref().unwrap_or(gray), options);
     sharp(&coverage, &found, options)
 }

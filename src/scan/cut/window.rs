@@ -139,6 +139,8 @@ struct Patch {
     /// Its corner in the sheet, px.
     origin: Point,
     samples: Vec<f32>,
+    /// As the page's.
+    scatter_px: f64,
 }
 
 impl Patch {
@@ -158,6 +160,7 @@ impl Patch {
             height,
             origin: area.origin(),
             samples: rows.collect(),
+            scatter_px: gray.scatter_px(),
         };
         let mut own = vec![u16::MAX; width * height];
         for r in parts.iter().flat_map(|c| &c.runs) {
@@ -242,14 +245,15 @@ impl Patch {
         if let Some(shift) = to_sheet.affine().and_then(whole_shift) {
             let shift = shift - self.origin.to_vec2();
             let at = |x: usize, y: usize| self.at(x as f64 + shift.x, y as f64 + shift.y);
-            return Gray::from_fn(w, h, at);
+            return Gray::from_fn(w, h, at).with_scatter(self.scatter_px);
         }
         let kernel = Kernel::new();
         let to_patch = View::from(Affine::translate(-self.origin.to_vec2())) * *to_sheet;
-        Gray::from_fn(w, h, |x, y| {
+        let gray = Gray::from_fn(w, h, |x, y| {
             let p = to_patch.at(Point::new(x as f64 + 0.5, y as f64 + 0.5));
             kernel.sample(self, p.x - 0.5, p.y - 0.5)
-        })
+        });
+        gray.with_scatter(self.scatter_px)
     }
 
     fn mark(&self, r: &Run, mask: &mut [u16]) {
