@@ -120,6 +120,54 @@ fn wrong_use_exits_2_with_a_usage_line() {
     }
 }
 
+/// A grey TIFF whose pages all show the same strip, with `spare` bytes between header and strip.
+#[cfg(target_os = "linux")]
+fn tiff(pages: usize, (width, height): (u32, u32), spare: usize) -> Vec<u8> {
+    let mut file = b"II*\0\0\0\0\0".to_vec();
+    file.resize(8 + spare, 0);
+    let (strip, size) = (file.len(), width * height);
+    file.extend((0..size).map(|i| if i % width < width / 2 { 0 } else { 255 }));
+    let whole = |n: usize| u32::try_from(n).expect("32 bits");
+    let mut link = 4;
+    for _ in 0..pages {
+        let at = whole(file.len()).to_le_bytes();
+        file[link..link + 4].copy_from_slice(&at);
+        let fields = [
+            (256u16, width),
+            (257, height),
+            (258, 8),
+            (259, 1),
+            (262, 1),
+            (273, whole(strip)),
+            (277, 1),
+            (278, height),
+            (279, size),
+        ];
+        file.extend([9, 0]);
+        for (tag, value) in fields {
+            file.extend(tag.to_le_bytes());
+            file.extend([4, 0, 1, 0, 0, 0]);
+            file.extend(value.to_le_bytes());
+        }
+        link = file.len();
+        file.extend([0; 4]);
+    }
+    file
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn pages_of_one_file_share_its_bytes() {
+    let dir = tempfile::tempdir().expect("a folder");
+    fs::write(dir.path().join("many.tif"), tiff(64, (40, 30), 32_000_000)).expect("a file");
+    let limited = "ulimit -v 1500000; exec \"$0\" trace many.tif -o out.svg --jobs 1";
+    let mut shell = Command::new("sh");
+    let shell = shell.args(["-c", limited, env!("CARGO_BIN_EXE_khatt")]);
+    let out = shell.current_dir(dir.path()).output().expect("a shell");
+    let said = String::from_utf8_lossy(&out.stderr);
+    assert!(said.contains("holds 64 pictures"), "{said}");
+}
+
 #[test]
 fn a_picture_becomes_one_path_in_its_own_pixels() {
     let dir = tempfile::tempdir().expect("a folder");

@@ -123,16 +123,20 @@ pub fn load_turned(
     let pictures = if pdf::is_pdf(bytes) {
         pdf::pages(bytes, source)?
     } else {
+        let page = |file: &[u8]| Ok((decode(file, source)?, header::dpi(file)));
         let pages = header::tiff_pages(bytes);
-        let files: Vec<&[u8]> = if pages.is_empty() {
-            vec![bytes]
+        if pages.is_empty() {
+            vec![page(bytes)?]
         } else {
-            pages.iter().map(Vec::as_slice).collect()
-        };
-        let decoded = files
-            .into_iter()
-            .map(|f| Ok((decode(f, source)?, header::dpi(f))));
-        decoded.collect::<Result<_, ScanError>>()?
+            // decoders begin at the first page: one copy, whose header points to one after the other
+            let mut file = bytes.to_vec();
+            let mut begun = |first: [u8; 4]| {
+                file[header::TIFF_FIRST].copy_from_slice(&first);
+                page(&file)
+            };
+            let decoded = pages.into_iter().map(&mut begun);
+            decoded.collect::<Result<_, ScanError>>()?
+        }
     };
     let several = pictures.len() > 1;
     let name = |n: usize| {
