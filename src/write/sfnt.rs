@@ -13,10 +13,11 @@ use write_fonts::tables::head::{Flags, Head, MacStyle};
 use write_fonts::tables::hhea::Hhea;
 use write_fonts::tables::hmtx::{Hmtx, LongMetric};
 use write_fonts::tables::maxp::Maxp;
+use write_fonts::tables::os2::Os2;
 use write_fonts::tables::post::Post;
 use write_fonts::types::{FWord, Fixed, GlyphId, LongDateTime, Tag, UfWord, Version16Dot16};
 use write_fonts::validate::Validate;
-use write_fonts::{FontBuilder, FontWrite};
+use write_fonts::{FontBuilder, FontWrite, dump_table};
 
 /// Seconds from the epoch of font files, 1904, to that of Unix, 1970.
 const EPOCH_1904: i64 = 2_082_844_800;
@@ -39,19 +40,36 @@ pub(super) fn common(font: &Font, extents: &[Option<Rect>]) -> Result<Common, Wr
     let advances = advances(font)?;
     add(&mut builder, "hmtx", &hmtx(font, &advances, extents)?)?;
     add(&mut builder, "hhea", &hhea(font, &advances, extents)?)?;
-    add(&mut builder, "OS/2", &os2::table(font, &advances, extents)?)?;
+    let features = layout::compile(font)?;
+    let (gsub, gpos) = (
+        dumped("GSUB", &features.gsub)?,
+        dumped("GPOS", &features.gpos)?,
+    );
+    let written = |tag, made| {
+        font.carried
+            .get(tag)
+            .or(made)
+            .map_or(&[][..], Vec::as_slice)
+    };
+    let context = layout::longest(
+        written(b"GSUB", gsub.as_ref()),
+        written(b"GPOS", gpos.as_ref()),
+    );
+    let os2 = Os2 {
+        us_max_context: Some(context),
+        ..os2::table(font, &advances, extents)?
+    };
+    add(&mut builder, "OS/2", &os2)?;
     add(&mut builder, "name", &names::table(&font.info)?)?;
     add(&mut builder, "cmap", &cmap(font)?)?;
     if let Some((colr, cpal)) = colour::tables(font)? {
         add(&mut builder, "COLR", &colr)?;
         add(&mut builder, "CPAL", &cpal)?;
     }
-    let features = layout::compile(font)?;
-    if let Some(gsub) = &features.gsub {
-        add(&mut builder, "GSUB", gsub)?;
-    }
-    if let Some(gpos) = &features.gpos {
-        add(&mut builder, "GPOS", gpos)?;
+    for (tag, table) in [(b"GSUB", gsub), (b"GPOS", gpos)] {
+        if let Some(table) = table {
+            builder.add_raw(Tag::new(tag), table);
+        }
     }
     if let Some(gdef) = &features.gdef {
         add(&mut builder, "GDEF", gdef)?;
@@ -63,6 +81,15 @@ pub(super) fn common(font: &Font, extents: &[Option<Rect>]) -> Result<Common, Wr
         builder,
         carried: font.carried.clone(),
     })
+}
+
+/// The bytes of a table that there may be.
+fn dumped<T: FontWrite + Validate>(
+    name: &str,
+    table: &Option<T>,
+) -> Result<Option<Vec<u8>>, WriteError> {
+    let bytes = table.as_ref().map(dump_table).transpose();
+    bytes.map_err(|e| WriteError::table(name, e))
 }
 
 /// Carried tables of which only a part is kept: what does not follow from the outlines.
