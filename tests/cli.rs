@@ -120,6 +120,22 @@ fn wrong_use_exits_2_with_a_usage_line() {
     }
 }
 
+#[test]
+fn a_tolerance_is_what_projects_may_have() {
+    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
+    for px in ["0", "0.0009", "1000.1", "inf", "NaN"] {
+        let out = khatt(here, &["trace", "a.png", "-o", "-", "--tolerance", px]);
+        let said = String::from_utf8_lossy(&out.stderr);
+        assert_eq!(out.status.code(), Some(2), "{px}: {said}");
+        let range = "must be between 0.001 and 1000 pixels";
+        assert!(said.contains(range), "{px}: {said}");
+    }
+    for px in ["0.001", "1000"] {
+        let out = khatt(here, &["trace", "a.png", "-o", "-", "--tolerance", px]);
+        assert_eq!(out.status.code(), Some(1), "there is no a.png");
+    }
+}
+
 /// A grey TIFF whose pages all show the same strip, with `spare` bytes between header and strip.
 #[cfg(target_os = "linux")]
 fn tiff(pages: usize, (width, height): (u32, u32), spare: usize) -> Vec<u8> {

@@ -33,7 +33,7 @@ pub(crate) struct Trace {
     #[arg(long, value_name = "METHOD", hide_possible_values = true, value_parser = PossibleValuesParser::new(corner::Method::all().iter().map(corner::Method::key)))]
     corners: Option<String>,
     /// Distance between contour and curve to aim at, in pixels
-    #[arg(long, value_name = "PX", value_parser = positive)]
+    #[arg(long, value_name = "PX", value_parser = tolerance)]
     tolerance: Option<f64>,
     /// Area of ink or paper below which it is dust, in square pixels [default: 4]
     #[arg(long, value_name = "PX2", value_parser = positive)]
@@ -127,6 +127,12 @@ impl Trace {
         }
         options
     }
+}
+
+/// A distance between contour and curve, as in project files.
+fn tolerance(text: &str) -> Result<f64, String> {
+    let px = text.parse::<f64>().map_err(|e| e.to_string())?;
+    Options::tolerance(px).map_err(str::to_owned)
 }
 
 /// A length or an area: finite and above 0.
