@@ -136,6 +136,35 @@ fn a_tolerance_is_what_projects_may_have() {
     }
 }
 
+#[test]
+fn a_picture_is_the_same_on_any_number_of_threads() {
+    let dir = tempfile::tempdir().expect("a folder");
+    // rings of many sizes, some with corners and some that touch
+    let rings = |x: u32, y: u32| {
+        let (column, row) = (x / 48, y / 48);
+        let (dx, dy) = (f64::from(x % 48) - 23.5, f64::from(y % 48) - 23.5);
+        let off = if row % 2 == 0 {
+            dx.hypot(dy)
+        } else {
+            dx.abs().max(dy.abs())
+        };
+        let inside = off < 24.5 - f64::from(column) && off > 3.0 * f64::from(row);
+        if inside { 255 } else { 0 }
+    };
+    fs::write(dir.path().join("rings.png"), png(300, 250, rings)).expect("a picture");
+    let run = |jobs: &str| {
+        khatt(
+            dir.path(),
+            &["trace", "rings.png", "-o", "-", "--jobs", jobs],
+        )
+    };
+    let one = run("1");
+    assert!(String::from_utf8_lossy(&one.stdout).matches('M').count() > 20);
+    for jobs in ["2", "7"] {
+        assert!(run(jobs).stdout == one.stdout, "{jobs} threads");
+    }
+}
+
 /// A grey TIFF whose pages all show the same strip, with `spare` bytes between header and strip.
 #[cfg(target_os = "linux")]
 fn tiff(pages: usize, (width, height): (u32, u32), spare: usize) -> Vec<u8> {

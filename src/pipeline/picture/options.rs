@@ -1,6 +1,7 @@
 //! How a picture becomes curves: a method for each stage.
 
 use crate::fit::{self, FitError};
+use crate::numeric::many::each;
 use crate::refine::Cornered;
 use crate::{corner, trace};
 use kurbo::BezPath;
@@ -50,8 +51,11 @@ impl Options {
 
     /// The curves of some contours.
     pub(super) fn curves(&self, edges: &[Cornered]) -> Result<Vec<BezPath>, FitError> {
-        let fitter = self.fit.fitter();
-        let fit = |(c, at): &Cornered| fitter.contour(&c.cut(at), self.tolerance_px);
-        edges.iter().map(fit).collect()
+        let fit = |(c, at): &Cornered| {
+            let fitter = self.fit.fitter();
+            fitter.contour(&c.cut(at), self.tolerance_px)
+        };
+        // of several errors the first contour's
+        each(edges, fit).into_iter().collect()
     }
 }
