@@ -5,6 +5,7 @@ use super::{WriteError, colour, layout, names, os2};
 use crate::types::{Font, Glyph, Info};
 use kurbo::Rect;
 use std::collections::BTreeMap;
+use std::ops::Range;
 use write_fonts::read::tables::post::Post as StoredPost;
 use write_fonts::read::{FontData, FontRead, TopLevelTable};
 use write_fonts::tables::cmap::Cmap;
@@ -106,7 +107,11 @@ impl Common {
         mut self,
         outlines: impl FnOnce(&mut FontBuilder<'static>) -> Result<(), WriteError>,
     ) -> Result<Vec<u8>, WriteError> {
-        add(&mut self.builder, "head", &self.head)?;
+        let mut head = dump_table(&self.head).map_err(|e| WriteError::table("head", e))?;
+        if let Some(own) = self.carried.get(b"head") {
+            keep_unnamed(&mut head, own);
+        }
+        self.builder.add_raw(Head::TAG, head);
         add(&mut self.builder, "maxp", &self.maxp)?;
         add(&mut self.builder, "post", &self.post)?;
         outlines(&mut self.builder)?;
@@ -115,6 +120,19 @@ impl Common {
             self.builder.add_raw(Tag::new(&tag), table);
         }
         Ok(self.builder.build())
+    }
+}
+
+/// Keeps the flags of a `head` table that the library has no names for and leaves out: bits 5 to 10, those of Apple's
+/// layout.
+fn keep_unnamed(head: &mut [u8], own: &[u8]) {
+    const FLAGS: Range<usize> = 16..18;
+    const UNNAMED: u16 = 0b0000_0111_1110_0000;
+    if let (Some(to), Some(from)) = (head.get_mut(FLAGS), own.get(FLAGS)) {
+        let bits = UNNAMED.to_be_bytes();
+        for ((to, from), bits) in to.iter_mut().zip(from).zip(bits) {
+            *to |= from & bits;
+        }
     }
 }
 
