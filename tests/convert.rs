@@ -340,6 +340,46 @@ fn saved(folder: &Path) -> PathBuf {
     path
 }
 
+#[test]
+fn a_damaged_ufo_is_told_by_its_file_and_why() {
+    let cases: [(&str, Option<&[u8]>, &str); 8] = [
+        (
+            "glyphs/O_.glif",
+            Some(b"<glyph name='O' format='2'><outline>"),
+            "unexpected EOF",
+        ),
+        ("glyphs/O_.glif", None, "there is no such file"),
+        (
+            "glyphs/contents.plist",
+            Some(b"<plist><dict><key>O"),
+            "offset",
+        ),
+        ("glyphs/contents.plist", None, "cannot find"),
+        (
+            "fontinfo.plist",
+            Some(b"<plist><dict><key>unitsPerEm</key><true/></dict></plist>"),
+            "expected",
+        ),
+        ("lib.plist", Some(b"<plist><array/></plist>"), "dictionary"),
+        ("kerning.plist", Some(b"nothing\n"), "expected"),
+        ("features.fea", Some(b"# \xff"), "utf-8"),
+    ];
+    for (name, content, why) in cases {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = saved(folder.path());
+        if let Some(content) = content {
+            let mut file = fs::File::create(path.join(name)).expect("a file");
+            file.write_all(content).expect("written");
+        } else {
+            fs::remove_file(path.join(name)).expect("a file");
+        }
+        let said = read::ufo(&path).expect_err(name).to_string();
+        let file = format!("{name} in the UFO cannot be read: ");
+        assert!(said.starts_with(&file) && said.contains(why), "{said}");
+        assert!(said.contains("; mend it there"), "{said}");
+    }
+}
+
 /// The small font as a UFO, changed by a hand, and read.
 pub(crate) fn by_hand(change: impl FnOnce(&mut norad::Font)) -> Result<Reading, ReadError> {
     let folder = tempfile::tempdir().expect("a folder");
