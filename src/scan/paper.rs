@@ -10,6 +10,9 @@ const LEAST: f64 = 0.1;
 /// A page that covers more than this share of the picture is all of it: the rest are corners and punched holes.
 const MOST: f64 = 0.97;
 
+/// Blocks beyond the page's end by which the light is smoothed there, and those of the end itself.
+const RIM: usize = 4;
+
 /// The blocks that show the page.
 #[derive(Debug, Clone)]
 pub(super) struct Paper {
@@ -64,6 +67,32 @@ impl Paper {
             ends.iter().map(|e| (e.0, x(e))).collect()
         };
         Some([line(&of(|e| e.1), block)?, line(&of(|e| e.2), block)?])
+    }
+
+    /// What lies along the page's end outside of it: where a lid's level is smoothed into the page's.
+    pub(super) fn rim(&self) -> Self {
+        let (columns, inside) = (self.columns, &self.inside);
+        let rows = inside.len() / columns.max(1);
+        let near = |at: usize, count: usize| at.saturating_sub(RIM)..(at + RIM + 1).min(count);
+        let beside = |i: usize| {
+            let (x, y) = (i % columns, i / columns);
+            let mut blocks = near(y, rows).flat_map(|y| near(x, columns).map(move |x| (x, y)));
+            blocks.any(|(x, y)| inside[y * columns + x])
+        };
+        let rim = (0..inside.len()).map(|i| !inside[i] && beside(i));
+        let rim: Vec<bool> = rim.collect();
+        let share = rim.iter().filter(|r| **r).count() as f64 / rim.len().max(1) as f64;
+        Self {
+            block: self.block,
+            columns,
+            inside: rim,
+            share,
+        }
+    }
+
+    /// Side of a block, px.
+    pub(super) const fn block_px(&self) -> f64 {
+        self.block as f64
     }
 
     /// Whether the pixel in column `x` of row `y` is on the page.

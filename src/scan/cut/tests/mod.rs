@@ -1,6 +1,7 @@
 mod across;
 mod bare;
 mod dust;
+mod lid;
 mod signs;
 mod small;
 mod told;
