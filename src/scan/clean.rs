@@ -76,13 +76,15 @@ fn even(
         gray,
         colours,
         dpi,
+        guessed,
         source,
     } = sheet;
     let (width, height) = (gray.width(), gray.height());
     let levels = Levels::measure(&gray, field, paper.as_ref());
-    let levels = levels.ok_or_else(|| ScanError::Blank {
+    let blank = || ScanError::Blank {
         source_name: source.clone(),
-    })?;
+    };
+    let levels = levels.ok_or_else(|| blank().or_polarity(guessed))?;
     let mut samples = gray.into_samples();
     let scale = 1.0 / (levels.ink - levels.paper);
     let (low, high) = (-Gray::OVERSHOOT, 1.0 + Gray::OVERSHOOT);
@@ -102,6 +104,7 @@ fn even(
             gray,
             colours,
             dpi,
+            guessed,
             source,
         },
         noise: levels.noise * scale,

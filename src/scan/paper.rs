@@ -35,12 +35,7 @@ impl Paper {
             light[r] += (1.0 - level).powi(2);
         }
         let page = (0..levels.len()).max_by(|&a, &b| light[a].total_cmp(&light[b]))?;
-        let outside: Vec<bool> = regions.iter().map(|&r| r != page).collect();
-        let holes = regions_of(&outside, columns);
-        let reaches = edges(&holes, columns);
-        let inside: Vec<bool> = (0..levels.len())
-            .map(|i| !outside[i] || !reaches[holes[i]])
-            .collect();
+        let inside = with_holes(&regions, page, columns);
         let share = inside.iter().filter(|i| **i).count() as f64 / levels.len() as f64;
         (LEAST..MOST).contains(&share).then_some(Self {
             block,
@@ -128,6 +123,15 @@ fn line(points: &[(f64, f64)], block: f64) -> Option<(f64, f64)> {
     let on = near(line, STRAIGHT.1);
     let fine = on.len() as f64 >= STRAIGHT.0 * points.len() as f64;
     fine.then(|| fit(&on)).filter(|l| l.1.is_finite())
+}
+
+/// The blocks of one region and of the holes in it.
+pub(super) fn with_holes(regions: &[usize], one: usize, columns: usize) -> Vec<bool> {
+    let outside: Vec<bool> = regions.iter().map(|&r| r != one).collect();
+    let holes = regions_of(&outside, columns);
+    let reaches = edges(&holes, columns);
+    let inside = |i: usize| !outside[i] || !reaches[holes[i]];
+    (0..regions.len()).map(inside).collect()
 }
 
 /// Regions of the blocks that are out, by a number that one of each region's blocks has.

@@ -228,6 +228,16 @@ pub fn cut_with(
     options: &Options,
     pins: &[Pin],
 ) -> Result<Cut, ScanError> {
+    let cut = cut_page(page, labels, options, pins);
+    cut.map_err(|e| e.or_polarity(page.sheet.guessed))
+}
+
+fn cut_page(
+    page: &Page,
+    labels: &[Label],
+    options: &Options,
+    pins: &[Pin],
+) -> Result<Cut, ScanError> {
     let gray = &page.sheet.gray;
     let low = LOW.max(NOISE * page.noise);
     let Inks {

@@ -92,6 +92,7 @@ impl Paper {
             gray,
             colours: None,
             dpi: Some(300.0),
+            guessed: None,
             source: "page.png".to_owned(),
         }
     }
