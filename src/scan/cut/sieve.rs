@@ -22,8 +22,8 @@ pub(super) const LATTICE_COVER: f64 = 0.12;
 /// Share of a piece of ink that lies on the page at least.
 const ON_PAPER: f64 = 0.8;
 
-/// Share of the picture's side from which ink is long: shorter pieces weigh less than a row of letters where a page's skew
-/// is measured.
+/// Share of the picture's side from which ink is long: shorter pieces weigh less than a row of letters where a page's
+/// skew is measured.
 const LONG: f64 = 0.25;
 /// Share of a long piece that lies along the paper's end where it is the edge of what lies beside.
 const ON_RIM: f64 = 0.8;
@@ -86,7 +86,8 @@ fn on_paper(c: &Component, page: &Page) -> bool {
     inside as f64 >= ON_PAPER * c.area as f64
 }
 
-/// Takes the edge of a lid or a table out, which stays where their middle passes for shadow; what it touches is cut free.
+/// Takes the edge of a lid or a table out, which stays where their middle passes for shadow; what it touches is cut
+/// free.
 fn take_rims(found: Vec<Component>, page: &Page, beyond: &mut Vec<Component>) -> Vec<Component> {
     let Some(paper) = &page.lit else {
         return found;
@@ -109,8 +110,8 @@ fn take_rims(found: Vec<Component>, page: &Page, beyond: &mut Vec<Component>) ->
     kept
 }
 
-/// The ink that tells how the page is turned: all but what is long and touches the picture's border, which need not lie as
-/// the page does.
+/// The ink that tells how the page is turned: all but what is long and touches the picture's border, which need not
+/// lie as the page does.
 pub(super) fn telling<'a>(all: &'a [Component], page: &Page) -> Vec<&'a Component> {
     let size = (page.sheet.gray.width(), page.sheet.gray.height());
     let tells = |c: &&Component| !(is_long(c, size) && at_edge(c, size));

@@ -38,8 +38,8 @@ pub enum Grain {
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Polarity {
-    /// Dark ink, unless most of the picture and nine tenths of its outermost ring of pixels are dark, by the levels of
-    /// its own ink and paper, and it shows no light page on a dark table.
+    /// Dark ink, unless most of the picture and nine tenths of its outermost ring of pixels are dark, by the levels
+    /// of its own ink and paper, and it shows no light page on a dark table.
     #[default]
     Auto,
     /// Dark ink on light paper.

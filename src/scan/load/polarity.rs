@@ -1,9 +1,9 @@
 //! Which of dark and light is a picture's ink.
 //!
-//! Paper surrounds the ink and there is more of it. Dark and light are told by the picture's own two levels, not by those of the
-//! file: edges of ink lie halfway between it and its paper, wherever on the scale these are, and light that falls off has
-//! none. A light page on a dark table is surrounded by dark and can be less than half of the picture; it is told from light
-//! ink by its size and by what is drawn on it.
+//! Paper surrounds the ink and there is more of it. Dark and light are told by the picture's own two levels, not by
+//! those of the file: edges of ink lie halfway between it and its paper, wherever on the scale these are, and light
+//! that falls off has none. A light page on a dark table is surrounded by dark and can be less than half of the
+//! picture; it is told from light ink by its size and by what is drawn on it.
 
 use crate::scan::paper::{beside, regions, with_holes};
 use crate::scan::whole::{floor, ratio};
@@ -131,8 +131,8 @@ impl<'a> Picture<'a> {
         self.at(place) > self.middles[self.part(place)]
     }
 
-    /// The level of most steep edges in each part, or of all where it has few. In a picture out of focus that of the middle,
-    /// and half of black where all looks alike.
+    /// The level of most steep edges in each part, or of all where it has few. In a picture out of focus that of the
+    /// middle, and half of black where all looks alike.
     fn middles(&self) -> Vec<f32> {
         let differences = self.edges().map(|(_, a, b)| (a - b).abs());
         let steepest = nth(&mut differences.collect::<Vec<f32>>(), 1.0 - BEYOND);

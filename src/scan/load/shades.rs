@@ -24,8 +24,8 @@ fn drawn(x: f64, y: f64) -> bool {
     on_page && inside(0.0) && !inside(6.0)
 }
 
-/// A page of 400 × 320 px whose paper and ink send back these shares of red, green and blue light; where a table is given, in the
-/// middle of one, turned, so that it covers the share of the picture.
+/// A page of 400 × 320 px whose paper and ink send back these shares of red, green and blue light; where a table is
+/// given, in the middle of one, turned, so that it covers the share of the picture.
 fn picture([paper, ink]: [[f64; 3]; 2], light: Light, table: Option<(f64, f64)>) -> RgbImage {
     let (w, h) = (400.0, 320.0);
     let wider = table.map_or(1.0, |(_, share)| share.sqrt().recip());
