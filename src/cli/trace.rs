@@ -65,13 +65,16 @@ impl Trace {
             let remedy = "cut it into letters, or scan it at a lower resolution: 100 million pixels are taken";
             return Err(Failure::new(what).help(remedy));
         }
+        let dark = scan::is_all_dark(&page.gray).then(|| scan::full_range(&page.gray));
+        let dark = dark.flatten();
+        let gray = dark.as_ref().unwrap_or(&page.gray);
         if self.centerline {
-            return self.write_lines(&page.gray);
+            return self.write_lines(gray);
         }
         let options = self.options();
         let trace = |gray: &Gray| trace_picture(gray, &options).map_err(|e| Failure::at(&name, &e));
-        let mut paths = trace(&page.gray)?;
-        if let (true, Some(gray)) = (paths.is_empty(), scan::full_range(&page.gray)) {
+        let mut paths = trace(gray)?;
+        if let (true, Some(gray)) = (paths.is_empty(), scan::full_range(gray)) {
             paths = trace(&gray)?;
         }
         if paths.is_empty() {
