@@ -121,6 +121,99 @@ fn wrong_use_exits_2_with_a_usage_line() {
 }
 
 #[test]
+fn a_tolerance_is_what_projects_may_have() {
+    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
+    for px in ["0", "0.0009", "1000.1", "inf", "NaN"] {
+        let out = khatt(here, &["trace", "a.png", "-o", "-", "--tolerance", px]);
+        let said = String::from_utf8_lossy(&out.stderr);
+        assert_eq!(out.status.code(), Some(2), "{px}: {said}");
+        let range = "must be between 0.001 and 1000 pixels";
+        assert!(said.contains(range), "{px}: {said}");
+    }
+    for px in ["0.001", "1000"] {
+        let out = khatt(here, &["trace", "a.png", "-o", "-", "--tolerance", px]);
+        assert_eq!(out.status.code(), Some(1), "there is no a.png");
+    }
+}
+
+#[test]
+fn a_picture_is_the_same_on_any_number_of_threads() {
+    let dir = tempfile::tempdir().expect("a folder");
+    // rings of many sizes, some with corners and some that touch
+    let rings = |x: u32, y: u32| {
+        let (column, row) = (x / 48, y / 48);
+        let (dx, dy) = (f64::from(x % 48) - 23.5, f64::from(y % 48) - 23.5);
+        let off = if row % 2 == 0 {
+            dx.hypot(dy)
+        } else {
+            dx.abs().max(dy.abs())
+        };
+        let inside = off < 24.5 - f64::from(column) && off > 3.0 * f64::from(row);
+        if inside { 255 } else { 0 }
+    };
+    fs::write(dir.path().join("rings.png"), png(300, 250, rings)).expect("a picture");
+    let run = |jobs: &str| {
+        khatt(
+            dir.path(),
+            &["trace", "rings.png", "-o", "-", "--jobs", jobs],
+        )
+    };
+    let one = run("1");
+    assert!(String::from_utf8_lossy(&one.stdout).matches('M').count() > 20);
+    for jobs in ["2", "7"] {
+        assert!(run(jobs).stdout == one.stdout, "{jobs} threads");
+    }
+}
+
+/// A grey TIFF whose pages all show the same strip, with `spare` bytes between header and strip.
+#[cfg(target_os = "linux")]
+fn tiff(pages: usize, (width, height): (u32, u32), spare: usize) -> Vec<u8> {
+    let mut file = b"II*\0\0\0\0\0".to_vec();
+    file.resize(8 + spare, 0);
+    let (strip, size) = (file.len(), width * height);
+    file.extend((0..size).map(|i| if i % width < width / 2 { 0 } else { 255 }));
+    let whole = |n: usize| u32::try_from(n).expect("32 bits");
+    let mut link = 4;
+    for _ in 0..pages {
+        let at = whole(file.len()).to_le_bytes();
+        file[link..link + 4].copy_from_slice(&at);
+        let fields = [
+            (256u16, width),
+            (257, height),
+            (258, 8),
+            (259, 1),
+            (262, 1),
+            (273, whole(strip)),
+            (277, 1),
+            (278, height),
+            (279, size),
+        ];
+        file.extend([9, 0]);
+        for (tag, value) in fields {
+            file.extend(tag.to_le_bytes());
+            file.extend([4, 0, 1, 0, 0, 0]);
+            file.extend(value.to_le_bytes());
+        }
+        link = file.len();
+        file.extend([0; 4]);
+    }
+    file
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn pages_of_one_file_share_its_bytes() {
+    let dir = tempfile::tempdir().expect("a folder");
+    fs::write(dir.path().join("many.tif"), tiff(64, (40, 30), 32_000_000)).expect("a file");
+    let limited = "ulimit -v 1500000; exec \"$0\" trace many.tif -o out.svg --jobs 1";
+    let mut shell = Command::new("sh");
+    let shell = shell.args(["-c", limited, env!("CARGO_BIN_EXE_khatt")]);
+    let out = shell.current_dir(dir.path()).output().expect("a shell");
+    let said = String::from_utf8_lossy(&out.stderr);
+    assert!(said.contains("holds 64 pictures"), "{said}");
+}
+
+#[test]
 fn a_picture_becomes_one_path_in_its_own_pixels() {
     let dir = tempfile::tempdir().expect("a folder");
     fs::write(dir.path().join("disc.png"), png(80, 60, disc)).expect("a picture");

@@ -8,7 +8,11 @@ use khatt::write::format;
 use kurbo::{Affine, BezPath, Circle, ParamCurve, ParamCurveNearest, PathSeg, Rect, Shape};
 use proptest::prelude::*;
 use skrifa::MetadataProvider;
-use std::{fs, io::Write};
+use std::{
+    fs,
+    io::Write,
+    path::{Path, PathBuf},
+};
 use write_fonts::FontBuilder;
 use write_fonts::read::tables::glyf::Glyph as Stored;
 use write_fonts::read::{FontRef, TableProvider};
@@ -251,10 +255,81 @@ fn vertical_metrics_go_together_and_are_named() {
     assert!(reading.lost.contains(&said), "{:?}", reading.lost);
 }
 
-/// The small font as a UFO, changed by a hand, and read.
-pub(crate) fn by_hand(change: impl FnOnce(&mut norad::Font)) -> Result<Reading, ReadError> {
-    let folder = tempfile::tempdir().expect("a folder");
-    let path = folder.path().join("small.ufo");
+#[test]
+fn flags_without_a_name_stay() {
+    const FLAGS: std::ops::Range<usize> = 16..18;
+    for (from, to) in [("ttf", "otf"), ("otf", "ttf"), ("otf", "otf")] {
+        let before = written(from);
+        let before = FontRef::new(&before).expect("a font");
+        let mut head = before
+            .table_data(Tag::new(b"head"))
+            .expect("head")
+            .as_bytes()
+            .to_vec();
+        head[FLAGS].copy_from_slice(&0b0100_1011_1110_1001u16.to_be_bytes());
+        let mut builder = FontBuilder::new();
+        builder.add_raw(Tag::new(b"head"), head);
+        builder.copy_missing_tables(before);
+        let reading = read::font(&builder.build(), None, &[]).expect("a font");
+        let after = convert(&reading.font, format(to).expect(to), &Options::default());
+        let after = after
+            .expect("a font")
+            .0
+            .into_values()
+            .next()
+            .expect("a file");
+        let after = FontRef::new(&after).expect("a font");
+        let head = after.table_data(Tag::new(b"head")).expect("head");
+        // outlines begin at their bearings
+        assert_eq!(
+            head.as_bytes()[FLAGS],
+            0b0100_1011_1110_1011u16.to_be_bytes(),
+            "{from} to {to}"
+        );
+    }
+}
+
+#[test]
+fn cff_says_of_the_underline_and_the_pitch_what_post_does() {
+    let otf = written("otf");
+    let top = |bytes: &[u8]| {
+        let font = FontRef::new(bytes).expect("a font");
+        let cff = font.table_data(Tag::new(b"CFF ")).expect("CFF");
+        let cff = read_fonts::ps::cff::CffFontRef::new_cff(cff.as_bytes(), 0, None).expect("CFF");
+        let meta = cff.metadata().expect("metadata");
+        let line = (meta.underline_position(), meta.underline_thickness());
+        (meta.is_fixed_pitch(), line.0.to_f64(), line.1.to_f64())
+    };
+    // a tenth of the em down to its top
+    assert_eq!(top(&otf), (false, -125.0, 50.0));
+    let source = FontRef::new(&otf).expect("a font");
+    let mut post = source
+        .table_data(Tag::new(b"post"))
+        .expect("post")
+        .as_bytes()
+        .to_vec();
+    post[8..16].copy_from_slice(&[0xff, 0xb5, 0, 31, 0, 0, 0, 1]);
+    let mut builder = FontBuilder::new();
+    builder.add_raw(Tag::new(b"post"), post);
+    builder.copy_missing_tables(source);
+    let reading = read::font(&builder.build(), None, &[]).expect("a font");
+    let again = convert(
+        &reading.font,
+        format("otf").expect("otf"),
+        &Options::default(),
+    );
+    let again = again
+        .expect("a font")
+        .0
+        .into_values()
+        .next()
+        .expect("a file");
+    assert_eq!(top(&again), (true, -90.5, 31.0));
+}
+
+/// The small font as a UFO in this folder.
+fn saved(folder: &Path) -> PathBuf {
+    let path = folder.join("small.ufo");
     let files = convert(&font(), format("ufo").expect("ufo"), &Options::default()).expect("files");
     for (name, content) in &files.0 {
         let to = path.join(name);
@@ -262,6 +337,53 @@ pub(crate) fn by_hand(change: impl FnOnce(&mut norad::Font)) -> Result<Reading, 
         let mut file = fs::File::create(to).expect("a file");
         file.write_all(content).expect("written");
     }
+    path
+}
+
+#[test]
+fn a_damaged_ufo_is_told_by_its_file_and_why() {
+    let cases: [(&str, Option<&[u8]>, &str); 8] = [
+        (
+            "glyphs/O_.glif",
+            Some(b"<glyph name='O' format='2'><outline>"),
+            "unexpected EOF",
+        ),
+        ("glyphs/O_.glif", None, "there is no such file"),
+        (
+            "glyphs/contents.plist",
+            Some(b"<plist><dict><key>O"),
+            "offset",
+        ),
+        ("glyphs/contents.plist", None, "cannot find"),
+        (
+            "fontinfo.plist",
+            Some(b"<plist><dict><key>unitsPerEm</key><true/></dict></plist>"),
+            "expected",
+        ),
+        ("lib.plist", Some(b"<plist><array/></plist>"), "dictionary"),
+        ("kerning.plist", Some(b"nothing\n"), "expected"),
+        ("features.fea", Some(b"# \xff"), "utf-8"),
+    ];
+    for (name, content, why) in cases {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = saved(folder.path());
+        if let Some(content) = content {
+            let mut file = fs::File::create(path.join(name)).expect("a file");
+            file.write_all(content).expect("written");
+        } else {
+            fs::remove_file(path.join(name)).expect("a file");
+        }
+        let said = read::ufo(&path).expect_err(name).to_string();
+        let file = format!("{name} in the UFO cannot be read: ");
+        assert!(said.starts_with(&file) && said.contains(why), "{said}");
+        assert!(said.contains("; mend it there"), "{said}");
+    }
+}
+
+/// The small font as a UFO, changed by a hand, and read.
+pub(crate) fn by_hand(change: impl FnOnce(&mut norad::Font)) -> Result<Reading, ReadError> {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = saved(folder.path());
     let mut ufo = norad::Font::load(&path).expect("a UFO");
     change(&mut ufo);
     ufo.save(&path).expect("a UFO");

@@ -9,6 +9,7 @@ use khatt::write::{self, Curves};
 use kurbo::{BezPath, Circle, Ellipse, Point, Rect, Shape};
 use skrifa::outline::DrawSettings;
 use skrifa::prelude::{LocationRef, Size};
+use skrifa::raw::TableProvider;
 use skrifa::{FontRef, GlyphId, MetadataProvider};
 
 /// Letters of the test font: text, and the forms that Arabic needs.
@@ -240,6 +241,16 @@ pub(crate) fn set(font: &Font, bytes: &[u8], text: &str) -> Vec<String> {
         .iter()
         .map(|i| name(i.glyph_id))
         .collect()
+}
+
+#[test]
+fn the_longest_context_is_told() {
+    for format in ["ttf", "otf"] {
+        let bytes = single(&font(), format);
+        let os2 = FontRef::new(&bytes).expect("a font").os2();
+        // f i and lam alef
+        assert_eq!(os2.expect("OS/2").us_max_context(), Some(2), "{format}");
+    }
 }
 
 #[test]

@@ -33,7 +33,7 @@ pub(crate) struct Trace {
     #[arg(long, value_name = "METHOD", hide_possible_values = true, value_parser = PossibleValuesParser::new(corner::Method::all().iter().map(corner::Method::key)))]
     corners: Option<String>,
     /// Distance between contour and curve to aim at, in pixels
-    #[arg(long, value_name = "PX", value_parser = positive)]
+    #[arg(long, value_name = "PX", value_parser = tolerance)]
     tolerance: Option<f64>,
     /// Area of ink or paper below which it is dust, in square pixels [default: 4]
     #[arg(long, value_name = "PX2", value_parser = positive)]
@@ -65,13 +65,16 @@ impl Trace {
             let remedy = "cut it into letters, or scan it at a lower resolution: 100 million pixels are taken";
             return Err(Failure::new(what).help(remedy));
         }
+        let dark = scan::is_all_dark(&page.gray).then(|| scan::full_range(&page.gray));
+        let dark = dark.flatten();
+        let gray = dark.as_ref().unwrap_or(&page.gray);
         if self.centerline {
-            return self.write_lines(&page.gray);
+            return self.write_lines(gray);
         }
         let options = self.options();
         let trace = |gray: &Gray| trace_picture(gray, &options).map_err(|e| Failure::at(&name, &e));
-        let mut paths = trace(&page.gray)?;
-        if let (true, Some(gray)) = (paths.is_empty(), scan::full_range(&page.gray)) {
+        let mut paths = trace(gray)?;
+        if let (true, Some(gray)) = (paths.is_empty(), scan::full_range(gray)) {
             paths = trace(&gray)?;
         }
         if paths.is_empty() {
@@ -127,6 +130,12 @@ impl Trace {
         }
         options
     }
+}
+
+/// A distance between contour and curve, as in project files.
+fn tolerance(text: &str) -> Result<f64, String> {
+    let px = text.parse::<f64>().map_err(|e| e.to_string())?;
+    Options::tolerance(px).map_err(str::to_owned)
 }
 
 /// A length or an area: finite and above 0.

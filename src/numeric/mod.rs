@@ -10,6 +10,7 @@ pub mod distance;
 pub mod iso;
 pub mod joins;
 pub mod levels;
+pub mod many;
 pub mod median;
 pub mod minimise;
 pub mod powers;

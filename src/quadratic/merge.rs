@@ -1,14 +1,17 @@
 //! Quadratics back into few cubics: the way from TrueType to formats that store cubics.
 //!
-//! Between corners and extrema, which stay nodes, a run of quadratics is fitted anew by kurbo's
-//! `simplify`; what was cubic or a line before stays.
+//! Between corners and extrema, which stay nodes, a run of quadratics is fitted anew; what was cubic or a line before
+//! stays.
 
+use super::bounded;
 use crate::types::Outline;
-use kurbo::simplify::{SimplifyOptions, simplify_bezpath};
-use kurbo::{BezPath, ParamCurve, ParamCurveExtrema, PathEl, PathSeg, Point, Vec2};
+use kurbo::{BezPath, Line, ParamCurve, ParamCurveExtrema, PathEl, PathSeg, QuadBez};
 
-/// A smaller turn is the rounding of a smooth join, degrees.
-const CORNER_DEG: f64 = 8.0;
+/// A smaller turn is the rounding of a smooth join: tangent of 8°, nearly.
+const CORNER: f64 = 0.1396;
+/// A control point nearer to its end than this says nothing of the direction there and leaves the curve straight,
+/// units.
+const HAIR: f64 = 1e-3;
 
 /// The outline with its runs of quadratics as cubics within `tolerance`, font units.
 #[must_use]
@@ -35,7 +38,8 @@ fn contour(path: &BezPath, tolerance: f64) -> BezPath {
         }
         cuts.push(1.0);
         cuts.sort_by(f64::total_cmp);
-        pieces.extend(cuts.windows(2).map(|w| seg.subsegment(w[0]..w[1])));
+        let parts = cuts.windows(2).map(|w| seg.subsegment(w[0]..w[1]));
+        pieces.extend(parts.filter_map(regular));
     }
     if !pieces.iter().any(|s| matches!(s, PathSeg::Quad(_))) {
         return path.clone();
@@ -67,40 +71,43 @@ fn contour(path: &BezPath, tolerance: f64) -> BezPath {
     out
 }
 
+/// The piece, as a line where a quadratic's control point lies on one of its ends; nothing where it is a point.
+fn regular(piece: PathSeg) -> Option<PathSeg> {
+    let PathSeg::Quad(q) = piece else {
+        return Some(piece);
+    };
+    if q.p1.distance(q.p0).min(q.p1.distance(q.p2)) >= HAIR {
+        return Some(piece);
+    }
+    (q.p0 != q.p2).then(|| Line::new(q.p0, q.p2).into())
+}
+
 /// Whether the join of two pieces stays a node: a corner, an end of a line or cubic, an extremum.
 fn is_node(a: &PathSeg, b: &PathSeg) -> bool {
     let (PathSeg::Quad(p), PathSeg::Quad(q)) = (a, b) else {
         return true;
     };
-    let (u, v) = (direction(p.p1, p.p2, p.p0), direction(q.p0, q.p1, q.p2));
-    let turn = u.cross(v).atan2(u.dot(v)).abs().to_degrees();
+    let (u, v) = ((p.p2 - p.p1).normalize(), (q.p1 - q.p0).normalize());
+    let turns = u.cross(v).abs() > CORNER * u.dot(v);
     /// Sine of the angle to an axis below which a tangent is level or upright.
     const LEVEL: f64 = 1e-3;
-    turn > CORNER_DEG || [u.x, u.y, v.x, v.y].iter().any(|c| c.abs() < LEVEL)
+    turns || [u.x, u.y, v.x, v.y].iter().any(|c| c.abs() < LEVEL)
 }
 
-/// Unit direction from `a` to `b`, or where they coincide, along with `c`.
-fn direction(a: Point, b: Point, c: Point) -> Vec2 {
-    let d = if a == b { a - c } else { b - a };
-    if d.hypot() > 0.0 {
-        d.normalize()
-    } else {
-        Vec2::new(1.0, 0.0)
-    }
-}
-
+/// Writes the run: what is of quadratics alone as few cubics, anything else as it is.
 fn add(run: &mut Vec<PathSeg>, tolerance: f64, out: &mut BezPath) {
-    let quads = run.iter().filter(|s| matches!(s, PathSeg::Quad(_))).count();
-    let simple = if quads == run.len() && quads > 1 {
-        let path = BezPath::from_path_segments(run.iter().copied());
-        let options = SimplifyOptions::default().angle_thresh(CORNER_DEG.to_radians());
-        simplify_bezpath(path, tolerance, &options)
-    } else {
-        BezPath::from_path_segments(run.iter().map(|s| match s {
-            PathSeg::Quad(q) => PathSeg::Cubic(q.raise()),
-            other => *other,
-        }))
+    let quad = |s: &PathSeg| match s {
+        PathSeg::Quad(q) => Some(*q),
+        _ => None,
     };
-    out.extend(simple.elements().iter().skip(1).copied());
+    let quads: Option<Vec<QuadBez>> = run.iter().map(quad).collect();
+    let pieces = match quads {
+        Some(quads) => bounded::fit(&quads, tolerance)
+            .into_iter()
+            .map(PathSeg::Cubic)
+            .collect(),
+        None => std::mem::take(run),
+    };
+    out.extend(pieces.iter().map(PathSeg::as_path_el));
     run.clear();
 }

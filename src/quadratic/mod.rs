@@ -8,6 +8,7 @@
 //! distance between the two outlines stay below the tolerance. A point that joins two quadratics
 //! half way between their control points need not be stored: TrueType implies it.
 
+mod bounded;
 pub mod merge;
 pub mod rate;
 pub mod split;

@@ -36,6 +36,16 @@ pub enum ReadError {
         /// what is wrong with it
         message: String,
     },
+    /// A file of a UFO that cannot be read.
+    #[error(
+        "{file} in the UFO cannot be read: {why}; mend it there, or save the UFO again in the program that made it"
+    )]
+    Ufo {
+        /// its path within the UFO
+        file: String,
+        /// what is wrong with it
+        why: String,
+    },
     /// A place on an axis that the font does not have.
     #[error("the font has no axis “{0}”; it has: {1}")]
     Axis(String, String),

@@ -7,7 +7,7 @@ use super::{
     mend, nodes,
     residual::Residual,
 };
-use crate::types::Gray;
+use crate::{numeric::many::each, types::Gray};
 use kurbo::{BezPath, CubicBez, Point};
 
 /// Chords leave a path that is compared with the picture by no more than this, px.
@@ -50,7 +50,7 @@ impl<'g> Comparison<'g> {
                 sharp: blunt::overlooked(&self.residual, &segments),
             }
         };
-        paths.iter().map(of).collect()
+        each(paths, of)
     }
 
     /// The doubts as they stand after a look at `paths`, which were fitted to them: new corners that explain the
@@ -99,5 +99,5 @@ fn cubics(path: &BezPath) -> Vec<CubicBez> {
 }
 
 fn polygons(paths: &[BezPath]) -> Vec<Vec<Point>> {
-    paths.iter().map(|p| polygon(p, CHORD_PX)).collect()
+    each(paths, |p| polygon(p, CHORD_PX))
 }

@@ -27,7 +27,10 @@ pub use comparison::{Comparison, Doubts};
 pub use corners::confirmed;
 
 use crate::{
-    numeric::side::{Place, Side, scatter_px},
+    numeric::{
+        many::change,
+        side::{Place, Side, scatter_px},
+    },
     types::{Contour, Gray},
 };
 use kurbo::{Point, Vec2};
@@ -55,7 +58,7 @@ pub fn contours(gray: &Gray, traced: &[Cornered]) -> Vec<Cornered> {
         if round > 0 {
             residual.update(points(&rings));
         }
-        rings.iter_mut().for_each(|r| r.step(&residual));
+        change(&mut rings, |r| r.step(&residual));
     }
     rings.into_iter().map(Ring::finish).collect()
 }

@@ -10,6 +10,7 @@ use crate::numeric::{
     cast::index,
     chain::Chain,
     joins::{DEPTH_PX, divide_at_extrema, is_soft, level_ends, sharpen, soften},
+    many::{change, each},
     refit::{Foot, Refit, Sample, Scale, Stop},
 };
 use kurbo::{BezPath, ParamCurve, ParamCurveDeriv, Point, Vec2};
@@ -36,38 +37,41 @@ const REACH_PX: f64 = 2.0;
 /// The paths moved to where their blurred fill is most like the picture; each stays as it was if none of its steps makes
 /// it more like.
 pub(super) fn settled(residual: &Residual<'_>, paths: &[BezPath]) -> Vec<BezPath> {
-    let chains = paths.iter().map(|p| {
-        let mut chain = Chain::from_path(p, SMOOTH)?;
-        divide_at_extrema(&mut chain, DEPTH_PX);
-        Some(chain)
+    let mut now = each(paths, |path| {
+        let mut chain = Chain::from_path(path, SMOOTH);
+        if let Some(chain) = &mut chain {
+            divide_at_extrema(chain, DEPTH_PX);
+        }
+        (chain, fine(path))
     });
-    let start: Vec<Option<Chain>> = chains.collect();
-    let mut now = start.clone();
-    let mut rings: Vec<Vec<Point>> = paths.iter().map(fine).collect();
-    let mut residual = residual.against(rings.iter().map(Vec::as_slice));
-    let mut least: Vec<f64> = rings.iter().map(|r| residual.along(r)).collect();
+    let start: Vec<Option<Chain>> = now.iter().map(|(chain, _)| chain.clone()).collect();
+    let mut residual = residual.against(rings(&now));
+    let mut least = each(&now, |(_, ring)| residual.along(ring));
     let mut best = paths.to_vec();
-    let mut refit = Refit::default();
     for _ in 0..ROUNDS {
-        for (chain, ring) in now.iter_mut().zip(&mut rings) {
+        change(&mut now, |(chain, ring)| {
             if let Some(chain) = chain {
-                step(chain, &residual, &mut refit);
+                step(chain, &residual);
                 *ring = fine(&chain.to_path());
             }
-        }
-        residual.update(rings.iter().map(Vec::as_slice));
-        for (k, chains) in now.iter().zip(&start).enumerate() {
+        });
+        residual.update(rings(&now));
+        let off = each(&now, |(_, ring)| residual.along(ring));
+        for (k, chains) in now.iter().map(|(c, _)| c).zip(&start).enumerate() {
             let (Some(chain), Some(start)) = chains else {
                 continue;
             };
-            let off = residual.along(&rings[k]);
-            if off < least[k] && near(chain, start) {
-                least[k] = off;
+            if off[k] < least[k] && near(chain, start) {
+                least[k] = off[k];
                 best[k] = chain.to_path();
             }
         }
     }
     best
+}
+
+fn rings(all: &[(Option<Chain>, Vec<Point>)]) -> impl Iterator<Item = &[Point]> {
+    all.iter().map(|(_, ring)| ring.as_slice())
 }
 
 /// A path as chords that cut off next to nothing, for the fill of chords is what is compared.
@@ -76,7 +80,7 @@ fn fine(path: &BezPath) -> Vec<Point> {
 }
 
 /// Moves a chain by what the differences along it say.
-fn step(chain: &mut Chain, residual: &Residual<'_>, refit: &mut Refit) {
+fn step(chain: &mut Chain, residual: &Residual<'_>) {
     for i in 0..chain.nodes.len() {
         if is_soft(chain, i) {
             soften(&mut chain.nodes[i]);
@@ -115,7 +119,7 @@ fn step(chain: &mut Chain, residual: &Residual<'_>, refit: &mut Refit) {
         gain: 0.01,
         enough: f64::INFINITY,
     };
-    refit.run(chain, (&samples, &mut feet), scale, stop);
+    Refit::default().run(chain, (&samples, &mut feet), scale, stop);
     level_ends(chain);
 }
 

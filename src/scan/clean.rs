@@ -36,6 +36,8 @@ pub struct Page {
     pub contrast: f32,
     /// Where the paper lies, in a picture that shows more than it.
     pub(super) paper: Option<Paper>,
+    /// The same where it may as well be what lies outside a sharp shadow: enough to know a lid's edge by.
+    pub(super) lit: Option<Paper>,
 }
 
 /// Evens out the light of a page. Where the paper covers less than half of the picture, what lies beside it counts
@@ -46,8 +48,12 @@ pub struct Page {
 pub fn clean(sheet: Sheet) -> Result<Page, ScanError> {
     let sheet = grey(sheet);
     let field = Field::measure(&sheet.gray);
-    let paper = field.paper();
-    even(sheet, &field, paper.filter(|p| p.share < SURROUNDED))
+    let found = field.paper();
+    let (paper, lit) = match found {
+        Some(p) if p.share < SURROUNDED => (Some(p), None),
+        other => (None, other),
+    };
+    even(sheet, &field, (paper, lit))
 }
 
 /// The same wherever a picture shows more than the page; `None` where it shows one sheet of paper alone. A shadow
@@ -60,7 +66,7 @@ pub fn clean_paper(sheet: Sheet) -> Result<Option<Page>, ScanError> {
     let field = Field::measure(&sheet.gray);
     field
         .paper()
-        .map(|p| even(sheet, &field, Some(p)))
+        .map(|p| even(sheet, &field, (Some(p), None)))
         .transpose()
 }
 
@@ -72,18 +78,24 @@ fn grey(sheet: Sheet) -> Sheet {
     }
 }
 
-fn even(sheet: Sheet, field: &Field, paper: Option<Paper>) -> Result<Page, ScanError> {
+fn even(
+    sheet: Sheet,
+    field: &Field,
+    (paper, lit): (Option<Paper>, Option<Paper>),
+) -> Result<Page, ScanError> {
     let Sheet {
         gray,
         colours,
         dpi,
+        guessed,
         source,
     } = sheet;
     let (width, height) = (gray.width(), gray.height());
     let levels = Levels::measure(&gray, field, paper.as_ref());
-    let levels = levels.ok_or_else(|| ScanError::Blank {
+    let blank = || ScanError::Blank {
         source_name: source.clone(),
-    })?;
+    };
+    let levels = levels.ok_or_else(|| blank().or_polarity(guessed))?;
     let scatter_px = gray.scatter_px();
     let mut samples = gray.into_samples();
     let scale = 1.0 / (levels.ink - levels.paper);
@@ -104,11 +116,13 @@ fn even(sheet: Sheet, field: &Field, paper: Option<Paper>) -> Result<Page, ScanE
             gray: gray.with_scatter(scatter_px),
             colours,
             dpi,
+            guessed,
             source,
         },
         noise: levels.noise * scale,
         contrast: levels.ink - levels.paper,
         paper,
+        lit,
     })
 }
 

@@ -72,7 +72,8 @@ pub(super) struct Edges {
 }
 
 impl Edges {
-    pub(super) fn new(components: &[&Component]) -> Self {
+    /// Where the picture of this height ends, ink has no edge of its own.
+    pub(super) fn new(components: &[&Component], height: usize) -> Self {
         let edge: f64 = components.iter().map(|c| c.bounds.width()).sum();
         let step = floor(edge / POINTS as f64).max(1);
         let mut new = Self {
@@ -81,14 +82,14 @@ impl Edges {
         };
         for c in components {
             let below = |r: &Run, x: usize| c.covers(x, r.y + 1);
-            let above = |r: &Run, x: usize| r.y > 0 && c.covers(x, r.y - 1);
+            let above = |r: &Run, x: usize| c.covers(x, r.y - 1);
             for r in &c.runs {
                 for x in (r.start.next_multiple_of(step)..r.end).step_by(step) {
                     let at = |dy: f64| Point::new(x as f64 + 0.5, r.y as f64 + dy);
-                    if !below(r, x) {
+                    if r.y + 1 < height && !below(r, x) {
                         new.lower.push(at(1.0));
                     }
-                    if !above(r, x) {
+                    if r.y > 0 && !above(r, x) {
                         new.upper.push(at(0.0));
                     }
                 }

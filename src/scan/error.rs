@@ -1,5 +1,6 @@
 //! What can be wrong with a page.
 
+use crate::types::Shade;
 use thiserror::Error;
 
 /// The most pixels a page may have: A3 at 1200 dpi has 278 million.
@@ -206,6 +207,17 @@ pub enum ScanError {
         /// the height wanted
         what: &'static str,
     },
+    /// A page that cannot be read, of which it was guessed whether its ink is dark or light.
+    #[error(
+        "{cause}. The ink was taken to be {} than its paper; if that is wrong write polarity = \"{}\"",
+        shades(*.taken).0, shades(*.taken).1
+    )]
+    Polarity {
+        /// what was wrong
+        cause: Box<Self>,
+        /// what the ink was taken for
+        taken: Shade,
+    },
     /// A layout without rows or columns.
     #[error(
         "a grid of {rows} × {columns} cells does not fit the picture: it needs at least one row and one column, and a few pixels for each"
@@ -216,4 +228,28 @@ pub enum ScanError {
         /// columns asked for
         columns: usize,
     },
+}
+
+impl ScanError {
+    /// The same where it may be due to the ink's shade, which was guessed.
+    pub(super) fn or_polarity(self, guessed: Option<Shade>) -> Self {
+        match (guessed, self) {
+            (None, own) => own,
+            (_, own @ (Self::NoNames { .. } | Self::NoGrid { .. } | Self::NoResolution { .. })) => {
+                own
+            }
+            (Some(taken), own) => Self::Polarity {
+                cause: Box::new(own),
+                taken,
+            },
+        }
+    }
+}
+
+/// How ink of a shade differs from its paper, and the polarity of the other shade.
+const fn shades(taken: Shade) -> (&'static str, &'static str) {
+    match taken {
+        Shade::Dark => ("darker", "light-ink"),
+        Shade::Light => ("lighter", "dark-ink"),
+    }
 }

@@ -2,6 +2,7 @@
 
 use exif::{In, Reader, Tag, Value};
 use std::io::Cursor;
+use std::ops::Range;
 
 /// Dots an inch below which a figure is taken for a slip.
 const MIN_DPI: f64 = 20.0;
@@ -134,9 +135,12 @@ pub(super) fn jpeg_is_whole(bytes: &[u8]) -> bool {
     end(bytes).is_some()
 }
 
-/// The pages of a TIFF file, each as a file of its own whose header points to that page's directory;
-/// empty when there are fewer than two or the chain is broken.
-pub(super) fn tiff_pages(bytes: &[u8]) -> Vec<Vec<u8>> {
+/// Where a TIFF file's header says where its first page's directory is.
+pub(super) const TIFF_FIRST: Range<usize> = 4..8;
+
+/// What [`TIFF_FIRST`] would hold for each page of a TIFF file, were that page the first; empty when there are fewer
+/// than two or the chain is broken.
+pub(super) fn tiff_pages(bytes: &[u8]) -> Vec<[u8; 4]> {
     /// Pages of one file; a chain that is longer runs in a circle.
     const MAX_PAGES: usize = 1000;
     let little = match bytes.get(..4) {
@@ -168,13 +172,12 @@ pub(super) fn tiff_pages(bytes: &[u8]) -> Vec<Vec<u8>> {
     if starts.len() < 2 || starts.len() > MAX_PAGES {
         return Vec::new();
     }
-    let page = |start: u32| {
-        let order = if little {
+    let order = |start: u32| {
+        if little {
             start.to_le_bytes()
         } else {
             start.to_be_bytes()
-        };
-        [&bytes[..4], &order, &bytes[8..]].concat()
+        }
     };
-    starts.into_iter().map(page).collect()
+    starts.into_iter().map(order).collect()
 }

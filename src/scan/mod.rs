@@ -35,6 +35,6 @@ pub use error::ScanError;
 pub use ink::{Ink, Inks};
 pub use load::{Grain, Polarity, Turn, load, load_turned};
 pub use options::{Direction, Layout, Options, Order, Scale};
-pub use range::full_range;
+pub use range::{full_range, is_all_dark};
 pub use separation::Colour;
 pub use steps::softened;

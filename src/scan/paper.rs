@@ -10,6 +10,9 @@ const LEAST: f64 = 0.1;
 /// A page that covers more than this share of the picture is all of it: the rest are corners and punched holes.
 const MOST: f64 = 0.97;
 
+/// Blocks beyond the page's end by which the light is smoothed there, and those of the end itself.
+const RIM: usize = 4;
+
 /// The blocks that show the page.
 #[derive(Debug, Clone)]
 pub(super) struct Paper {
@@ -32,12 +35,7 @@ impl Paper {
             light[r] += (1.0 - level).powi(2);
         }
         let page = (0..levels.len()).max_by(|&a, &b| light[a].total_cmp(&light[b]))?;
-        let outside: Vec<bool> = regions.iter().map(|&r| r != page).collect();
-        let holes = regions_of(&outside, columns);
-        let reaches = edges(&holes, columns);
-        let inside: Vec<bool> = (0..levels.len())
-            .map(|i| !outside[i] || !reaches[holes[i]])
-            .collect();
+        let inside = with_holes(&regions, page, columns);
         let share = inside.iter().filter(|i| **i).count() as f64 / levels.len() as f64;
         (LEAST..MOST).contains(&share).then_some(Self {
             block,
@@ -64,6 +62,32 @@ impl Paper {
             ends.iter().map(|e| (e.0, x(e))).collect()
         };
         Some([line(&of(|e| e.1), block)?, line(&of(|e| e.2), block)?])
+    }
+
+    /// What lies along the page's end outside of it: where a lid's level is smoothed into the page's.
+    pub(super) fn rim(&self) -> Self {
+        let (columns, inside) = (self.columns, &self.inside);
+        let rows = inside.len() / columns.max(1);
+        let near = |at: usize, count: usize| at.saturating_sub(RIM)..(at + RIM + 1).min(count);
+        let beside = |i: usize| {
+            let (x, y) = (i % columns, i / columns);
+            let mut blocks = near(y, rows).flat_map(|y| near(x, columns).map(move |x| (x, y)));
+            blocks.any(|(x, y)| inside[y * columns + x])
+        };
+        let rim = (0..inside.len()).map(|i| !inside[i] && beside(i));
+        let rim: Vec<bool> = rim.collect();
+        let share = rim.iter().filter(|r| **r).count() as f64 / rim.len().max(1) as f64;
+        Self {
+            block: self.block,
+            columns,
+            inside: rim,
+            share,
+        }
+    }
+
+    /// Side of a block, px.
+    pub(super) const fn block_px(&self) -> f64 {
+        self.block as f64
     }
 
     /// Whether the pixel in column `x` of row `y` is on the page.
@@ -99,6 +123,15 @@ fn line(points: &[(f64, f64)], block: f64) -> Option<(f64, f64)> {
     let on = near(line, STRAIGHT.1);
     let fine = on.len() as f64 >= STRAIGHT.0 * points.len() as f64;
     fine.then(|| fit(&on)).filter(|l| l.1.is_finite())
+}
+
+/// The blocks of one region and of the holes in it.
+pub(super) fn with_holes(regions: &[usize], one: usize, columns: usize) -> Vec<bool> {
+    let outside: Vec<bool> = regions.iter().map(|&r| r != one).collect();
+    let holes = regions_of(&outside, columns);
+    let reaches = edges(&holes, columns);
+    let inside = |i: usize| !outside[i] || !reaches[holes[i]];
+    (0..regions.len()).map(inside).collect()
 }
 
 /// Regions of the blocks that are out, by a number that one of each region's blocks has.

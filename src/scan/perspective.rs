@@ -56,7 +56,7 @@ struct Pencil {
 
 /// What tells how a page was seen.
 pub(super) struct Scene<'a> {
-    pub(super) ink: &'a [Component],
+    pub(super) ink: &'a [&'a Component],
     pub(super) edges: &'a Edges,
     /// The picture's middle, px, which is also half its size.
     pub(super) middle: Point,
@@ -141,7 +141,7 @@ impl Scene<'_> {
     /// The columns of a grid, from the pieces of ink that stand in them; `None` where they stand too irregularly to
     /// say that columns meet.
     fn columns(&self, count: usize, rows: Pencil) -> Option<Pencil> {
-        let mut ink: Vec<&Component> = self.ink.iter().collect();
+        let mut ink: Vec<&Component> = self.ink.to_vec();
         ink.sort_by_key(|c| Reverse(c.area));
         ink.truncate(PIECES);
         let usual = ink.get(ink.len() / 2)?.area;
@@ -249,7 +249,7 @@ fn wave(points: &[Vec2], count: usize, lean: f64) -> (f64, f64, f64) {
 }
 
 /// Points on the ink's left and right edges, from the middle; the axes changed.
-fn flanks(ink: &[Component], middle: Point) -> [Vec<Vec2>; 2] {
+fn flanks(ink: &[&Component], middle: Point) -> [Vec<Vec2>; 2] {
     let runs = || ink.iter().flat_map(|c| &c.runs);
     let at = |x: usize, y: usize| Vec2::new(y as f64 + 0.5 - middle.y, x as f64 - middle.x);
     [

@@ -8,6 +8,13 @@ const BEYOND: f64 = 0.001;
 /// The least difference of ink and paper, of black against white: as on pages.
 const LEAST: f32 = 0.1;
 
+/// Whether even a picture's lightest level is darker than half of black, so that its paper would pass for ink.
+#[must_use]
+pub fn is_all_dark(gray: &Gray) -> bool {
+    let light = gray.samples().iter().filter(|v| **v <= 0.5).count();
+    (light as f64) < BEYOND * gray.samples().len() as f64
+}
+
 /// The picture with its lightest level at 0 and its darkest at 1, or the other way round where its edge is nearer to the
 /// darkest: paper lies there. `None` where all of it looks alike.
 #[must_use]

@@ -318,6 +318,7 @@ mod tests {
             }),
             gray,
             dpi: None,
+            guessed: None,
             source: "page".to_owned(),
         };
         let list: Inks = serde_json::from_str("[\"black\", \"red\"]").unwrap();

@@ -38,4 +38,4 @@ pub use glyph::{Anchor, Component, Glyph, Layer, Name, NameError};
 pub use outline::{Frame, Outline, OutlineError};
 pub use png::Png;
 pub use raster::{Bitmap, Gray, RasterError};
-pub use sheet::{Cell, Colours, Guides, Label, Plate, Sheet};
+pub use sheet::{Cell, Colours, Guides, Label, Plate, Shade, Sheet};

@@ -12,8 +12,19 @@ pub struct Sheet {
     pub colours: Option<Colours>,
     /// Resolution, dots an inch, where the file says so.
     pub dpi: Option<f64>,
+    /// The ink's shade in the picture, where it was guessed and the picture leaves doubt.
+    pub guessed: Option<Shade>,
     /// The file it came from, as messages name it.
     pub source: String,
+}
+
+/// Whether ink is darker or lighter than its paper.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Shade {
+    /// Darker.
+    Dark,
+    /// Lighter.
+    Light,
 }
 
 /// Shares of red, green and blue light that the square blocks of a picture swallow, row by row, 255 for all of it.

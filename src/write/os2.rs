@@ -144,7 +144,6 @@ pub(super) fn table(
         s_cap_height: Some(height(m.cap_height, "the cap height")?),
         us_default_char: Some(0),
         us_break_char: Some(32),
-        us_max_context: Some(0),
         ..Os2::default()
     })
 }

@@ -20,8 +20,9 @@ pub(super) fn bytes(font: &Font) -> Result<Vec<u8>, WriteError> {
     }
     let extents: Vec<Option<Rect>> = shapes.iter().map(extent).collect();
     let bounds = extents.iter().flatten().copied().reduce(|a, b| a.union(b));
-    let cff = cff::table(font, &shapes, &advances, bounds.unwrap_or(Rect::ZERO))?;
     let mut common = sfnt::common(font, &extents)?;
+    let bounds = bounds.unwrap_or(Rect::ZERO);
+    let cff = cff::table(font, &common.post, (&shapes, &advances), bounds)?;
     // the names stand in the CFF table
     common.post.version = Version16Dot16::VERSION_3_0;
     common.post.num_glyphs = None;

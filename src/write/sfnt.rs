@@ -5,6 +5,7 @@ use super::{WriteError, colour, layout, names, os2};
 use crate::types::{Font, Glyph, Info};
 use kurbo::Rect;
 use std::collections::BTreeMap;
+use std::ops::Range;
 use write_fonts::read::tables::post::Post as StoredPost;
 use write_fonts::read::{FontData, FontRead, TopLevelTable};
 use write_fonts::tables::cmap::Cmap;
@@ -13,10 +14,11 @@ use write_fonts::tables::head::{Flags, Head, MacStyle};
 use write_fonts::tables::hhea::Hhea;
 use write_fonts::tables::hmtx::{Hmtx, LongMetric};
 use write_fonts::tables::maxp::Maxp;
+use write_fonts::tables::os2::Os2;
 use write_fonts::tables::post::Post;
 use write_fonts::types::{FWord, Fixed, GlyphId, LongDateTime, Tag, UfWord, Version16Dot16};
 use write_fonts::validate::Validate;
-use write_fonts::{FontBuilder, FontWrite};
+use write_fonts::{FontBuilder, FontWrite, dump_table};
 
 /// Seconds from the epoch of font files, 1904, to that of Unix, 1970.
 const EPOCH_1904: i64 = 2_082_844_800;
@@ -39,19 +41,36 @@ pub(super) fn common(font: &Font, extents: &[Option<Rect>]) -> Result<Common, Wr
     let advances = advances(font)?;
     add(&mut builder, "hmtx", &hmtx(font, &advances, extents)?)?;
     add(&mut builder, "hhea", &hhea(font, &advances, extents)?)?;
-    add(&mut builder, "OS/2", &os2::table(font, &advances, extents)?)?;
+    let features = layout::compile(font)?;
+    let (gsub, gpos) = (
+        dumped("GSUB", &features.gsub)?,
+        dumped("GPOS", &features.gpos)?,
+    );
+    let written = |tag, made| {
+        font.carried
+            .get(tag)
+            .or(made)
+            .map_or(&[][..], Vec::as_slice)
+    };
+    let context = layout::longest(
+        written(b"GSUB", gsub.as_ref()),
+        written(b"GPOS", gpos.as_ref()),
+    );
+    let os2 = Os2 {
+        us_max_context: Some(context),
+        ..os2::table(font, &advances, extents)?
+    };
+    add(&mut builder, "OS/2", &os2)?;
     add(&mut builder, "name", &names::table(&font.info)?)?;
     add(&mut builder, "cmap", &cmap(font)?)?;
     if let Some((colr, cpal)) = colour::tables(font)? {
         add(&mut builder, "COLR", &colr)?;
         add(&mut builder, "CPAL", &cpal)?;
     }
-    let features = layout::compile(font)?;
-    if let Some(gsub) = &features.gsub {
-        add(&mut builder, "GSUB", gsub)?;
-    }
-    if let Some(gpos) = &features.gpos {
-        add(&mut builder, "GPOS", gpos)?;
+    for (tag, table) in [(b"GSUB", gsub), (b"GPOS", gpos)] {
+        if let Some(table) = table {
+            builder.add_raw(Tag::new(tag), table);
+        }
     }
     if let Some(gdef) = &features.gdef {
         add(&mut builder, "GDEF", gdef)?;
@@ -63,6 +82,15 @@ pub(super) fn common(font: &Font, extents: &[Option<Rect>]) -> Result<Common, Wr
         builder,
         carried: font.carried.clone(),
     })
+}
+
+/// The bytes of a table that there may be.
+fn dumped<T: FontWrite + Validate>(
+    name: &str,
+    table: &Option<T>,
+) -> Result<Option<Vec<u8>>, WriteError> {
+    let bytes = table.as_ref().map(dump_table).transpose();
+    bytes.map_err(|e| WriteError::table(name, e))
 }
 
 /// Carried tables of which only a part is kept: what does not follow from the outlines.
@@ -79,7 +107,11 @@ impl Common {
         mut self,
         outlines: impl FnOnce(&mut FontBuilder<'static>) -> Result<(), WriteError>,
     ) -> Result<Vec<u8>, WriteError> {
-        add(&mut self.builder, "head", &self.head)?;
+        let mut head = dump_table(&self.head).map_err(|e| WriteError::table("head", e))?;
+        if let Some(own) = self.carried.get(b"head") {
+            keep_unnamed(&mut head, own);
+        }
+        self.builder.add_raw(Head::TAG, head);
         add(&mut self.builder, "maxp", &self.maxp)?;
         add(&mut self.builder, "post", &self.post)?;
         outlines(&mut self.builder)?;
@@ -88,6 +120,19 @@ impl Common {
             self.builder.add_raw(Tag::new(&tag), table);
         }
         Ok(self.builder.build())
+    }
+}
+
+/// Keeps the flags of a `head` table that the library has no names for and leaves out: bits 5 to 10, those of Apple's
+/// layout.
+fn keep_unnamed(head: &mut [u8], own: &[u8]) {
+    const FLAGS: Range<usize> = 16..18;
+    const UNNAMED: u16 = 0b0000_0111_1110_0000;
+    if let (Some(to), Some(from)) = (head.get_mut(FLAGS), own.get(FLAGS)) {
+        let bits = UNNAMED.to_be_bytes();
+        for ((to, from), bits) in to.iter_mut().zip(from).zip(bits) {
+            *to |= from & bits;
+        }
     }
 }
 

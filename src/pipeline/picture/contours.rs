@@ -1,6 +1,7 @@
 //! One picture → its contours and their corners.
 
 use super::options::Options;
+use crate::numeric::many::each;
 use crate::refine::{self, Cornered};
 use crate::types::Gray;
 use crate::{corner, trace};
@@ -8,13 +9,9 @@ use crate::{corner, trace};
 /// The picture's coverage, and its contours as they were traced with the indices of their corners.
 pub(super) fn found(gray: &Gray, options: &Options) -> (Gray, Vec<Cornered>) {
     let coverage = trace::level(gray);
-    let detector = options.corners.detector();
-    let contours = trace::trace(&coverage, &options.trace).into_iter();
-    let found = contours.map(|c| {
-        let at = detector.corners(&c);
-        (c, at)
-    });
-    let found = found.collect();
+    let contours = trace::trace(&coverage, &options.trace);
+    let corners = each(&contours, |c| options.corners.detector().corners(c));
+    let found = contours.into_iter().zip(corners).collect();
     let found = decided(&coverage, found, options);
     (coverage, found)
 }
@@ -25,15 +22,14 @@ pub(super) fn sharp(coverage: &Gray, found: &[Cornered], options: &Options) -> V
         // the boundary that the papers start from is taken as it is
         return found.to_vec();
     }
-    let sharp: Vec<_> = found.iter().map(|(c, at)| corner::sharpen(c, at)).collect();
+    let sharp = each(found, |(c, at)| corner::sharpen(c, at));
     refine::contours(coverage, &sharp)
 }
 
 /// The corners that the picture bears out, where the detector leaves it to it.
 fn decided(coverage: &Gray, found: Vec<Cornered>, options: &Options) -> Vec<Cornered> {
-    let detector = options.corners.detector();
-    let possible: Option<Vec<Vec<usize>>> =
-        found.iter().map(|(c, _)| detector.possible(c)).collect();
+    let possible = each(&found, |(c, _)| options.corners.detector().possible(c));
+    let possible: Option<Vec<Vec<usize>>> = possible.into_iter().collect();
     let Some(possible) = possible.filter(|_| options.trace.boundary == trace::Boundary::Iso) else {
         return found;
     };

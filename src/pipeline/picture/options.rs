@@ -1,6 +1,7 @@
 //! How a picture becomes curves: a method for each stage.
 
 use crate::fit::{self, FitError};
+use crate::numeric::many::each;
 use crate::refine::Cornered;
 use crate::{corner, trace};
 use kurbo::BezPath;
@@ -22,14 +23,8 @@ pub struct Options {
     pub tolerance_px: f64,
 }
 
-/// A distance in px that a fitter can aim at.
 fn tolerance<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
-    let px = f64::deserialize(from)?;
-    if (0.001..=1000.0).contains(&px) {
-        Ok(px)
-    } else {
-        Err(D::Error::custom("must be between 0.001 and 1000 pixels"))
-    }
+    Options::tolerance(f64::deserialize(from)?).map_err(D::Error::custom)
 }
 
 impl Default for Options {
@@ -44,10 +39,23 @@ impl Default for Options {
 }
 
 impl Options {
+    /// The distance between contour and curve, px, where a fitter can aim at it.
+    ///
+    /// # Errors
+    /// It is outside the range, which the error names.
+    pub fn tolerance(px: f64) -> Result<f64, &'static str> {
+        let fine = (0.001..=1000.0).contains(&px);
+        fine.then_some(px)
+            .ok_or("must be between 0.001 and 1000 pixels")
+    }
+
     /// The curves of some contours.
     pub(super) fn curves(&self, edges: &[Cornered]) -> Result<Vec<BezPath>, FitError> {
-        let fitter = self.fit.fitter();
-        let fit = |(c, at): &Cornered| fitter.contour(&c.cut(at), self.tolerance_px);
-        edges.iter().map(fit).collect()
+        let fit = |(c, at): &Cornered| {
+            let fitter = self.fit.fitter();
+            fitter.contour(&c.cut(at), self.tolerance_px)
+        };
+        // of several errors the first contour's
+        each(edges, fit).into_iter().collect()
     }
 }

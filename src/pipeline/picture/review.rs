@@ -52,11 +52,12 @@ fn refit(
         return Ok(paths.to_vec());
     }
     let edges = sharp(coverage, &wanted, options);
+    let other = |k: &usize| wanted[*k] != found[*k];
+    let others: Vec<usize> = (0..paths.len()).filter(other).collect();
+    let edges: Vec<Cornered> = others.iter().map(|&k| edges[k].clone()).collect();
     let mut paths = paths.to_vec();
-    for (k, path) in paths.iter_mut().enumerate() {
-        if wanted[k] != found[k] {
-            *path = options.curves(&edges[k..=k])?.swap_remove(0);
-        }
+    for (k, path) in others.into_iter().zip(options.curves(&edges)?) {
+        paths[k] = path;
     }
     Ok(paths)
 }

@@ -1,10 +1,12 @@
 //! A UFO folder → Font.
 
+mod damage;
 mod info;
 mod kerning;
 
 use super::{Names, ReadError, Reading, listed, notdef};
 use crate::types::{Anchor, Component, Font, Glyph, Name, Outline};
+use damage::damage;
 use info::{info, unread};
 use kerning::kerning;
 use kurbo::{PathEl, Point};
@@ -23,7 +25,7 @@ type Named<'a> = BTreeMap<&'a str, Name>;
 /// # Errors
 /// The folder is no readable UFO, its glyphs make no font, or kerning or an anchor is larger than a font holds.
 pub fn ufo(folder: &Path) -> Result<Reading, ReadError> {
-    let source = norad::Font::load(folder).map_err(|e| ReadError::damaged("a UFO", e))?;
+    let source = norad::Font::load(folder).map_err(|e| damage(&e))?;
     let mut lost = Vec::new();
     let mut names = Names::default();
     let order = order(&source);

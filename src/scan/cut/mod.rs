@@ -35,7 +35,7 @@ use crate::types::{Cell, Label};
 use kurbo::{Affine, Point, Rect};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
-use sieve::{Inks, sort, speck_limit, stroke_width};
+use sieve::{Inks, sort, speck_limit, stroke_width, telling};
 use stance::Stance;
 use std::fmt;
 
@@ -228,6 +228,16 @@ pub fn cut_with(
     options: &Options,
     pins: &[Pin],
 ) -> Result<Cut, ScanError> {
+    let cut = cut_page(page, labels, options, pins);
+    cut.map_err(|e| e.or_polarity(page.sheet.guessed))
+}
+
+fn cut_page(
+    page: &Page,
+    labels: &[Label],
+    options: &Options,
+    pins: &[Pin],
+) -> Result<Cut, ScanError> {
     let gray = &page.sheet.gray;
     let low = LOW.max(NOISE * page.noise);
     let Inks {
@@ -237,12 +247,13 @@ pub fn cut_with(
         specks,
     } = sort(components(gray, low, SEED.max(low)), page, options)?;
     let separation = Separation::measure(&page.sheet, &all, &options.ink, speck_limit(&all))?;
-    let edges = Edges::new(&all.iter().collect::<Vec<_>>());
+    let telling = telling(&all, page);
+    let edges = Edges::new(&telling, gray.height());
     let skew_deg = Some(skew_deg(&edges)).filter(|s| s.abs() >= LEAST_SKEW_DEG);
     let skew_deg = skew_deg.unwrap_or(0.0);
     let middle = Point::new(gray.width() as f64 / 2.0, gray.height() as f64 / 2.0);
     let upright = Scene {
-        ink: &all,
+        ink: &telling,
         edges: &edges,
         middle,
         skew_deg,

@@ -5,6 +5,7 @@ use crate::scan::clean::Page;
 use crate::scan::components::{Component, Run};
 use crate::scan::error::ScanError;
 use crate::scan::options::Options;
+use kurbo::Rect;
 
 /// Ink smaller than a square of this many stroke widths is a speck: the dot of a letter is a disc of at least one
 /// stroke (0.89 of its side as a square), and loses a little to the threshold.
@@ -20,6 +21,12 @@ const LINE: (f64, f64) = (0.5, 0.02);
 pub(super) const LATTICE_COVER: f64 = 0.12;
 /// Share of a piece of ink that lies on the page at least.
 const ON_PAPER: f64 = 0.8;
+
+/// Share of the picture's side from which ink is long: shorter pieces weigh less than a row of letters where a page's
+/// skew is measured.
+const LONG: f64 = 0.25;
+/// Share of a long piece that lies along the paper's end where it is the edge of what lies beside.
+const ON_RIM: f64 = 0.8;
 
 /// A page's ink.
 pub(super) struct Inks {
@@ -37,6 +44,7 @@ pub(super) struct Inks {
 pub(super) fn sort(all: Vec<Component>, page: &Page, options: &Options) -> Result<Inks, ScanError> {
     let gray = &page.sheet.gray;
     let (found, mut beyond): (Vec<_>, Vec<_>) = all.into_iter().partition(|c| on_paper(c, page));
+    let found = take_rims(found, page, &mut beyond);
     let (mut letters, mut other) = options.ink.part(found, page.sheet.colours.as_ref());
     if letters.is_empty() && !other.is_empty() {
         return Err(ScanError::OtherInk {
@@ -56,7 +64,7 @@ pub(super) fn sort(all: Vec<Component>, page: &Page, options: &Options) -> Resul
     small.retain(|c| c.area as f64 >= least * (LEAST_DOT / SPECK).powi(2));
     take(&mut other);
     take(&mut beyond);
-    let borders = take_borders(&mut letters, gray.width(), gray.height());
+    let borders = take_borders(&mut letters, (gray.width(), gray.height()));
     let borders = borders.iter().map(|c| Rejected::of(c, Reason::Border));
     let other = other.iter().map(|c| Rejected::of(c, Reason::OtherInk));
     let beyond = beyond.iter().map(|c| Rejected::of(c, Reason::OffPage));
@@ -76,6 +84,47 @@ fn on_paper(c: &Component, page: &Page) -> bool {
     let on = |r: &Run| (r.start..r.end).filter(|&x| paper.holds(x, r.y)).count();
     let inside: usize = c.runs.iter().map(on).sum();
     inside as f64 >= ON_PAPER * c.area as f64
+}
+
+/// Takes the edge of a lid or a table out, which stays where their middle passes for shadow; what it touches is cut
+/// free.
+fn take_rims(found: Vec<Component>, page: &Page, beyond: &mut Vec<Component>) -> Vec<Component> {
+    let Some(paper) = &page.lit else {
+        return found;
+    };
+    let size = (page.sheet.gray.width(), page.sheet.gray.height());
+    let rim = paper.rim();
+    let mut kept = Vec::new();
+    for c in found {
+        let on = |r: &Run| (r.start..r.end).filter(|&x| rim.holds(x, r.y)).count();
+        let along = || c.runs.iter().map(on).sum::<usize>() as f64;
+        if !is_long(&c, size) || along() < ON_RIM * c.area as f64 {
+            kept.push(c);
+            continue;
+        }
+        let mut rest = c.without(|x, y| rim.holds(x, y));
+        rest.retain(|c| c.bounds.width().min(c.bounds.height()) > rim.block_px());
+        kept.extend(rest);
+        beyond.push(c);
+    }
+    kept
+}
+
+/// The ink that tells how the page is turned: all but what is long and touches the picture's border, which need not
+/// lie as the page does.
+pub(super) fn telling<'a>(all: &'a [Component], page: &Page) -> Vec<&'a Component> {
+    let size = (page.sheet.gray.width(), page.sheet.gray.height());
+    let tells = |c: &&Component| !(is_long(c, size) && at_edge(c, size));
+    let telling: Vec<&Component> = all.iter().filter(tells).collect();
+    if telling.is_empty() {
+        return all.iter().collect();
+    }
+    telling
+}
+
+/// Whether a piece of ink is long for a picture of this size.
+fn is_long(c: &Component, (width, height): (usize, usize)) -> bool {
+    c.bounds.width() > LONG * width as f64 || c.bounds.height() > LONG * height as f64
 }
 
 /// Area of the smallest piece of ink that may be a dot, px².
@@ -114,15 +163,18 @@ pub(super) fn stroke_width(all: &[Component]) -> f64 {
 }
 
 /// Takes out ink that touches the picture's border and reaches along half of a side.
-fn take_borders(all: &mut Vec<Component>, width: usize, height: usize) -> Vec<Component> {
-    let (w, h) = (width as f64, height as f64);
-    let at_edge = |c: &Component| {
-        c.bounds.x0 <= 0.0 || c.bounds.y0 <= 0.0 || c.bounds.x1 >= w || c.bounds.y1 >= h
-    };
+fn take_borders(all: &mut Vec<Component>, size: (usize, usize)) -> Vec<Component> {
+    let (w, h) = (size.0 as f64, size.1 as f64);
     let long = |c: &Component| c.bounds.width() > w / 2.0 || c.bounds.height() > h / 2.0;
     let (out, kept) = std::mem::take(all)
         .into_iter()
-        .partition(|c| at_edge(c) && long(c));
+        .partition(|c| at_edge(c, size) && long(c));
     *all = kept;
     out
+}
+
+/// Whether a piece of ink touches the border of a picture of this size.
+fn at_edge(c: &Component, (width, height): (usize, usize)) -> bool {
+    let Rect { x0, y0, x1, y1 } = c.bounds;
+    x0 <= 0.0 || y0 <= 0.0 || x1 >= width as f64 || y1 >= height as f64
 }

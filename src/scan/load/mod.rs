@@ -2,14 +2,16 @@
 
 mod colour;
 mod pdf;
+mod polarity;
 
 use super::error::{MAX_PIXELS, ScanError};
 use super::header;
-use crate::types::{Gray, Sheet};
+use crate::types::{Gray, Shade, Sheet};
 use image::error::ImageError;
 use image::metadata::Orientation;
 use image::{DynamicImage, ImageDecoder, ImageReader, Limits};
 use image_extras::pcx::PCXDecoder;
+use polarity::{Certainty, Guess, guess};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::io::{Cursor, ErrorKind};
@@ -20,8 +22,6 @@ const MAX_BYTES: u64 = 8 * MAX_PIXELS;
 const LUMA: [f32; 3] = [0.2126, 0.7152, 0.0722];
 /// A picture whose colours differ by less than this, of 1, says nothing by its colours.
 const FLAT: f32 = 0.02;
-/// Share of dark pixels, of the outermost ring, from which the picture counts as light on dark.
-const DARK_RING: f32 = 0.9;
 
 /// How closely a picture's colours are looked at.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -38,7 +38,8 @@ pub enum Grain {
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Polarity {
-    /// Dark ink, unless most of the picture and nine tenths of its outermost ring of pixels are dark.
+    /// Dark ink, unless most of the picture and nine tenths of its outermost ring of pixels are dark, by the levels
+    /// of its own ink and paper, and it shows no light page on a dark table.
     #[default]
     Auto,
     /// Dark ink on light paper.
@@ -123,16 +124,20 @@ pub fn load_turned(
     let pictures = if pdf::is_pdf(bytes) {
         pdf::pages(bytes, source)?
     } else {
+        let page = |file: &[u8]| Ok((decode(file, source)?, header::dpi(file)));
         let pages = header::tiff_pages(bytes);
-        let files: Vec<&[u8]> = if pages.is_empty() {
-            vec![bytes]
+        if pages.is_empty() {
+            vec![page(bytes)?]
         } else {
-            pages.iter().map(Vec::as_slice).collect()
-        };
-        let decoded = files
-            .into_iter()
-            .map(|f| Ok((decode(f, source)?, header::dpi(f))));
-        decoded.collect::<Result<_, ScanError>>()?
+            // decoders begin at the first page: one copy, whose header points to one after the other
+            let mut file = bytes.to_vec();
+            let mut begun = |first: [u8; 4]| {
+                file[header::TIFF_FIRST].copy_from_slice(&first);
+                page(&file)
+            };
+            let decoded = pages.into_iter().map(&mut begun);
+            decoded.collect::<Result<_, ScanError>>()?
+        }
     };
     let several = pictures.len() > 1;
     let name = |n: usize| {
@@ -157,7 +162,16 @@ fn sheet(
     let (width, height) = (image.width() as usize, image.height() as usize);
     let mut colours = colour::colours(&image, grain);
     let mut samples = ink(image, grain);
-    if light_on_dark(&samples, width, polarity) {
+    let told = |shade| Guess {
+        shade,
+        certainty: Certainty::Sure,
+    };
+    let guess = match polarity {
+        Polarity::Auto => guess(&samples, width),
+        Polarity::DarkInk => told(Shade::Dark),
+        Polarity::LightInk => told(Shade::Light),
+    };
+    if guess.shade == Shade::Light {
         samples.par_iter_mut().for_each(|v| *v = 1.0 - *v);
         colours = None; // what light ink swallows says nothing of it
     }
@@ -169,6 +183,7 @@ fn sheet(
         gray,
         colours,
         dpi,
+        guessed: (guess.certainty == Certainty::Doubtful).then_some(guess.shade),
         source: source.to_owned(),
     })
 }
@@ -295,27 +310,7 @@ fn over_white(pixels: Vec<(f32, f32)>) -> Vec<f32> {
     pixels.into_par_iter().map(ink).collect()
 }
 
-/// Whether light is the ink.
-fn light_on_dark(ink: &[f32], width: usize, polarity: Polarity) -> bool {
-    let dark = |v: &&f32| **v > 0.5;
-    match polarity {
-        Polarity::DarkInk => false,
-        Polarity::LightInk => true,
-        Polarity::Auto => {
-            let rows = || ink.chunks(width.max(1));
-            let sides = rows().flat_map(|r| r.first().into_iter().chain(r.last()));
-            let ends = rows()
-                .next()
-                .into_iter()
-                .chain(rows().next_back())
-                .flatten();
-            let ring: Vec<&f32> = sides.chain(ends).collect();
-            let ring_dark = ring.iter().filter(|v| dark(v)).count();
-            ring_dark as f32 > DARK_RING * ring.len() as f32
-                && ink.par_iter().filter(dark).count() * 2 > ink.len()
-        }
-    }
-}
-
+#[cfg(test)]
+mod shades;
 #[cfg(test)]
 mod tests;

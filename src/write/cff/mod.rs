@@ -14,6 +14,7 @@ use dict::{Dict, index};
 use kurbo::{BezPath, Rect};
 use read_fonts::ps::string::STANDARD_STRINGS;
 use std::collections::BTreeMap;
+use write_fonts::tables::post::Post;
 
 // Operators of the Top DICT.
 const NOTICE: u16 = 1;
@@ -25,7 +26,10 @@ const CHARSET: u16 = 15;
 const CHAR_STRINGS: u16 = 17;
 const PRIVATE: u16 = 18;
 const VERSION: u16 = 0;
+const IS_FIXED_PITCH: u16 = 0x0C01;
 const ITALIC_ANGLE: u16 = 0x0C02;
+const UNDERLINE_POSITION: u16 = 0x0C03;
+const UNDERLINE_THICKNESS: u16 = 0x0C04;
 const FONT_MATRIX: u16 = 0x0C07;
 // Operators of the Private DICT.
 const DEFAULT_WIDTH: u16 = 20;
@@ -34,17 +38,19 @@ const NOMINAL_WIDTH: u16 = 21;
 /// Glyph count up to which the predefined charset can serve: its last string is number 228.
 const ISO_ADOBE_LAST: usize = 228;
 
-/// The table: `shapes` and `advances` in glyph-id order, `bounds` around all of them.
+/// The table: `shapes` and `advances` in glyph-id order, `bounds` around all of them; `post` says of the underline and
+/// the pitch what this table says again.
 pub(super) fn table(
     font: &Font,
-    shapes: &[BezPath],
-    advances: &[i32],
+    post: &Post,
+    (shapes, advances): (&[BezPath], &[i32]),
     bounds: Rect,
 ) -> Result<Vec<u8>, WriteError> {
     let mut strings = Strings::default();
     let charset = charset(font, &mut strings)?;
     let mut top = Dict::default();
     describe(font, &mut top, &mut strings)?;
+    repeat(post, &mut top);
     top.numbers(FONT_BBOX, &[bounds.x0, bounds.y0, bounds.x1, bounds.y1]);
     let widths = widths::choose(advances);
     let mut private = Dict::default();
@@ -161,6 +167,22 @@ fn describe(font: &Font, top: &mut Dict, strings: &mut Strings) -> Result<(), Wr
         top.numbers(FONT_MATRIX, &[scale, 0.0, 0.0, scale, 0.0, 0.0]);
     }
     Ok(())
+}
+
+/// What `post` says, too. Its underline is told by the line's top, this one's by its middle (OpenType, `post`).
+fn repeat(post: &Post, top: &mut Dict) {
+    let pitch = i32::from(post.is_fixed_pitch != 0);
+    top.integer_unless(IS_FIXED_PITCH, pitch, 0);
+    let thickness = f64::from(post.underline_thickness.to_i16());
+    let middle = f64::from(post.underline_position.to_i16()) - thickness / 2.0;
+    for (operator, value, assumed) in [
+        (UNDERLINE_POSITION, middle, -100.0),
+        (UNDERLINE_THICKNESS, thickness, 50.0),
+    ] {
+        if (value - assumed).abs() > 0.0 {
+            top.numbers(operator, &[value]);
+        }
+    }
 }
 
 /// The glyphs' string numbers in the shortest of the formats; empty for the predefined `ISOAdobe` set.

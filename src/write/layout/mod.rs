@@ -4,10 +4,12 @@
 //! kerning from its pairs, `curs`, `mark` and `mkmk` from its anchors, glyph classes from both. A feature or
 //! table that the font's text has already is left to it.
 
+mod context;
 mod kern;
 mod marks;
 mod source;
 
+pub(super) use context::longest;
 pub(super) use marks::{Class, class};
 
 use super::WriteError;

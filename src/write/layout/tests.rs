@@ -1,6 +1,7 @@
 use super::*;
 use crate::types::{Anchor, Glyph, Info, Name};
 use kurbo::Point;
+use write_fonts::dump_table;
 
 /// A font of these glyphs, each a name and its character where it has one, with these features.
 fn font(glyphs: &[(&str, Option<char>)], features: &str) -> Font {
@@ -136,4 +137,59 @@ fn numbers_that_no_table_holds_are_errors() {
             .to_string()
             .contains("anchor top of")
     );
+}
+
+#[test]
+fn the_longest_context_is_that_of_the_tables() {
+    // the numbers are those of fontTools' `maxCtxFont`
+    let many = |body: &str| format!("feature test {{ {body} }} test;");
+    let cases = [
+        ("", 0),
+        ("pos cursive a <anchor 0 0> <anchor 9 0>;", 0),
+        ("sub a by b;", 1),
+        ("sub a by b c;", 1),
+        ("sub a from [b c];", 1),
+        ("pos a 10;", 1),
+        ("pos a b -10;", 2),
+        ("sub a b c by d;", 3),
+        ("sub a' b' by c;", 2),
+        ("sub d a' b c by b;", 3),
+        ("sub d d d a' by b;", 1),
+        ("sub [a b] [c d]' [a b c] [a b] by d;", 3),
+        ("rsub a' b c d by d;", 4),
+        ("rsub a b' by d;", 1),
+        ("pos d a' 10 b c d;", 4),
+        (
+            "lookup one { sub a by b; } one; lookup two useExtension { sub a b c d by a; } two;",
+            4,
+        ),
+    ];
+    let glyphs = [
+        ("a", Some('a')),
+        ("b", Some('b')),
+        ("c", Some('c')),
+        ("d", Some('d')),
+    ];
+    for (body, most) in cases {
+        let features = if body.is_empty() {
+            String::new()
+        } else {
+            many(body)
+        };
+        let made = compile(&font(&glyphs, &features)).unwrap();
+        let gsub = made
+            .gsub
+            .map(|t| dump_table(&t).unwrap())
+            .unwrap_or_default();
+        let gpos = made
+            .gpos
+            .map(|t| dump_table(&t).unwrap())
+            .unwrap_or_default();
+        assert_eq!(longest(&gsub, &gpos), most, "{body}");
+        let half = |b: &[u8]| b[..b.len() / 2].to_vec();
+        assert!(
+            longest(&half(&gsub), &half(&gpos)) <= most,
+            "{body}, cut off"
+        );
+    }
 }

@@ -1,6 +1,7 @@
 mod across;
 mod bare;
 mod dust;
+mod lid;
 mod signs;
 mod small;
 mod told;
@@ -91,6 +92,7 @@ impl Paper {
             gray,
             colours: None,
             dpi: Some(300.0),
+            guessed: None,
             source: "page.png".to_owned(),
         }
     }

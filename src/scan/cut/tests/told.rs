@@ -102,3 +102,30 @@ fn names_that_have_slipped_are_told() {
         "{told_of:?}"
     );
 }
+
+#[test]
+fn an_error_of_a_page_whose_ink_was_guessed_names_polarity() {
+    use crate::types::Shade;
+    let names = format!("{NAMES} n i p");
+    let said = |guessed: Option<Shade>| {
+        let mut sheet = grid_page(0.0).scan();
+        sheet.guessed = guessed;
+        let page = clean(sheet).unwrap();
+        let cut = cut(&page, &labels(&names), &options(Layout::Grid(4, 5)));
+        cut.unwrap_err().to_string()
+    };
+    let plain = said(None);
+    assert!(!plain.contains("polarity"), "{plain}");
+    let dark = said(Some(Shade::Dark));
+    assert!(dark.starts_with(&plain), "{dark}");
+    assert!(dark.contains("darker than its paper") && dark.contains("polarity = \"light-ink\""));
+    let light = said(Some(Shade::Light));
+    assert!(light.contains("polarity = \"dark-ink\""), "{light}");
+    let empty = Sheet {
+        gray: Gray::from_fn(300, 200, |_, _| 0.1),
+        guessed: Some(Shade::Light),
+        ..grid_page(0.0).scan()
+    };
+    let blank = clean(empty).unwrap_err().to_string();
+    assert!(blank.contains("polarity"), "{blank}");
+}
