@@ -336,3 +336,35 @@ fn no_ink_is_lost() {
         assert_eq!(here, 1, "a disk of {r} px at {c}");
     }
 }
+
+/// A picture of two levels: each pixel is what its middle is.
+fn two_levels(side: usize, distance: impl Fn(Point) -> f64) -> Gray {
+    let middle = |x: usize, y: usize| Point::new(x as f64 + 0.5, y as f64 + 0.5);
+    Gray::from_fn(side, side, |x, y| {
+        f32::from(u8::from(distance(middle(x, y)) < 0.0))
+    })
+}
+
+#[test]
+fn the_steps_of_two_levels_are_no_drawing() {
+    let disk = |p: Point| p.distance(Point::new(100.3, 99.8)) - 80.2;
+    let found = outlines(&two_levels(200, disk));
+    assert!(off(&found, disk) < 0.5, "{}", off(&found, disk));
+    assert_eq!(turns(&found[0]).len(), 4, "nodes of a disk");
+    for deg in [-3.0, 1.0, 2.0, 20.0] {
+        // a stem aslant, whose sides run in steps of 3 to 60 px
+        let stem = |p: Point| {
+            let to = Vec2::from_angle(f64::to_radians(deg));
+            let from = p - Point::new(100.2, 99.9);
+            let (x, y) = (from.dot(to).abs() - 21.3, from.cross(to).abs() - 80.6);
+            x.max(y).min(0.0) + Vec2::new(x.max(0.0), y.max(0.0)).hypot()
+        };
+        let found = outlines(&two_levels(200, stem));
+        assert_eq!(
+            turns(&found[0]).len(),
+            4,
+            "nodes of a stem at {deg} degrees"
+        );
+        assert!(off(&found, stem) < 0.5, "{} at {deg}", off(&found, stem));
+    }
+}

@@ -5,7 +5,7 @@ use crate::types::Gray;
 use std::mem;
 
 /// A sample is of neither level where it lies this far from both, parts of the way between them.
-const BETWEEN: f32 = 0.2;
+const BETWEEN: f32 = 0.1;
 /// The least part of the steps that no sample between the levels smooths.
 const BARE: f64 = 0.9;
 /// The softening, a Gaussian's standard deviation, px, and its part of a stroke. Half a pixel leaves the steps as they
@@ -54,22 +54,35 @@ impl Levels {
         v > self.least + margin && v < self.most - margin
     }
 
-    /// Whether nearly all places where an edge turns from along rows to along columns are bare of samples between the
-    /// levels: in a grey picture an edge comes to the next row or column by way of such.
+    /// Whether nearly all places where an edge comes from one row or column to the next are bare of samples between the
+    /// levels: in a grey picture it comes there by way of such. Corners are no such places.
     fn run_in_steps(&self, gray: &Gray) -> bool {
         let (mut steps, mut bare) = (0_usize, 0_usize);
-        let rows = gray.samples().chunks_exact(gray.width().max(1));
-        for (above, below) in rows.clone().zip(rows.skip(1)) {
-            for (a, b) in above.windows(2).zip(below.windows(2)) {
-                let four = [a[0], a[1], b[0], b[1]];
-                let ink = four.map(|v| self.is_ink(v));
-                let straight = (ink[0] == ink[1] && ink[2] == ink[3])
-                    || (ink[0] == ink[2] && ink[1] == ink[3]);
-                if !straight {
-                    steps += 1;
-                    bare += usize::from(!four.iter().any(|&v| self.is_between(v)));
+        let mut look = |before: [f32; 2], here: [f32; 2], after: [f32; 2]| {
+            let [[a, b], [c, d], [e, f]] =
+                [before, here, after].map(|two| two.map(|v| self.is_ink(v)));
+            if c != d && a == b && e == f && a != e {
+                steps += 1;
+                let six = [before, here, after];
+                bare += usize::from(!six.iter().flatten().any(|&v| self.is_between(v)));
+            }
+        };
+        let mut rows = gray.samples().chunks_exact(gray.width().max(1));
+        let mut last = None;
+        let mut above = rows.next();
+        for row in rows {
+            if let Some(above) = above {
+                for (a, b) in above.windows(3).zip(row.windows(3)) {
+                    look([a[0], b[0]], [a[1], b[1]], [a[2], b[2]]);
                 }
             }
+            if let (Some(last), Some(above)) = (last, above) {
+                let two = |row: &'_ [f32], x: usize| [row[x], row[x + 1]];
+                for x in 0..row.len().saturating_sub(1) {
+                    look(two(last, x), two(above, x), two(row, x));
+                }
+            }
+            (last, above) = (above, Some(row));
         }
         steps > 0 && bare as f64 >= BARE * steps as f64
     }
@@ -121,4 +134,79 @@ fn blurred(gray: &Gray, sigma_px: f64) -> Vec<f32> {
     }
     coverage::blur(&mut samples, wide, sigma_px, margin);
     samples
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::numeric::cast::single;
+
+    /// A disk of a radius in px, of `soft` px of grey along its edge, between two levels.
+    fn disk(radius: f64, soft: f64, levels: (f32, f32)) -> Gray {
+        Gray::from_fn(100, 100, |x, y| {
+            let off = (x as f64 - 49.3).hypot(y as f64 - 50.1) - radius;
+            let ink = single((0.5 - off / soft.max(1e-9)).clamp(0.0, 1.0));
+            levels.0 + ink * (levels.1 - levels.0)
+        })
+    }
+
+    fn sum(gray: &Gray) -> f64 {
+        gray.samples().iter().map(|v| f64::from(*v)).sum()
+    }
+
+    #[test]
+    fn two_levels_are_told_whatever_they_are() {
+        for levels in [(0.0, 1.0), (0.1, 0.7)] {
+            let steps = disk(30.0, 0.0, levels);
+            let soft = softened(&steps).expect("an edge in steps");
+            assert!(
+                (sum(&soft) / sum(&steps) - 1.0).abs() < 1e-5,
+                "no ink is lost"
+            );
+            assert!(soft.scatter_px() > 0.28, "{}", soft.scatter_px());
+            assert!(softened(&soft).is_none(), "once is enough");
+        }
+    }
+
+    #[test]
+    fn grey_pictures_stay() {
+        for soft in [1.0, 1.5, 3.0] {
+            assert!(softened(&disk(30.0, soft, (0.0, 1.0))).is_none(), "{soft}");
+        }
+        let plain = Gray::from_fn(9, 7, |_, _| 0.3);
+        assert!(softened(&plain).is_none());
+        // edges on the pixels' own
+        let within = |v: usize| (3..13).contains(&v);
+        let square = Gray::from_fn(20, 20, |x, y| f32::from(u8::from(within(x) && within(y))));
+        assert!(softened(&square).is_none());
+        // slopes of 45 degrees, whose pixels are covered alike all along
+        for by in [0.0, 0.25, 0.5, 0.75] {
+            let slope = Gray::from_fn(30, 30, |x, y| {
+                let off = x as f64 - y as f64 - by;
+                let corner = (1.0 - off.abs()).max(0.0).powi(2) / 2.0;
+                single(if off < 0.0 { corner } else { 1.0 - corner })
+            });
+            assert!(softened(&slope).is_none(), "{by}");
+        }
+        assert!(softened(&Gray::from_fn(0, 0, |_, _| 0.0)).is_none());
+    }
+
+    #[test]
+    fn thin_strokes_are_softened_less_and_ink_goes_on_beyond_the_picture() {
+        let reach = |radius: f64| {
+            let steps = disk(radius, 0.0, (0.0, 1.0));
+            let soft = softened(&steps).expect("an edge in steps");
+            let grey = soft.samples().iter().filter(|v| (0.02..0.98).contains(*v));
+            grey.count() as f64 / radius
+        };
+        assert!(
+            reach(40.0) > 1.6 * reach(5.0),
+            "{} {}",
+            reach(40.0),
+            reach(5.0)
+        );
+        let cut = Gray::from_fn(60, 60, |x, y| f32::from(u8::from(x > 30 + y / 9)));
+        let soft = softened(&cut).expect("an edge in steps");
+        assert!(soft.at(59, 59) > 0.999 && soft.at(59, 0) > 0.999);
+    }
 }

@@ -66,14 +66,19 @@ def parted(path):
     return f"{len(apart)} of {seen}" + (f" ({' '.join(apart[:4])})" if apart else "")
 
 
+def found(name, folders):
+    """The font's file: the name itself, or the first of that name below a folder; none where there is none."""
+    below = [sorted(glob.glob(os.path.join(folder, "**", name), recursive=True)) for folder in folders]
+    files = [name] if os.path.exists(name) else sum(below, [])
+    return files[0] if files else None
+
+
 def row(args, text, folder):
     text, _, more = text.partition("::")
     name, *options = shlex.split(text)
-    below = [sorted(glob.glob(os.path.join(folder, "**", name), recursive=True)) for folder in args.fonts]
-    found = [name] if os.path.exists(name) else sum(below, [])
-    if not found:
+    path = found(name, args.fonts)
+    if not path:
         return f"| {text} | no such font below {', '.join(args.fonts)} |"
-    path = found[0]
     truth, project = page(args.bench, path, options, more.strip().replace("] ", "]\n"), folder)
     build = subprocess.run([args.khatt, "build", "--no-cache", "--quiet", project], capture_output=True, text=True)
     if build.returncode:
@@ -85,12 +90,12 @@ def row(args, text, folder):
         file.write(run.stdout + run.stderr)
     if "\n{" not in run.stdout:
         return f"| {text} | {run.stderr.splitlines()[-1]} |"
-    found = json.loads(run.stdout[run.stdout.index("\n{") :])
+    got = json.loads(run.stdout[run.stdout.index("\n{") :])
     joins = parted(built) if "--forms" in options else ""
     return (
-        f"| {text} | {found['cells']} | {len(found['missing'])}, {len(found['wrong'])} | {found['mean']:.2f}"
-        f" | {found['median_max']:.2f} | {found['worst']:.2f} | {found['baseline']:.1f}, {found['baseline_scatter']:.2f}"
-        f" | {found['advance_error']:.1f} | {found['ots']} | {joins} |"
+        f"| {text} | {got['cells']} | {len(got['missing'])}, {len(got['wrong'])} | {got['mean']:.2f}"
+        f" | {got['median_max']:.2f} | {got['worst']:.2f} | {got['baseline']:.1f}, {got['baseline_scatter']:.2f}"
+        f" | {got['advance_error']:.1f} | {got['ots']} | {joins} |"
     )
 
 
