@@ -17,6 +17,8 @@ pub(super) const TELLING: f64 = 1.4;
 const ROUND_PX: f64 = 1.15;
 /// And of this much more for each px of the lens' deviation, which makes the place less certain.
 const ROUND_LENS: f64 = 0.4;
+/// And for each px of the edges' own: a side that is off by half a pixel leaves out as much.
+const ROUND_SCATTER: f64 = 5.0;
 /// That times this where the contour alone does not look like a corner, and where it does.
 const DOUBT: [f64; 2] = [0.8, 1.3];
 
@@ -66,7 +68,8 @@ pub(super) fn undrawn(residual: &Residual<'_>, path: &[CubicBez]) -> Vec<Point> 
 
 /// Largest radius, px, of an arc that is still taken for a corner.
 fn limit(residual: &Residual<'_>) -> f64 {
-    ROUND_PX + ROUND_LENS * residual.lens_px()
+    let scatter = residual.seen().scatter_px();
+    ROUND_PX + ROUND_LENS * residual.lens_px() + ROUND_SCATTER * scatter
 }
 
 /// How much of the ink that an arc of `radius` px would leave out of a corner is lacking, as a part; negative where

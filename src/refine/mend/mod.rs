@@ -247,8 +247,11 @@ impl Work<'_> {
         }
     }
 
-    /// Puts lines across the ends of corners where the pixels ask for them.
+    /// Puts lines across the ends of corners where the pixels ask for them, of pictures whose pixels tell so little.
     fn blunt(&mut self) {
+        if self.residual.seen().scatter_px() > 0.0 {
+            return;
+        }
         let least = -HINT * Look::Corner.more(self.wrong.grain);
         let hinted = |c: &Chain, i: usize| hint(&self.residual, c, i) > least;
         for (k, at) in self.nodes(hinted) {
