@@ -36,7 +36,8 @@ def built(args, folder, original):
     command = [sys.executable, os.path.join(args.bench, "font_bench.py"), "--truth", os.path.join(folder, "page.png.json")]
     found = subprocess.run(command + ["--original", original, "--built", font], capture_output=True, text=True).stdout
     found = json.loads(found[found.index("{") :])
-    outlines = TTFont(font)["glyf"].glyphs.values()
+    font = TTFont(font)
+    outlines = [font["glyf"][name] for name in font.getGlyphOrder()]
     points = sum(len(glyph.coordinates) for glyph in outlines if glyph.numberOfContours > 0)
     return f"{found['mean']:.2f} | {found['median_max']:.2f} | {len(found['wrong'])} | {points}"
 
