@@ -40,8 +40,8 @@ pub struct Page {
     pub(super) lit: Option<Paper>,
 }
 
-/// Evens out the light of a page, of two levels once its steps are softened ([`softened`]). Where the paper covers less than half of the picture, what lies beside it counts
-/// for nothing.
+/// Evens out the light of a page, of two levels once its steps are softened ([`softened`]). Where the paper covers less
+/// than half of the picture, what lies beside it counts for nothing.
 ///
 /// # Errors
 /// Nothing on the page is darker than its paper.

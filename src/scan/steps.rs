@@ -2,6 +2,7 @@
 
 use crate::numeric::{cast::index, coverage};
 use crate::types::Gray;
+use rayon::prelude::*;
 use std::mem;
 
 /// A sample is of neither level where it lies this far from both, parts of the way between them.
@@ -57,34 +58,40 @@ impl Levels {
     /// Whether nearly all places where an edge comes from one row or column to the next are bare of samples between the
     /// levels: in a grey picture it comes there by way of such. Corners are no such places.
     fn run_in_steps(&self, gray: &Gray) -> bool {
-        let (mut steps, mut bare) = (0_usize, 0_usize);
+        let rows = (0..gray.height()).into_par_iter();
+        let of_row = rows.map(|y| self.steps(gray, y));
+        let (steps, bare) = of_row.reduce(|| (0, 0), |a, b| (a.0 + b.0, a.1 + b.1));
+        steps > 0 && bare as f64 >= BARE * steps as f64
+    }
+
+    /// Steps of edges along a row, and of those along columns between it and the next; and how many of them are bare.
+    fn steps(&self, gray: &Gray, y: usize) -> (usize, usize) {
+        let (mut steps, mut bare) = (0, 0);
         let mut look = |before: [f32; 2], here: [f32; 2], after: [f32; 2]| {
-            let [[a, b], [c, d], [e, f]] =
-                [before, here, after].map(|two| two.map(|v| self.is_ink(v)));
-            if c != d && a == b && e == f && a != e {
-                steps += 1;
+            let ink = |two: [f32; 2]| two.map(|v| self.is_ink(v));
+            let ([a, b], [c, d]) = (ink(before), ink(after));
+            if a == b && c == d && a != c {
                 let six = [before, here, after];
+                steps += 1;
                 bare += usize::from(!six.iter().flatten().any(|&v| self.is_between(v)));
             }
         };
-        let mut rows = gray.samples().chunks_exact(gray.width().max(1));
-        let mut last = None;
-        let mut above = rows.next();
-        for row in rows {
-            if let Some(above) = above {
-                for (a, b) in above.windows(3).zip(row.windows(3)) {
-                    look([a[0], b[0]], [a[1], b[1]], [a[2], b[2]]);
-                }
+        let (row, below) = (gray.row(y), gray.row(y + 1));
+        let above = y.checked_sub(1).map_or(&[][..], |y| gray.row(y));
+        let differ = |a: f32, b: f32| self.is_ink(a) != self.is_ink(b);
+        for ((before, here), after) in (above.windows(2).zip(row.windows(2))).zip(below.windows(2))
+        {
+            if differ(here[0], here[1]) {
+                let two = |pair: &[f32]| [pair[0], pair[1]];
+                look(two(before), two(here), two(after));
             }
-            if let (Some(last), Some(above)) = (last, above) {
-                let two = |row: &'_ [f32], x: usize| [row[x], row[x + 1]];
-                for x in 0..row.len().saturating_sub(1) {
-                    look(two(last, x), two(above, x), two(row, x));
-                }
-            }
-            (last, above) = (above, Some(row));
         }
-        steps > 0 && bare as f64 >= BARE * steps as f64
+        for (a, b) in row.windows(3).zip(below.windows(3)) {
+            if differ(a[1], b[1]) {
+                look([a[0], b[0]], [a[1], b[1]], [a[2], b[2]]);
+            }
+        }
+        (steps, bare)
     }
 
     /// The usual length of ink along rows and columns, px.
