@@ -65,7 +65,7 @@ pub(super) fn guess(ink: &[f32], width: usize) -> Guess {
         ratio(dark) / ratio(places.len().max(1))
     };
     let around = share(&picture.ring());
-    let most = share(&picture.places().collect::<Vec<_>>());
+    let most = picture.dark_share();
     let surrounded = around > DARK_RING && most > 0.5;
     let shade = if surrounded && !picture.shows_page() {
         Shade::Light
@@ -86,6 +86,8 @@ struct Picture<'a> {
     width: usize,
     height: usize,
     step: usize,
+    /// The part, of those in a row of them, in which each column lies.
+    across: Vec<usize>,
     /// The level between dark and light in each part, by rows.
     middles: Vec<f32>,
 }
@@ -98,6 +100,7 @@ impl<'a> Picture<'a> {
             width,
             height,
             step: (width.min(height) / ACROSS).max(1),
+            across: (0..width).map(|x| x * PARTS / width).collect(),
             middles: Vec::new(),
         };
         new.middles = new.middles();
@@ -124,18 +127,33 @@ impl<'a> Picture<'a> {
     }
 
     fn part(&self, (x, y): (usize, usize)) -> usize {
-        y * PARTS / self.height * PARTS + x * PARTS / self.width
+        y * PARTS / self.height * PARTS + self.across[x]
     }
 
     fn is_dark(&self, place: (usize, usize)) -> bool {
         self.at(place) > self.middles[self.part(place)]
     }
 
+    /// The share of the pixels looked at that are dark.
+    fn dark_share(&self) -> f32 {
+        let (mut dark, mut all) = (0, 0);
+        for y in (0..self.height).step_by(self.step) {
+            let parts = &self.middles[self.part((0, y))..];
+            let row = &self.ink[y * self.width..][..self.width];
+            for (v, part) in row.iter().zip(&self.across).step_by(self.step) {
+                dark += usize::from(*v > parts[*part]);
+                all += 1;
+            }
+        }
+        ratio(dark) / ratio(all)
+    }
+
     /// The level of most steep edges in each part, or of all where it has few. In a picture out of focus that of the
     /// middle, and half of black where all looks alike.
     fn middles(&self) -> Vec<f32> {
-        let differences = self.edges().map(|(_, a, b)| (a - b).abs());
-        let steepest = nth(&mut differences.collect::<Vec<f32>>(), 1.0 - BEYOND);
+        let mut differences = Vec::with_capacity(2 * self.ink.len() / self.step.pow(2));
+        self.edges(|_, a, b| differences.push((a - b).abs()));
+        let steepest = nth(&mut differences, 1.0 - BEYOND);
         if steepest < LEAST {
             let mut all: Vec<f32> = self.places().map(|p| self.at(p)).collect();
             let (low, high) = (nth(&mut all, BEYOND), nth(&mut all, 1.0 - BEYOND));
@@ -144,12 +162,12 @@ impl<'a> Picture<'a> {
         }
         let mut all = Vec::new();
         let mut parts = vec![Vec::new(); PARTS * PARTS];
-        for (part, a, b) in self.edges() {
+        self.edges(|place, a, b| {
             if (a - b).abs() > STEEP * steepest {
                 all.push(f32::midpoint(a, b));
-                parts[part].push(f32::midpoint(a, b));
+                parts[self.part(place)].push(f32::midpoint(a, b));
             }
-        }
+        });
         let enough = ENOUGH * ratio(all.len()) / ratio(parts.len());
         let usual = nth(&mut all, 0.5);
         let own = |part: &mut Vec<f32>| {
@@ -162,14 +180,25 @@ impl<'a> Picture<'a> {
         parts.iter_mut().map(own).collect()
     }
 
-    /// What may be an edge, across and down: its part of the picture and the levels of both sides.
-    fn edges(&self) -> impl Iterator<Item = (usize, f32, f32)> {
-        self.places().flat_map(move |(x, y)| {
-            let across = (x + EDGE_PX < self.width).then_some((x + EDGE_PX, y));
-            let down = (y + EDGE_PX < self.height).then_some((x, y + EDGE_PX));
-            let sides = [across, down].into_iter().flatten();
-            sides.map(move |side| (self.part((x, y)), self.at((x, y)), self.at(side)))
-        })
+    /// What may be an edge, across and down: a place and the levels of both sides.
+    fn edges(&self, mut tell: impl FnMut((usize, usize), f32, f32)) {
+        for y in (0..self.height).step_by(self.step) {
+            let row = &self.ink[y * self.width..][..self.width];
+            for (x, (a, b)) in row
+                .iter()
+                .zip(row.iter().skip(EDGE_PX))
+                .enumerate()
+                .step_by(self.step)
+            {
+                tell((x, y), *a, *b);
+            }
+            let Some(below) = self.ink.get((y + EDGE_PX) * self.width..) else {
+                continue;
+            };
+            for (x, (a, b)) in row.iter().zip(below).enumerate().step_by(self.step) {
+                tell((x, y), *a, *b);
+            }
+        }
     }
 
     /// Whether what is light is a page that dark surrounds, rather than ink.
