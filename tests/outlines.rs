@@ -368,3 +368,16 @@ fn the_steps_of_two_levels_are_no_drawing() {
         assert!(off(&found, stem) < 1.0, "{} at {deg}", off(&found, stem));
     }
 }
+
+#[test]
+fn pictures_of_a_few_columns_in_two_levels_end() {
+    for (width, height, seed) in (1..12).flat_map(|w| (8..28).map(move |h| (w, h, w * 31 + h))) {
+        let ink = |x: usize, y: usize| {
+            let mixed = (x + 1) * 2_654_435 + (y + 1) * 40_503 * (seed + 7);
+            f32::from(u8::from((mixed ^ (mixed >> 7)) % 5 > seed % 4))
+        };
+        let picture = Gray::from_fn(width, height, ink);
+        let paths = outlines(&picture);
+        assert!(paths.iter().all(BezPath::is_finite), "{width} × {height}");
+    }
+}

@@ -353,7 +353,9 @@ impl Window {
         let inner = width.saturating_sub(2 * m);
         let lines = out.chunks_exact_mut(width.max(1)).skip(m);
         let lines = lines.take(self.rows.len().saturating_sub(2 * m));
-        for (to, from) in lines.zip(left.chunks_exact(inner.max(1))) {
+        // of a picture as narrow as the margins no pixel counts, and what is left is the anchors'
+        let pixels = left.get(..index(self.pixels())).unwrap_or_default();
+        for (to, from) in lines.zip(pixels.chunks_exact(inner.max(1))) {
             to[m..m + inner].copy_from_slice(from);
         }
         blur(&mut out, width, self.lens, 0);
