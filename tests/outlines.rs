@@ -1,6 +1,7 @@
 //! Drawings with a known edge through the whole trace: where their outlines run, and what they never do.
 
 use khatt::numeric::cast::single;
+use khatt::numeric::coverage::blur;
 use khatt::pipeline::picture::{Options, trace_picture};
 use khatt::types::Gray;
 use khatt::write::picture::to_picture;
@@ -71,6 +72,45 @@ fn rounded(p: Point, centre: Point, half: f64, radius: f64) -> f64 {
 }
 
 const CENTRE: Point = Point::new(48.3, 47.8);
+
+/// A picture under a lens of `sigma` px, in greys that scatter by a hundredth.
+fn out_of_focus(gray: &Gray, sigma: f64) -> Gray {
+    let mut samples = gray.samples().to_vec();
+    blur(&mut samples, gray.width(), sigma, 0);
+    let grain = (0_u32..).map(|i| (i.wrapping_mul(2_654_435_761) >> 16) as f32 / 65536.0 - 0.5);
+    let grainy = samples.iter().zip(grain).map(|(v, g)| v + 0.035 * g);
+    gray.with_samples(grainy.collect())
+}
+
+#[test]
+fn a_picture_out_of_focus_is_no_other_drawing() {
+    let middle = Point::new(127.7, 130.2);
+    // corners, rounds, and both
+    let ring = |p: Point| (p.distance(middle) - 70.4).abs() - 22.3;
+    let square = |p: Point| rounded(p, middle, 80.3, 0.0);
+    let shapes: [&dyn Fn(Point) -> f64; 4] =
+        [&square, &|p| rounded(p, middle, 80.3, 30.0), &ring, &|p| {
+            ring(p).max(middle.y - p.y)
+        }];
+    for (i, shape) in shapes.into_iter().enumerate() {
+        let sharp = picture(256, shape);
+        let wanted: Vec<usize> = outlines(&sharp).iter().map(nodes).collect();
+        for sigma in [2.2, 3.1, 4.6, 6.2] {
+            let got = outlines(&out_of_focus(&sharp, sigma));
+            let seen: Vec<usize> = got.iter().map(nodes).collect();
+            let surplus = seen.iter().zip(&wanted).map(|(s, w)| s.abs_diff(*w));
+            let off = off(&got, shape);
+            let case = format!(
+                "shape {i}, a blur of {sigma} px: nodes {seen:?} for {wanted:?}, {off} px off"
+            );
+            assert!(
+                seen.len() == wanted.len() && surplus.sum::<usize>() <= 1,
+                "{case}"
+            );
+            assert!(off < 0.15 * sigma, "{case}");
+        }
+    }
+}
 
 #[test]
 fn a_disk_has_its_extrema() {

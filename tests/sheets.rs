@@ -6,7 +6,14 @@
 
 use crate::cli::{command, khatt, png, transcript};
 use crate::common::approved;
-use skrifa::{FontRef, raw::TableProvider};
+use khatt::numeric::coverage::blur;
+use khatt::scan::{Polarity, load};
+use skrifa::{
+    FontRef, MetadataProvider,
+    instance::{LocationRef, Size},
+    outline::{DrawSettings, OutlinePen},
+    raw::TableProvider,
+};
 use std::collections::BTreeMap;
 use std::fs::{self, File};
 use std::io::{BufRead, BufReader, Read, Write};
@@ -125,6 +132,55 @@ fn a_page_becomes_every_output_and_again_the_same_bytes() {
     let left = files(dir.path());
     let stray: Vec<_> = left.keys().filter(|k| k.contains(".khatt-")).collect();
     assert!(stray.is_empty(), "{stray:?}");
+}
+
+/// How many lines and curves an outline has.
+struct Segments(usize);
+
+impl OutlinePen for Segments {
+    fn move_to(&mut self, _: f32, _: f32) {}
+    fn line_to(&mut self, _: f32, _: f32) {
+        self.0 += 1;
+    }
+    fn quad_to(&mut self, _: f32, _: f32, _: f32, _: f32) {
+        self.0 += 1;
+    }
+    fn curve_to(&mut self, _: f32, _: f32, _: f32, _: f32, _: f32, _: f32) {
+        self.0 += 1;
+    }
+    fn close(&mut self) {}
+}
+
+#[test]
+fn a_page_out_of_focus_is_told_and_keeps_its_corners() {
+    let sharp = page(&[]);
+    let built = |page: &[u8]| {
+        let dir = project(LETTERS, page);
+        let out = khatt(dir.path(), &["build", "font.toml", "--no-cache"]);
+        let stderr = String::from_utf8_lossy(&out.stderr).into_owned();
+        assert_eq!(out.status.code(), Some(0), "{stderr}");
+        let bytes = fs::read(dir.path().join("out/test.otf")).expect("a font");
+        let font = FontRef::new(&bytes).expect("a font");
+        let points = |c: char| {
+            let glyph = font.charmap().map(c).expect("a letter that was named");
+            let mut pen = Segments(0);
+            let size = DrawSettings::unhinted(Size::unscaled(), LocationRef::default());
+            let outline = font.outline_glyphs().get(glyph).expect("its outline");
+            outline.draw(size, &mut pen).expect("it can be drawn");
+            pen.0
+        };
+        ("Hol".chars().map(points).collect::<Vec<_>>(), stderr)
+    };
+    let sheets = load(&sharp, "page.png", Polarity::DarkInk).expect("a picture");
+    let mut samples = sheets[0].gray.samples().to_vec();
+    blur(&mut samples, 600, 3.0, 0);
+    let soft = sheets[0].gray.with_samples(samples).levels();
+    let soft = png(600, 600, |x, y| soft[(y * 600 + x) as usize]);
+    let ((wanted, quiet), (got, told)) = (built(&sharp), built(&soft));
+    assert!(!quiet.contains("out of focus"), "{quiet}");
+    let remark = "page.png, the letters are out of focus: their edges are blurred by 3.";
+    assert!(told.contains(remark), "{told}");
+    assert_eq!(got, wanted, "segments of each letter");
 }
 
 #[test]

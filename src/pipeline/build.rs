@@ -6,6 +6,7 @@ use super::by_hand;
 use super::cache;
 use super::corrections::Corrections;
 use super::doubt::Doubt;
+use super::focus;
 use super::labels;
 use super::letter::{Letter, placed};
 use super::letters;
@@ -191,6 +192,7 @@ fn trace(
         letter
     };
     let letters = all(cells.into_par_iter().map(letter).collect())?;
+    page.cut.warnings.extend(focus::remark(&letters));
     Ok((letters, page))
 }
 

@@ -10,6 +10,7 @@ mod cache;
 pub mod convert;
 mod corrections;
 mod doubt;
+mod focus;
 mod labels;
 mod letter;
 mod letters;

@@ -11,6 +11,7 @@
 
 mod chain;
 mod edge;
+mod focus;
 mod levels;
 mod ragged;
 #[cfg(test)]
@@ -24,6 +25,7 @@ use crate::{
 use kurbo::Point;
 use serde::{Deserialize, Serialize};
 
+pub use focus::{WIDE_PX, focused, spread_px};
 pub use levels::level;
 
 /// Options of the contour tracer.

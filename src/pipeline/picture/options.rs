@@ -49,6 +49,15 @@ impl Options {
             .ok_or("must be between 0.001 and 1000 pixels")
     }
 
+    /// The same for a picture whose pixels are `side` of the usual ones a side.
+    pub(super) fn for_pixels_of(&self, side: usize) -> Self {
+        let side = side as f64;
+        let mut options = self.clone();
+        options.tolerance_px /= side;
+        options.trace.speckle_px2 /= side * side;
+        options
+    }
+
     /// The curves of some contours.
     pub(super) fn curves(&self, edges: &[Cornered]) -> Result<Vec<BezPath>, FitError> {
         let fit = |(c, at): &Cornered| {
