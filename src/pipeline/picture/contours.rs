@@ -6,14 +6,12 @@ use crate::refine::{self, Cornered};
 use crate::types::Gray;
 use crate::{corner, trace};
 
-/// The picture's coverage, and its contours as they were traced with the indices of their corners.
-pub(super) fn found(gray: &Gray, options: &Options) -> (Gray, Vec<Cornered>) {
-    let coverage = trace::level(gray);
-    let contours = trace::trace(&coverage, &options.trace);
+/// The contours of a picture's coverage as they were traced, with the indices of their corners.
+pub(super) fn found(coverage: &Gray, options: &Options) -> Vec<Cornered> {
+    let contours = trace::trace(coverage, &options.trace);
     let corners = each(&contours, |c| options.corners.detector().corners(c));
     let found = contours.into_iter().zip(corners).collect();
-    let found = decided(&coverage, found, options);
-    (coverage, found)
+    decided(coverage, found, options)
 }
 
 /// The contours with their corners sharp, moved to where the picture has its edges.
