@@ -5,6 +5,7 @@
 )]
 
 use crate::common::approved;
+use kurbo::{BezPath, ParamCurve, ParamCurveNearest};
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
@@ -228,7 +229,7 @@ fn a_picture_becomes_one_path_in_its_own_pixels() {
     assert_eq!(svg.matches("<path").count(), 1);
     assert!(svg.contains("viewBox=\"0 0 80 60\""), "{svg}");
     let data = svg.split(" d=\"").nth(1).and_then(|s| s.split('"').next());
-    let path = kurbo::BezPath::from_svg(data.expect("path data")).expect("a path");
+    let path = BezPath::from_svg(data.expect("path data")).expect("a path");
     let centre = kurbo::Shape::bounding_box(&path).center();
     assert!(centre.distance((40.0, 30.0).into()) < 0.1, "{centre}");
     let same = khatt(dir.path(), &["trace", "disc.png", "-o", "-"]);
@@ -352,6 +353,55 @@ fn features_are_plotted() {
         String::from_utf8_lossy(&blank.stderr).contains("no ink"),
         "{blank:?}"
     );
+}
+
+/// A line of 10 px with round ends from (20, 30) to (140, 75), of two levels.
+fn slanting(x: u32, y: u32) -> u8 {
+    let (x, y) = (f64::from(x) + 0.5 - 20.0, f64::from(y) + 0.5 - 30.0);
+    let (u, v) = (120.0, 45.0);
+    let t = ((x * u + y * v) / (u * u + v * v)).clamp(0.0, 1.0);
+    if (x - t * u).hypot(y - t * v) < 5.0 {
+        255
+    } else {
+        0
+    }
+}
+
+#[test]
+fn features_of_two_levels_are_those_of_the_drawing() {
+    let dir = tempfile::tempdir().expect("a folder");
+    fs::write(dir.path().join("line.png"), png(160, 120, slanting)).expect("a picture");
+    let out = khatt(dir.path(), &["features", "line.png", "-o", "line.svg"]);
+    assert_eq!(out.status.code(), Some(0), "{out:?}");
+    let svg = fs::read_to_string(dir.path().join("line.svg")).expect("a diagram");
+    // in steps its sides were five runs with eight ends
+    assert!(svg.contains(" 2 straight runs"), "{svg}");
+}
+
+#[test]
+fn the_middle_of_a_line_of_two_levels_is_where_it_was_drawn() {
+    let dir = tempfile::tempdir().expect("a folder");
+    fs::write(dir.path().join("line.png"), png(160, 120, slanting)).expect("a picture");
+    let out = khatt(
+        dir.path(),
+        &["trace", "--centerline", "line.png", "-o", "line.svg"],
+    );
+    assert_eq!(out.status.code(), Some(0), "{out:?}");
+    let svg = fs::read_to_string(dir.path().join("line.svg")).expect("a drawing");
+    let d = svg
+        .split(" d=\"")
+        .nth(1)
+        .and_then(|rest| rest.split('"').next());
+    let path = BezPath::from_svg(d.expect("a path")).expect("curves");
+    let line = kurbo::Line::new((20.0, 30.0), (140.0, 75.0));
+    for p in path
+        .segments()
+        .flat_map(|s| [0.0, 0.25, 0.5, 0.75, 1.0].map(|t| s.eval(t)))
+    {
+        let off = line.nearest(p, 1e-6).distance_sq.sqrt();
+        // 0.44 in steps
+        assert!(off < 0.25, "{off}: {svg}");
+    }
 }
 
 /// As after `khatt methods | head -1`.

@@ -77,7 +77,7 @@ pub fn svg(data: &[u8]) {
 
 /// A font: read, written again, and taken for a reference.
 pub fn font(data: &[u8]) {
-    if let Ok(reading) = read::font(data, &[]) {
+    if let Ok(reading) = read::font(data, None, &[]) {
         written(&reading.font);
     }
     let letters = ["A", "b", "uni0628.medi", "uni06440627.fina"];

@@ -50,7 +50,10 @@ impl Features {
         rule.turn_deg = self.turn.unwrap_or(rule.turn_deg);
         rule.straight_deg = self.straight.unwrap_or(rule.straight_deg);
         let dark = scan::is_all_dark(&page.gray).then(|| scan::full_range(&page.gray));
-        let coverage = trace::level(dark.flatten().as_ref().unwrap_or(&page.gray));
+        let dark = dark.flatten();
+        let gray = dark.as_ref().unwrap_or(&page.gray);
+        let soft = scan::softened(gray);
+        let coverage = trace::level(soft.as_ref().unwrap_or(gray));
         let contours = trace(&coverage, &trace::Options::default());
         if contours.is_empty() {
             return Err(Failure::new(format!("{name} has no ink to trace")));

@@ -69,7 +69,8 @@ impl Trace {
         let dark = dark.flatten();
         let gray = dark.as_ref().unwrap_or(&page.gray);
         if self.centerline {
-            return self.write_lines(gray);
+            let soft = scan::softened(gray);
+            return self.write_lines(soft.as_ref().unwrap_or(gray));
         }
         let options = self.options();
         let trace = |gray: &Gray| trace_picture(gray, &options).map_err(|e| Failure::at(&name, &e));

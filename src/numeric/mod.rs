@@ -5,6 +5,7 @@ pub mod banded;
 pub mod bspline;
 pub mod cast;
 pub mod chain;
+pub mod clip;
 pub mod coverage;
 pub mod distance;
 pub mod iso;

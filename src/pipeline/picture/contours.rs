@@ -3,17 +3,14 @@
 use super::options::Options;
 use crate::numeric::many::each;
 use crate::refine::{self, Cornered};
-use crate::types::Gray;
+use crate::types::{Contour, Gray};
 use crate::{corner, trace};
 
-/// The picture's coverage, and its contours as they were traced with the indices of their corners.
-pub(super) fn found(gray: &Gray, options: &Options) -> (Gray, Vec<Cornered>) {
-    let coverage = trace::level(gray);
-    let contours = trace::trace(&coverage, &options.trace);
+/// The contours of a picture's coverage as they were traced, with the indices of their corners.
+pub(super) fn found(coverage: &Gray, contours: Vec<Contour>, options: &Options) -> Vec<Cornered> {
     let corners = each(&contours, |c| options.corners.detector().corners(c));
     let found = contours.into_iter().zip(corners).collect();
-    let found = decided(&coverage, found, options);
-    (coverage, found)
+    decided(coverage, found, options)
 }
 
 /// The contours with their corners sharp, moved to where the picture has its edges.

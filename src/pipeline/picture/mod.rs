@@ -1,5 +1,6 @@
 //! One picture → closed curves: trace, corner, cut, fit, refine.
 
+mod border;
 mod contours;
 mod options;
 mod review;
@@ -7,15 +8,16 @@ mod review;
 pub use options::Options;
 
 use crate::fit::{self, FitError};
-use crate::refine::Cornered;
 use crate::scan;
 use crate::trace::{self, Boundary};
-use crate::types::Gray;
+use crate::types::{Contour, Gray};
+use border::Carried;
 use contours::{found, sharp};
 use kurbo::{Affine, BezPath};
 
 /// The closed curves around a picture's ink, px, y up, origin at the picture's bottom left; outer ones
-/// counter-clockwise, holes clockwise. Nothing for a picture without ink.
+/// counter-clockwise, holes clockwise. Nothing for a picture without ink. Ink that the picture's edge cuts ends
+/// there, straight.
 ///
 /// A picture out of focus is traced in larger pixels ([`trace::focused`]); lengths in the options are those of its own.
 ///
@@ -24,14 +26,41 @@ use kurbo::{Affine, BezPath};
 pub fn trace_picture(gray: &Gray, options: &Options) -> Result<Vec<BezPath>, FitError> {
     let soft = softened(gray, options);
     let gray = soft.as_ref().unwrap_or(gray);
-    let (coverage, found) = found(gray, options);
-    if let Some((focused, side)) = focused(gray, &found, options) {
+    let coverage = trace::level(gray);
+    let contours = trace::trace(&coverage, &options.trace);
+    if let Some((focused, side)) = focused(gray, &contours, options) {
         let paths = trace_picture(&focused, &options.for_pixels_of(side))?.into_iter();
         return Ok(paths.map(|p| Affine::scale(side as f64) * p).collect());
     }
-    let paths = options.curves(&sharp(&coverage, &found, options))?;
+    match carried(&coverage, &contours, options) {
+        Some(carried) => {
+            let contours = trace::trace(&carried.coverage, &options.trace);
+            let paths = curves(&carried.coverage, contours, options)?;
+            Ok(carried.cut(&paths, options.trace.speckle_px2))
+        }
+        None => curves(&coverage, contours, options),
+    }
+}
+
+/// The coverage with the ink that the picture's edge cuts carried on, if there is such.
+fn carried(coverage: &Gray, contours: &[Contour], options: &Options) -> Option<Carried> {
+    // pixels' centres are followed as they lie, and end within the picture
+    if options.trace.boundary == Boundary::Chain || !border::cuts(coverage) {
+        return None;
+    }
+    border::carried(coverage, border::blur_px(coverage, contours)?)
+}
+
+/// The closed curves along the contours of a coverage.
+fn curves(
+    coverage: &Gray,
+    contours: Vec<Contour>,
+    options: &Options,
+) -> Result<Vec<BezPath>, FitError> {
+    let found = found(coverage, contours, options);
+    let paths = options.curves(&sharp(coverage, &found, options))?;
     if matches!(options.fit, fit::Method::Joint(_)) {
-        review::reviewed(&coverage, &found, &paths, options)
+        review::reviewed(coverage, &found, &paths, options)
     } else {
         Ok(paths)
     }
@@ -49,15 +78,7 @@ fn softened(gray: &Gray, options: &Options) -> Option<Gray> {
 }
 
 /// The picture in larger pixels, for the methods that look at grey levels, where it is out of focus; and the side of one.
-fn focused(gray: &Gray, found: &[Cornered], options: &Options) -> Option<(Gray, usize)> {
-    let (contour, _) = found.first().filter(|_| look_at_grey(options))?;
-    trace::focused(gray, contour.blur_px())
-}
-
-/// The contours of a picture's ink with their corners sharp, and the corners' indices.
-#[must_use]
-pub fn edges(gray: &Gray, options: &Options) -> Vec<Cornered> {
-    let soft = softened(gray, options);
-    let (coverage, found) = found(soft.as_ref().unwrap_or(gray), options);
-    sharp(&coverage, &found, options)
+fn focused(gray: &Gray, contours: &[Contour], options: &Options) -> Option<(Gray, usize)> {
+    let seen = contours.first().filter(|_| look_at_grey(options))?;
+    trace::focused(gray, seen.blur_px())
 }

@@ -3,6 +3,14 @@
 use super::glyf::Stored;
 use kurbo::{BezPath, ParamCurve, ParamCurveDeriv, PathSeg, Point, Vec2};
 
+/// By how much the search's own lengths in units grow at a tolerance, units: 1 up to two thousandths of an em of
+/// 2048, the finest they were chosen in; in a finer em they would be ever smaller parts of what the tolerance leaves
+/// free.
+pub(super) fn coarse(tolerance: f64) -> f64 {
+    const USUAL: f64 = 4.1;
+    (tolerance / USUAL).max(1.0)
+}
+
 /// A node that stays: where, and the direction the curve must have there, if any.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Node {
@@ -175,7 +183,7 @@ impl Curve {
     fn sampled(segs: &[PathSeg], tolerance: f64) -> Self {
         /// Samples lie no farther apart, units: a bend tighter than that is a corner of the grid.
         const FINE: f64 = 0.4;
-        let spacing = tolerance.min(FINE);
+        let spacing = tolerance.min(FINE * coarse(tolerance));
         let mut table: Vec<(f64, usize, f64)> = Vec::new();
         let mut length = 0.0;
         for (i, seg) in segs.iter().enumerate() {

@@ -1,4 +1,9 @@
-use super::{Rate, Strictness, glyf::points, glyf_bytes, through};
+use super::{
+    Rate, Strictness,
+    curve::{Course, Span},
+    glyf::points,
+    glyf_bytes, through,
+};
 use crate::{
     quadratic::split::Split,
     types::{Contour, Outline},
@@ -314,4 +319,52 @@ fn nothing_degenerate_panics() {
             .iter()
             .any(|e| matches!(e, PathEl::QuadTo(..)))
     );
+}
+
+#[test]
+fn a_finer_em_takes_no_finer_steps() {
+    let scaled = |by: f64| {
+        let contours = letter();
+        let contours = contours.contours().iter();
+        Outline::new(contours.map(|c| Affine::scale(by) * c.clone()).collect()).unwrap()
+    };
+    let samples = |by: f64| {
+        let keep = Rate::default().kept(2.0 * by);
+        let outline = scaled(by);
+        let courses = outline.contours().iter().map(|c| Course::new(c, keep));
+        let of = |course: Option<Course>| match course {
+            Some(Course::Spans(spans)) => {
+                let curves = spans.iter().map(|(_, span, _)| match span {
+                    Span::Line => 0,
+                    Span::Curve(curve) => curve.dots.len(),
+                });
+                curves.sum()
+            }
+            Some(Course::Ring(curve, _)) => curve.dots.len(),
+            None => 0,
+        };
+        courses.map(of).sum::<usize>()
+    };
+    assert!(
+        samples(16.0) < 3 * samples(1.0),
+        "{} {}",
+        samples(16.0),
+        samples(1.0)
+    );
+    for keep in [Strictness::Corners, Strictness::Extrema] {
+        let rate = Rate {
+            keep,
+            ..Rate::default()
+        };
+        let fine = scaled(16.0);
+        let q = rate.convert(&fine, 32.0).unwrap();
+        let far = astray(&fine, &q).max(astray(&q, &fine));
+        assert!(far <= 32.1, "{keep:?}: {far}");
+        let usual = rate.convert(&scaled(1.0), 2.0).unwrap();
+        let [fine, usual] = [q, usual].map(|q| {
+            let stored = q.contours().iter().map(|c| points(c).len());
+            stored.sum::<usize>()
+        });
+        assert!(fine <= usual + 2, "{keep:?}: {fine} {usual}");
+    }
 }

@@ -5,6 +5,7 @@
 //! | here | paths and the picture | places that are wrong, the worst first; levels read again between looks |
 //! | [`place`] | a place | the part of its path whose nodes are near, put back where that explains enough more |
 //! | [`structure`] | an open part | the [`variants`] of its nodes and corners that leave least |
+//! | [`budget`] | the outlines' length | how many fits all that may take |
 //! | [`beside`] | a structure | whether it crosses what is around it |
 //! | [`tangle`] | paths as they came and are | those that cross now mended once more, without that |
 //! | [`window`] | a structure | its nodes by least squares of the pixels around |
@@ -19,6 +20,7 @@
 
 mod bends;
 mod beside;
+mod budget;
 mod ends;
 mod fair;
 mod part;
@@ -35,6 +37,7 @@ mod window;
 use super::{curves::polygon, residual::Residual};
 use crate::numeric::{chain::Chain, joins::divide_at_extrema};
 use bends::tight_bends;
+use budget::Budget;
 use ends::hint;
 use kurbo::{BezPath, Point, Rect, Shape};
 use part::changed;
@@ -91,12 +94,14 @@ struct Work<'a> {
     /// places that were tried in vain, and the squares around them then
     vain: Vec<(Point, f64)>,
     crossing: Crossing,
+    work: Budget,
 }
 
 impl<'a> Work<'a> {
     fn new(residual: &'a Residual<'_>, paths: &[BezPath]) -> Self {
         let rings = rings(paths);
         let residual = residual.against(rings.iter().map(|r| r.chords.as_slice()));
+        let length: f64 = rings.iter().map(Ring::length).sum();
         Self {
             wrong: Wrong::new(&residual),
             reach: REACH_PX + REACH_LENS * residual.lens_px(),
@@ -105,6 +110,7 @@ impl<'a> Work<'a> {
             rings,
             vain: Vec::new(),
             crossing: Crossing::OnTheWay,
+            work: Budget::new(length),
         }
     }
 }
@@ -288,6 +294,9 @@ impl Work<'_> {
 
     /// Changes ring `k` around a place if that explains enough more; then the nodes around it.
     fn change(&mut self, k: usize, at: Point, look: Look) -> Option<Vec<Point>> {
+        if self.work.is_spent() {
+            return None;
+        }
         let chain = self.chains[k].as_ref()?;
         let place = Place {
             residual: &self.residual,
@@ -296,6 +305,7 @@ impl Work<'_> {
             rings: (&self.rings, k),
             grain: self.wrong.grain,
             crossing: self.crossing,
+            work: &self.work,
         };
         let reaches = [self.reach, WIDE * self.reach];
         let reaches = match look {
@@ -380,6 +390,12 @@ impl Ring {
             chords,
             bounds,
         }
+    }
+
+    /// px
+    fn length(&self) -> f64 {
+        let chords = self.chords.iter().zip(self.chords.iter().skip(1));
+        chords.map(|(a, b)| a.distance(*b)).sum()
     }
 }
 

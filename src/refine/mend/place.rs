@@ -3,6 +3,7 @@
 use super::{
     Ring,
     beside::Beside,
+    budget::Budget,
     fair::is_fair,
     part::{begun_at, open_part, put_back},
     structure::{FAR, Search},
@@ -85,6 +86,7 @@ pub(super) struct Place<'a> {
     /// mean square of the differences that mean nothing
     pub(super) grain: f64,
     pub(super) crossing: Crossing,
+    pub(super) work: &'a Budget,
 }
 
 impl Place<'_> {
@@ -101,6 +103,7 @@ impl Place<'_> {
             at: self.at,
             reach,
             grain: self.grain,
+            work: self.work,
             beside: self.beside((&ring, &part), FAR * reach),
         };
         let best = match look {

@@ -4,6 +4,7 @@ use super::{
     WRONG,
     bends::{cornered, is_cornered, is_sharp},
     beside::Beside,
+    budget::Budget,
     ends::is_blunt,
     fair::is_fair,
     tips::{has_tip, tip},
@@ -48,6 +49,7 @@ pub(super) struct Search<'a> {
     pub(super) reach: f64,
     /// mean square of the differences that mean nothing
     pub(super) grain: f64,
+    pub(super) work: &'a Budget,
     /// what no structure may cross
     pub(super) beside: Option<Beside>,
 }
@@ -158,11 +160,11 @@ impl Search<'_> {
         for from in from {
             for other in variants(from, self.at, self.reach) {
                 let fewer = |f: &Fitted| f.chain.nodes.len() < other.nodes.len();
-                if found
-                    .as_ref()
-                    .is_some_and(|f| self.is_explained(f) && fewer(f))
+                // what more nodes could save is less than they must
+                let explained = found.as_ref();
+                if explained.is_some_and(|f| self.is_explained(f) && fewer(f))
+                    || self.work.is_spent()
                 {
-                    // what more nodes could save is less than they must
                     break;
                 }
                 let enough = most(&other).min(least - price(&other));
@@ -184,6 +186,7 @@ impl Search<'_> {
 
     /// Fits a structure, its extrema upright and level, and its soft corners smooth.
     fn fit(&self, mut chain: Chain, enough: f64) -> Fitted {
+        self.work.take(chain.kinds.len());
         let mut drawn = self.window.fit(&mut chain, enough);
         let before = chain.clone();
         for i in 1..chain.kinds.len() {

@@ -1,6 +1,7 @@
 use super::{
     Ring, SMOOTH, Work,
     bends::tight_bends,
+    budget::Budget,
     part::open_part,
     tangle::Crossing,
     tips::{ONE_PX, is_needle, trimmed},
@@ -9,6 +10,8 @@ use super::{
 use crate::{
     numeric::{
         chain::{Chain, Node},
+        coverage::blur,
+        iso,
         joins::inner_extrema,
     },
     refine::{
@@ -372,4 +375,38 @@ fn mending_a_picture_of_nothing_and_of_noise_ends() {
             assert!(got.is_finite());
         }
     }
+}
+
+#[test]
+fn a_picture_of_noise_takes_no_more_than_there_is() {
+    // blurred noise, its outlines as they are found
+    let mut state: u32 = 7;
+    let mut noise = vec![0.0; 48 * 48];
+    for v in &mut noise {
+        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        *v = (state >> 8) as f32 / (1 << 24) as f32;
+    }
+    blur(&mut noise, 48, 0.8, 0);
+    let gray = Gray::from_fn(48, 48, |x, y| 0.5 + 2.5 * (noise[48 * y + x] - 0.5));
+    let rings = iso::rings((48, 48), |x, y| gray.at(x, y), 0.5);
+    let path = |ring: &Vec<Point>| {
+        let mut path = BezPath::new();
+        path.move_to(ring[0]);
+        ring[1..].iter().step_by(4).for_each(|p| path.line_to(*p));
+        path.close_path();
+        path
+    };
+    let paths: Vec<BezPath> = rings.iter().filter(|r| r.len() > 12).map(path).collect();
+    let blurs = paths.iter().map(|p| polygon(p, 0.01)).collect::<Vec<_>>();
+    let residual = Residual::new(&gray, blurs.iter().map(Vec::as_slice), 0.9);
+    let spent = |most: usize| {
+        let mut work = Work::new(&residual, &paths);
+        work.work = Budget::of(most);
+        work.mend();
+        work.work.over().map(|over| most + over)
+    };
+    assert_eq!(spent(0), Some(0), "nothing pays for it");
+    assert!(spent(1500).is_some(), "the noise asks for more than that");
+    let some = spent(500).expect("noise that asks for more");
+    assert!(some < 700, "{some} segments in place of 500");
 }

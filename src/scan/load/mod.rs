@@ -238,15 +238,16 @@ fn decode(bytes: &[u8], source: &str) -> Result<DynamicImage, ScanError> {
 
 /// Ink of every pixel over white.
 fn ink(image: DynamicImage, grain: Grain) -> Vec<f32> {
+    let width = image.width() as usize;
     match image {
         DynamicImage::ImageLuma8(i) => grey(i.as_raw()),
-        DynamicImage::ImageLumaA8(i) => grey_alpha(i.as_raw()),
+        DynamicImage::ImageLumaA8(i) => grey_alpha(i.as_raw(), width),
         DynamicImage::ImageRgb8(i) => rgb(i.as_raw(), grain),
-        DynamicImage::ImageRgba8(i) => rgba(i.as_raw(), grain),
+        DynamicImage::ImageRgba8(i) => rgba((i.as_raw(), width), grain),
         DynamicImage::ImageLuma16(i) => grey(i.as_raw()),
-        DynamicImage::ImageLumaA16(i) => grey_alpha(i.as_raw()),
+        DynamicImage::ImageLumaA16(i) => grey_alpha(i.as_raw(), width),
         DynamicImage::ImageRgb16(i) => rgb(i.as_raw(), grain),
-        other => rgba(other.into_rgba16().as_raw(), grain),
+        other => rgba((other.into_rgba16().as_raw(), width), grain),
     }
 }
 
@@ -284,30 +285,54 @@ fn rgb<S: Sample>(raw: &[S], grain: Grain) -> Vec<f32> {
     pixels.map(|p| 1.0 - light(p, grain)).collect()
 }
 
-fn grey_alpha<S: Sample>(raw: &[S]) -> Vec<f32> {
+fn grey_alpha<S: Sample>(raw: &[S], width: usize) -> Vec<f32> {
     let pixels = raw.par_chunks_exact(2);
-    over_white(pixels.map(|p| (p[0].unit(), p[1].unit())).collect())
+    let pixels = pixels.map(|p| (p[0].unit(), p[1].unit())).collect();
+    over_white(pixels, width)
 }
 
-fn rgba<S: Sample>(raw: &[S], grain: Grain) -> Vec<f32> {
+fn rgba<S: Sample>((raw, width): (&[S], usize), grain: Grain) -> Vec<f32> {
     let pixels = raw.par_chunks_exact(4);
-    over_white(
-        pixels
-            .map(|p| (light(&p[..3], grain), p[3].unit()))
-            .collect(),
-    )
+    let pixels = pixels.map(|p| (light(&p[..3], grain), p[3].unit()));
+    over_white(pixels.collect(), width)
 }
 
-/// Ink of (luma, opacity) pixels over white paper; where the visible colours are all one, the opacity.
-fn over_white(pixels: Vec<(f32, f32)>) -> Vec<f32> {
+/// Ink of (luma, opacity) pixels over white paper, in rows of `width`; where the visible colours are all one, or too
+/// light to be ink on it though they lie on nothing, the opacity.
+fn over_white(pixels: Vec<(f32, f32)>, width: usize) -> Vec<f32> {
+    /// No pixel that lets more light through is ink.
+    const INK: f32 = 0.5;
     let span = |a: (f32, f32), v: f32| (a.0.min(v), a.1.max(v));
     let none = (f32::INFINITY, f32::NEG_INFINITY);
     let visible = pixels.iter().filter(|p| p.1 > FLAT).map(|p| p.0);
     let (dark, light) = visible.fold(none, span);
     let (clear, opaque) = pixels.iter().map(|p| p.1).fold(none, span);
-    let by_opacity = light - dark < FLAT && opaque - clear > FLAT;
-    let ink = |(v, a): (f32, f32)| if by_opacity { a } else { (1.0 - v) * a };
+    let over_paper = |(v, a): (f32, f32)| (1.0 - v) * a;
+    let pale = || pixels.iter().all(|p| over_paper(*p) < INK);
+    let by_opacity = opaque - clear > FLAT
+        && (light - dark < FLAT || (opaque > INK && pale() && lies_on_nothing(&pixels, width)));
+    let ink = |p: (f32, f32)| if by_opacity { p.1 } else { over_paper(p) };
     pixels.into_par_iter().map(ink).collect()
+}
+
+/// Whether what can be seen is a drawing: less than half of the picture, and next to nothing of its outermost ring of
+/// pixels. A pale page whose corners are transparent covers more.
+fn lies_on_nothing(pixels: &[(f32, f32)], width: usize) -> bool {
+    /// Opacity of what can be seen.
+    const SEEN: f32 = 0.5;
+    let seen = |p: &&(f32, f32)| p.1 >= SEEN;
+    let height = pixels.len().checked_div(width).unwrap_or(0);
+    let outermost = |i: usize| {
+        let (x, y) = (i % width, i / width);
+        x == 0 || y == 0 || x + 1 == width || y + 1 == height
+    };
+    let ring = pixels.iter().enumerate();
+    let ring: Vec<_> = ring
+        .filter(|(i, _)| outermost(*i))
+        .map(|(_, p)| p)
+        .collect();
+    let around = ring.iter().copied().filter(seen).count();
+    2 * pixels.iter().filter(seen).count() < pixels.len() && 10 * around < ring.len()
 }
 
 #[cfg(test)]

@@ -132,6 +132,34 @@ fn light_ink_and_opacity_become_ink() {
 }
 
 #[test]
+fn a_light_drawing_with_a_gradient_on_nothing_is_drawn_by_its_opacity() {
+    let shaded = |opaque: fn(u32, u32) -> bool, darkest: u8| {
+        let picture = image::RgbaImage::from_fn(40, 40, |x, y| {
+            let light = 255 - u8::try_from(y).unwrap() * ((255 - darkest) / 40);
+            let alpha = if opaque(x, y) { 255 } else { 0 };
+            image::Rgba([light, light, light, alpha])
+        });
+        one(&encoded(
+            &DynamicImage::ImageRgba8(picture),
+            ImageFormat::Png,
+        ))
+        .gray
+    };
+    let drawing = |x, y| (10..30).contains(&x) && (5..35).contains(&y);
+    let white = shaded(drawing, 175);
+    assert!(white.at(20, 6) > 0.99 && white.at(20, 34) > 0.99 && white.at(5, 20) < 0.01);
+    // what is dark enough to be ink on paper is that
+    let dark = shaded(drawing, 15);
+    assert!(dark.at(20, 6) < 0.2 && dark.at(20, 34) > 0.7);
+    // and a pale page that lies aslant is no drawing
+    let page = shaded(
+        |x, y| (10..70).contains(&(x + y)) && (x + 30 > y && y + 30 > x),
+        175,
+    );
+    assert!(page.at(20, 20) < 0.3 && page.at(0, 0) < 0.01);
+}
+
+#[test]
 fn orientation_and_resolution_come_from_the_file() {
     let jpeg = encoded(&DynamicImage::ImageLuma8(picture()), ImageFormat::Jpeg);
     let tiff = [

@@ -67,23 +67,26 @@ fn ligature(table: &LigatureSubstFormat1<'_>) -> Option<u16> {
     parts.max()
 }
 
+/// The longest of all rules of sets, by a `length`; the four kinds of both have no trait in common.
+macro_rules! longest_rule {
+    ($sets:expr, $rules:ident, $length:expr) => {{
+        let sets = $sets;
+        let longest = sets.iter().flatten().flatten().filter_map(|set| {
+            let rules = set.$rules();
+            rules.iter().flatten().map($length).max()
+        });
+        longest.max()
+    }};
+}
+
 fn context(table: &SequenceContext<'_>) -> Option<u16> {
     match table {
         SequenceContext::Format1(t) => {
-            let sets = t.seq_rule_sets();
-            let rules = sets.iter().flatten().flatten().filter_map(|s| {
-                let rules = s.seq_rules();
-                rules.iter().flatten().map(|r| r.glyph_count()).max()
-            });
-            rules.max()
+            longest_rule!(t.seq_rule_sets(), seq_rules, |r| r.glyph_count())
         }
         SequenceContext::Format2(t) => {
-            let sets = t.class_seq_rule_sets();
-            let rules = sets.iter().flatten().flatten().filter_map(|s| {
-                let rules = s.class_seq_rules();
-                rules.iter().flatten().map(|r| r.glyph_count()).max()
-            });
-            rules.max()
+            longest_rule!(t.class_seq_rule_sets(), class_seq_rules, |r| r
+                .glyph_count())
         }
         SequenceContext::Format3(t) => Some(t.glyph_count()),
     }
@@ -91,36 +94,23 @@ fn context(table: &SequenceContext<'_>) -> Option<u16> {
 
 /// What lies behind the input counts not, what lies ahead does.
 fn chained(table: &ChainedSequenceContext<'_>) -> Option<u16> {
+    let both = u16::saturating_add;
     match table {
         ChainedSequenceContext::Format1(t) => {
-            let sets = t.chained_seq_rule_sets();
-            let rules = sets.iter().flatten().flatten().filter_map(|s| {
-                let rules = s.chained_seq_rules();
-                let seen = rules.iter().flatten();
-                seen.map(|r| {
-                    r.input_glyph_count()
-                        .saturating_add(r.lookahead_glyph_count())
-                })
-                .max()
-            });
-            rules.max()
+            longest_rule!(t.chained_seq_rule_sets(), chained_seq_rules, |r| both(
+                r.input_glyph_count(),
+                r.lookahead_glyph_count()
+            ))
         }
         ChainedSequenceContext::Format2(t) => {
-            let sets = t.chained_class_seq_rule_sets();
-            let rules = sets.iter().flatten().flatten().filter_map(|s| {
-                let rules = s.chained_class_seq_rules();
-                let seen = rules.iter().flatten();
-                seen.map(|r| {
-                    r.input_glyph_count()
-                        .saturating_add(r.lookahead_glyph_count())
-                })
-                .max()
-            });
-            rules.max()
+            longest_rule!(
+                t.chained_class_seq_rule_sets(),
+                chained_class_seq_rules,
+                |r| both(r.input_glyph_count(), r.lookahead_glyph_count())
+            )
         }
-        ChainedSequenceContext::Format3(t) => Some(
-            t.input_glyph_count()
-                .saturating_add(t.lookahead_glyph_count()),
-        ),
+        ChainedSequenceContext::Format3(t) => {
+            Some(both(t.input_glyph_count(), t.lookahead_glyph_count()))
+        }
     }
 }

@@ -1,7 +1,7 @@
 //! Extrema and the ends of spans: joins on a line that is given.
 
 use super::super::{
-    curve::{Node, count},
+    curve::{Node, coarse, count},
     glyf::Stored,
 };
 use super::lattice::{floor, full, half, normal, smooth};
@@ -184,7 +184,9 @@ impl Search<'_> {
         let (p, exact) = (node.at.point(), self.curve.dots[i].p);
         let most = node.free.x.max(node.free.y);
         let reach = Stored::on(Point::new(most, 0.0)).x + 1;
-        let around = (-reach..=reach).flat_map(|x| (-reach..=reach).map(move |y| (x, y)));
+        let every = Stored::on(Point::new(coarse(self.effort.limit).floor(), 0.0)).x;
+        let side = move || (-reach..=reach).filter(move |v| v % every == 0);
+        let around = side().flat_map(move |x| side().map(move |y| (x, y)));
         let points = around.filter(|&(x, y)| {
             (x == 0 || node.free.x > 0.0) && (y == 0 || node.free.y > 0.0) && (x, y) != (0, 0)
         });

@@ -2,7 +2,7 @@
 
 use super::super::{
     Strictness,
-    curve::{Curve, Gate},
+    curve::{Curve, Gate, coarse},
 };
 use super::Effort;
 use kurbo::{Point, Vec2};
@@ -48,7 +48,8 @@ pub(super) fn stages(curve: &Curve, effort: Effort) -> Vec<Stage> {
     /// Stages a unit of arc where the curve is straight.
     const STRAIGHT: f64 = 1.0 / 60.0;
     let (first, last) = (curve.first, curve.last);
-    let dense = |i: usize| effort.grain * (curve.dots[i].k.abs() / effort.limit).sqrt() + STRAIGHT;
+    let straight = STRAIGHT / coarse(effort.limit);
+    let dense = |i: usize| effort.grain * (curve.dots[i].k.abs() / effort.limit).sqrt() + straight;
     let mut out = vec![Stage {
         at: first,
         kind: Kind::Free,
