@@ -253,8 +253,8 @@ pub(super) fn in_pieces<'a>(
     parted.len() >= ENOUGH && 2 * most > parted.len()
 }
 
-/// Whether many letters of one piece have specks unlike the page's dust: then the style has them, or these are other letters than their
-/// names say.
+/// Whether many letters of one piece have specks unlike the page's dust: then the style has them, or these are other
+/// letters than their names say.
 fn with_specks(layer: &Layer, (all, stray): (&[Component], &Stray), names: &GlyphData) -> bool {
     let one = |s: &&Slot| Shape::of(&s.label, names).pieces == Pieces::One;
     let asked = layer.slots.iter().filter(one).filter_map(|s| {
