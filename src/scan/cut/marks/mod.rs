@@ -54,6 +54,8 @@ const LEAST_GAP: f64 = 3.0;
 const BLOT: f64 = 1.3;
 /// What all letters of one body have beside it is drawn where its area differs by this factor at most: dust is not the same everywhere.
 const SAME: f64 = 2.0;
+/// Areas of grains of one page's dust differ by this factor at most.
+const GRAINS: f64 = 4.0;
 /// What another letter of the same body and form has beside it lies at the same place from the body's middle up to this share of its height.
 const PLACE: f64 = 0.1;
 /// How far the dot of a zero lies from its middle at most, as a share of its width and height.
@@ -67,11 +69,13 @@ pub(super) fn dust(layer: &mut Layer, all: &[Component], claims: &[(usize, Vec<u
     let names = GlyphData::default();
     let drawn = layer.slots.iter().map(|s| (&s.label, s.parts.as_slice()));
     let in_pieces = in_pieces(drawn, all, &names);
+    let stray = Stray::on(layer, all);
     let page = Usual {
         in_pieces,
-        with_specks: in_pieces || with_specks(layer, all, &names),
+        with_specks: in_pieces || with_specks(layer, (all, &stray), &names),
         side: usual_side(layer, all),
         a_dot: usual_dot(layer, all, &names),
+        stray,
         least: dot,
     };
     let unclaimed = |s: &Slot| claims.iter().all(|c| c.0 != s.index);
@@ -99,8 +103,31 @@ struct Usual {
     side: f64,
     /// The area of a dot, px².
     a_dot: Option<f64>,
+    stray: Stray,
     /// The area below which ink is no larger than dust, px².
     least: f64,
+}
+
+/// Areas of a page's compact pieces that lie in no letter's cell, px².
+struct Stray(Vec<usize>);
+
+impl Stray {
+    fn on(layer: &Layer, all: &[Component]) -> Self {
+        let is_stray = |r: &&(usize, Reason)| matches!(r.1, Reason::Outside | Reason::Skipped);
+        let stray = layer.rejected.iter().filter(is_stray);
+        let compact = stray.map(|r| &all[r.0]).filter(|c| is_dot(c));
+        Self(compact.map(|c| c.area).collect())
+    }
+
+    /// Whether a page has dust that is about as large as a piece.
+    fn has_like(&self, c: &Component) -> bool {
+        let times = self
+            .0
+            .iter()
+            .map(|&area| area as f64 / c.area.max(1) as f64);
+        let alike = times.filter(|t| (1.0 / GRAINS..=GRAINS).contains(t));
+        alike.count() >= ENOUGH
+    }
 }
 
 /// What seems to be dust in a letter's cell.
@@ -122,7 +149,8 @@ fn beside_letter(slot: &Slot, all: &[Component], names: &GlyphData, usual: &Usua
                 small && !torn(c, main)
                     || blot(c, main)
                     || apart(c, parts, all, 1.0)
-                    || !usual.with_specks && speck(c, main)
+                    || !usual.with_specks
+                        && (speck(c, main) || inner(c, main) && usual.stray.has_like(c))
             }
             Pieces::DotAbove | Pieces::DotBelow | Pieces::Marked => {
                 gap(c.upright, main.upright) > side(main).max(usual.side)
@@ -225,16 +253,15 @@ pub(super) fn in_pieces<'a>(
     parted.len() >= ENOUGH && 2 * most > parted.len()
 }
 
-/// Whether many letters of one piece have specks: then the style has them, or these are other letters than their names say.
-fn with_specks(layer: &Layer, all: &[Component], names: &GlyphData) -> bool {
+/// Whether many letters of one piece have specks unlike the page's dust: then the style has them, or these are other
+/// letters than their names say.
+fn with_specks(layer: &Layer, (all, stray): (&[Component], &Stray), names: &GlyphData) -> bool {
     let one = |s: &&Slot| Shape::of(&s.label, names).pieces == Pieces::One;
     let asked = layer.slots.iter().filter(one).filter_map(|s| {
         let body = s.parts.iter().copied().max_by_key(|&i| all[i].area)?;
-        Some(
-            s.parts
-                .iter()
-                .any(|&i| i != body && speck(&all[i], &all[body])),
-        )
+        let (others, main) = (s.parts.iter().filter(|&&i| i != body), &all[body]);
+        let mut others = others.map(|&i| &all[i]);
+        Some(others.any(|c| (speck(c, main) || inner(c, main)) && !stray.has_like(c)))
     });
     let asked: Vec<bool> = asked.collect();
     let specks = asked.iter().filter(|a| **a).count();
@@ -286,6 +313,12 @@ fn blot(c: &Component, body: &Component) -> bool {
 /// Whether a small compact piece lies outside a letter's body and clear of it: what a pen's lift parts from a stroke lies close to it.
 fn speck(c: &Component, body: &Component) -> bool {
     is_compact(c, ROUND) && beside(c, body) && !is_close(c, body)
+}
+
+/// Whether a small compact piece lies between a letter's strokes and clear of them.
+fn inner(c: &Component, body: &Component) -> bool {
+    let small = (c.area as f64) < SMALL * body.area as f64;
+    small && is_compact(c, ROUND) && body.upright.contains(c.centre) && !is_close(c, body)
 }
 
 /// Whether such a piece lies to the left or right of a letter whose sign, which is larger, lies over or under it.

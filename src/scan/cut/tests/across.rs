@@ -93,3 +93,18 @@ fn strokes_that_cross_are_in_both_letters() {
     assert!((ends(&cut, 6).1 - 316.0).abs() < 2.0, "the arm");
     assert!((ends(&cut, 7).0 - 300.0).abs() < 2.0, "the stem");
 }
+
+/// Their feet lie in line with each other and leave a slit of paler ink, far from the border of the cells.
+#[test]
+fn letters_that_pale_ink_alone_joins_are_cut_there() {
+    let mut paper = grid_page(0.0);
+    paper.bar(90.0, 214.0, 57.0, 6.0);
+    paper
+        .bars
+        .push((Rect::new(147.0, 214.0, 148.0, 220.0), 0.42));
+    paper.bar(148.0, 214.0, 90.0, 6.0);
+    let cut = touched(&paper, &[5, 6]);
+    let (left, right) = (ends(&cut, 5), ends(&cut, 6));
+    assert!((left.1 - 147.0).abs() < 1.5, "{left:?}");
+    assert!((right.0 - 148.0).abs() < 1.5, "{right:?}");
+}

@@ -65,6 +65,29 @@ fn letters_without_signs_have_none() {
     }
 }
 
+/// Between the stems of the first n, nearer to both than it is large.
+#[test]
+fn dust_within_a_letter_is_told_by_dust_beside_the_others() {
+    let places = [(30.0, 30.0), (660.0, 30.0), (345.0, 25.0)];
+    for (count, side, kept) in [
+        (0, 6.0, true),
+        (3, 6.0, false),
+        (2, 6.0, true),
+        (3, 14.0, true),
+    ] {
+        let mut paper = grid_page(0.0);
+        paper.bar(101.0, 106.0, 6.0, 6.0);
+        for &(x, y) in &places[..count] {
+            paper.bar(x, y, side, side);
+        }
+        let cut = cut_page(&paper, NAMES, &options(Layout::Grid(4, 5))).unwrap();
+        let cell = &cut.cells[0];
+        let at = Point::new(104.0, 109.0) - (cell.to_sheet * Point::ORIGIN);
+        let seen = cell.gray.at(floor(at.x), floor(at.y)) > 0.5;
+        assert_eq!(seen, kept, "{count} of {side} px: {:?}", cut.rejected);
+    }
+}
+
 #[test]
 fn the_sign_of_a_kaf_lies_within_it() {
     let stroke = (216.0, 94.0, 24.0, 6.0);

@@ -3,6 +3,7 @@
 //! Which of the ink there is whose nobody knows: such letters are warned of.
 
 mod overlap;
+mod pale;
 mod seam;
 
 pub(super) use seam::Along;
@@ -17,6 +18,9 @@ use std::ops::Range;
 
 /// Letters that touch are so unequal at most: each ends within this share of a mean width from where equal ones would.
 const UNEQUAL: f64 = 0.25;
+
+/// Coverage of the ink's edge.
+const LEVEL: f64 = 0.5;
 
 /// Ink that is of several letters.
 #[derive(Debug, Clone, PartialEq)]
@@ -88,13 +92,17 @@ impl Touch {
             let seam = OnceCell::new();
             let seam = || seam.get_or_init(|| Seam::within(stretch, (self.along, &ink), upright));
             let cut = |piece: &Component| {
-                let parted = overlap::part(piece, page, &border).map(|parts| parts.concat());
+                let apart = pale::part(piece, page, &border);
+                let over = || overlap::part(piece, page, &border).map(|parts| parts.concat());
                 let cut = || {
                     seam()
                         .as_ref()
                         .map(|s| piece.parted(|x, y| s.is_before(x, y)))
                 };
-                parted.or_else(cut).unwrap_or_else(|| vec![piece.clone()])
+                apart
+                    .or_else(over)
+                    .or_else(cut)
+                    .unwrap_or_else(|| vec![piece.clone()])
             };
             for of in &mut pieces {
                 *of = of.iter().flat_map(cut).collect();

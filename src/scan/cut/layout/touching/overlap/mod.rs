@@ -18,7 +18,7 @@ mod shape;
 #[cfg(test)]
 mod tests;
 
-use super::Border;
+use super::{Border, LEVEL};
 use crate::scan::components::Component;
 use crate::scan::whole::floor;
 use crate::types::Gray;
@@ -29,8 +29,6 @@ use shape::Shape;
 
 /// Paper around the ink, px: what its blurred edge reaches.
 const MARGIN: usize = 2;
-/// Coverage of the ink's edge.
-const LEVEL: f64 = 0.5;
 /// So much of the ink may belong to neither letter, in squares of a stroke's width.
 const LOST: f64 = 0.2;
 /// A letter has at least so much ink, in squares of a stroke's width.
