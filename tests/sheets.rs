@@ -169,7 +169,7 @@ fn a_page_out_of_focus_is_told_and_keeps_its_corners() {
             outline.draw(size, &mut pen).expect("it can be drawn");
             pen.0
         };
-        ("Hol".chars().map(points).collect::<Vec<_>>(), stderr)
+        ("Hl".chars().map(points).collect::<Vec<_>>(), stderr)
     };
     let sheets = load(&sharp, "page.png", Polarity::DarkInk).expect("a picture");
     let mut samples = sheets[0].gray.samples().to_vec();

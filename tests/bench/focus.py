@@ -1,72 +1,88 @@
 #!/usr/bin/env python3
-"""Letters out of focus: known fonts drawn, blurred and traced.
+"""Letters out of focus, and enlarged ones: known fonts drawn, blurred and traced.
 
-    python3 tests/bench/focus.py --khatt target/release/khatt --bench ../shared/bench [--blur 1,2,3,5] [--every 5]
+    python3 tests/bench/focus.py --khatt target/release/khatt --bench ../shared/bench [--blur 2,3,5] [--enlarge 2,3] [--every 3]
 
-Pictures, potrace and the comparison are those of outline_bench.py at 500 px an em; each clean picture is blurred by a Gaussian
-of so many px, its black set to 0.8 of the way to white, and noise of 3/255 added. Several programs can be given as NAME=PATH.
+Pictures, potrace and the comparison are those of outline_bench.py at 500 px an em. Out of focus, the clean picture is blurred by a
+Gaussian of so many px, its black set to 0.8 of the way to white, and noise of 3/255 added; enlarged, the scanned picture of as
+many times fewer px an em is brought to 500 by cubic interpolation, as scanners do. Several programs can be given as NAME=PATH.
 """
 import argparse, os, sys, tempfile
 from multiprocessing import Pool
 
-CLEAN, INK, NOISE = 255, 0.8, 3
+import numpy as np
+from PIL import Image
+from scipy.ndimage import gaussian_filter
+
+PPEM, WHITE, PAPER, INK, NOISE = 500, 255, 235, 0.8, 3
 COLUMNS = ("mean", "median max", "worst", "nodes ÷ designer’s", "corner F1", "node F1")
 
 
+def out_of_focus(bench, true, upem, char, blur):
+    """A letter's picture blurred by so many px, its px a font unit and the place of its origin."""
+    image, place = bench.render(true, upem, PPEM, 20 + round(3 * blur), "clean", ord(char))
+    ink = gaussian_filter((WHITE - image.astype(float)) * INK, blur)
+    noise = np.random.default_rng(ord(char)).normal(0, NOISE, ink.shape)
+    return np.clip(np.rint(PAPER - ink + noise), 0, WHITE).astype(np.uint8), place
+
+
+def enlarged(bench, true, upem, char, times):
+    """A letter's picture enlarged so many times, its px a font unit and the place of its origin."""
+    image, place = bench.render(true, upem, PPEM / times, 20, "scan", ord(char))
+    height, width = image.shape
+    large = Image.fromarray(image).resize((width * times, height * times), Image.BICUBIC)
+    return np.asarray(large), tuple(v * times for v in place)
+
+
 def letters(task):
-    """The comparisons of one font under one blur, by tool."""
-    import numpy as np
+    """The comparisons of one font drawn in one way, by tool."""
     import outline_bench as bench
     from fontTools.ttLib import TTFont
-    from PIL import Image
-    from scipy.ndimage import gaussian_filter
 
-    khatts, name, blur, every = task
+    khatts, name, (draw, how), every = task
     path, charset, _ = bench.FONTS[name]
     font = TTFont(path)
     glyphs, cmap, upem = font.getGlyphSet(), font.getBestCmap(), font["head"].unitsPerEm
     tools = {"potrace": bench.tool_potrace}
     tools |= {tool: bench.custom(f"{exe} --quiet trace {{in}} -o {{out}}") for tool, exe in khatts.items()}
     found = {tool: [] for tool in tools}
-    chars = [c for c in bench.charset(charset) if ord(c) in cmap][::every]
     with tempfile.TemporaryDirectory() as folder:
-        files = {"in": os.path.join(folder, "in.png"), "pbm": os.path.join(folder, "in.pbm"), "condition": "scan"}
-        files["out"] = os.path.join(folder, "out.svg")
-        for char in chars:
+        files = {end: os.path.join(folder, f"letter.{end}") for end in ("png", "pbm", "svg")}
+        files |= {"in": files["png"], "out": files["svg"]}
+        for char in [c for c in bench.charset(charset) if ord(c) in cmap][::every]:
             true = bench.true_outline(font, glyphs, cmap[ord(char)])
             if not true:
                 continue
-            image, (scale, left, foot) = bench.render(true, upem, 500, 20 + round(3 * blur), "clean", ord(char))
-            ink = gaussian_filter((CLEAN - image.astype(float)) * INK, blur)
-            noise = np.random.default_rng(ord(char)).normal(0, NOISE, ink.shape)
-            image = np.clip(np.rint(CLEAN - 20 - ink + noise), 0, CLEAN).astype(np.uint8)
-            Image.fromarray(image).save(files["in"])
-            half = CLEAN - 20 - INK * CLEAN / 2
-            Image.fromarray(np.where(image < half, 0, CLEAN).astype(np.uint8)).convert("1", dither=0).save(files["pbm"])
+            image, (scale, left, foot) = draw(bench, true, upem, char, how)
+            Image.fromarray(image).save(files["png"])
+            half = (float(image.min()) + float(image.max())) / 2
+            Image.fromarray(np.where(image < half, 0, WHITE).astype(np.uint8)).convert("1", dither=0).save(files["pbm"])
             for tool, trace in tools.items():
                 got, _ = trace(files)
                 got = [[tuple(((x - left) / scale, (foot - y) / scale) for x, y in s) for s in c] for c in got]
-                found[tool].append(bench.compare(true, bench.clean(got, upem * 2e-4), upem, 500))
-    return name, blur, found
+                found[tool].append(bench.compare(true, bench.clean(got, upem * 2e-4), upem, PPEM))
+    return name, f"{draw.__name__.replace('_', ' ')}, {how:g}", found
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--khatt", action="append", required=True)
     parser.add_argument("--bench", required=True, help="folder of outline_bench.py")
-    parser.add_argument("--blur", default="1,2,3,5")
-    parser.add_argument("--every", type=int, default=5, help="of so many letters one is drawn")
+    parser.add_argument("--blur", default="2,3,5", help="px")
+    parser.add_argument("--enlarge", default="2,3", help="times")
+    parser.add_argument("--every", type=int, default=3, help="of so many letters one is drawn")
     args = parser.parse_args()
     sys.path.insert(0, args.bench)
-    import numpy as np
     import outline_bench as bench
 
     khatts = dict(k.split("=", 1) if "=" in k else ("khatt", k) for k in args.khatt)
-    tasks = [(khatts, font, float(b), args.every) for font in bench.FONTS for b in args.blur.split(",")]
-    print("| font | blur, px | tool | letters | " + " | ".join(COLUMNS) + " |")
+    ways = [(out_of_focus, float(px)) for px in args.blur.split(",") if px]
+    ways += [(enlarged, int(times)) for times in args.enlarge.split(",") if times]
+    tasks = [(khatts, font, way, args.every) for font in bench.FONTS for way in ways]
+    print("| font | picture | tool | letters | " + " | ".join(COLUMNS) + " |")
     print("|---" * (4 + len(COLUMNS)) + "|")
     with Pool() as pool:
-        for font, blur, found in pool.imap(letters, tasks):
+        for font, picture, found in pool.imap(letters, tasks):
             for tool, all in found.items():
                 rows = [row for row in all if row]
                 largest = [row["max"] for row in rows]
@@ -74,7 +90,7 @@ def main():
                 nodes = sum(row["nodes"] for row in rows) / sum(row["true_nodes"] for row in rows)
                 mean, node_f1 = (np.mean([row[key] for row in rows]) for key in ("mean", "node_f1"))
                 figures = f"{mean:.3f} | {np.median(largest):.2f} | {max(largest):.2f} | {nodes:.2f} | {corners:.3f} | {node_f1:.3f}"
-                print(f"| {font} | {blur:g} | {tool} | {len(rows)} of {len(all)} | {figures} |", flush=True)
+                print(f"| {font} | {picture} | {tool} | {len(rows)} of {len(all)} | {figures} |", flush=True)
 
 
 if __name__ == "__main__":
