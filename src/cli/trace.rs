@@ -7,7 +7,7 @@ use clap::builder::PossibleValuesParser;
 use khatt::assemble::names;
 use khatt::pipeline::picture::{Options, trace_picture};
 use khatt::recognise;
-use khatt::scan::{self, Polarity};
+use khatt::scan::{self, Reading, Tones};
 use khatt::types::{Gray, Label};
 use khatt::write::{centerline, picture};
 use khatt::{corner, fit};
@@ -38,6 +38,9 @@ pub(crate) struct Trace {
     /// Area of ink or paper below which it is dust, in square pixels [default: 4]
     #[arg(long, value_name = "PX2", value_parser = positive)]
     speckle: Option<f64>,
+    /// How the picture's numbers tell light: in proportion to it, or as cameras and most scanners write it [default: linear]
+    #[arg(long, value_name = "TONES", value_parser = PossibleValuesParser::new(Tones::ALL.map(|t| t.0)))]
+    tones: Option<String>,
     /// Give the middle of the lines that a pen drew, with their width, in place of their outline
     #[arg(long, conflicts_with_all = ["fit", "corners", "tolerance", "speckle"])]
     centerline: bool,
@@ -53,8 +56,14 @@ impl Trace {
         files::ends_in(&self.output, kinds)?;
         let bytes = files::read(&self.picture)?;
         let name = files::name(&self.picture);
-        let pages =
-            scan::load(&bytes, &name, Polarity::Auto).map_err(|e| Failure::new(chain(&e)))?;
+        let named = Tones::ALL
+            .into_iter()
+            .find(|t| self.tones.as_deref() == Some(t.0));
+        let reading = Reading {
+            tones: named.unwrap_or_default().1,
+            ..Reading::default()
+        };
+        let pages = scan::load_as(&bytes, &name, reading).map_err(|e| Failure::new(chain(&e)))?;
         let [page] = pages.as_slice() else {
             let several = format!("{name} holds {} pictures; give one at a time", pages.len());
             return Err(Failure::new(several));

@@ -6,7 +6,7 @@ use super::problem::Problem;
 use super::project::{Project, SheetTable};
 use super::watch::Stage;
 use super::world::World;
-use crate::scan::{self, Cut, Grain, Options, Pin, Turn, Warning};
+use crate::scan::{self, Cut, Grain, Options, Pin, Reading, Turn, Warning};
 use crate::template::{self, Gain};
 use crate::types::{Label, Sheet};
 
@@ -153,7 +153,13 @@ fn load(
     } else {
         Grain::Pixels
     };
-    let mut pages = scan::load_turned(&bytes, &name, table.polarity, (turn, grain))?;
+    let reading = Reading {
+        polarity: table.polarity,
+        tones: table.tones,
+        turn,
+        grain,
+    };
+    let mut pages = scan::load_as(&bytes, &name, reading)?;
     let count = pages.len();
     let page = match table.page {
         None if count == 1 => pages.swap_remove(0),

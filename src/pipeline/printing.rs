@@ -8,7 +8,7 @@ use super::project::{Layout, Project, SheetTable};
 use super::watch::Stage;
 use super::world::World;
 use crate::assemble::names;
-use crate::scan::{self, Cut, Direction, Order, Polarity, Reason, Rejected, Warning};
+use crate::scan::{self, Cut, Direction, Order, Polarity, Reading, Reason, Rejected, Warning};
 use crate::template::{self, Drawing, Place, TemplateError};
 use crate::types::{Label, Sheet};
 use kurbo::Affine;
@@ -157,7 +157,12 @@ impl<'a> Printing<'a> {
             Polarity::Auto => Polarity::DarkInk,
             given => given,
         };
-        let mut sheets = scan::load(&bytes, &image.display().to_string(), polarity)?;
+        let reading = Reading {
+            polarity,
+            tones: self.table.tones,
+            ..Reading::default()
+        };
+        let mut sheets = scan::load_as(&bytes, &image.display().to_string(), reading)?;
         match self.table.page {
             None => Ok(sheets),
             Some(n) if (1..=sheets.len()).contains(&n) => Ok(vec![sheets.swap_remove(n - 1)]),

@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
-"""Letters out of focus, and enlarged ones: known fonts drawn, blurred and traced.
+"""Letters out of focus, enlarged, and in sRGB: known fonts drawn, spoilt and traced.
 
-    python3 tests/bench/focus.py --khatt target/release/khatt --bench ../shared/bench [--blur 2,3,5] [--enlarge 2,3] [--every 3]
+    python3 tests/bench/focus.py --khatt target/release/khatt --bench ../shared/bench [--blur 2,3,5] [--enlarge 2,3] [--srgb] [--every 3]
 
 Pictures, potrace and the comparison are those of outline_bench.py at 500 px an em. Out of focus, the clean picture is blurred by a
 Gaussian of so many px, its black set to 0.8 of the way to white, and noise of 3/255 added; enlarged, the scanned picture of as
-many times fewer px an em is brought to 500 by cubic interpolation, as scanners do. Several programs can be given as NAME=PATH.
+many times fewer px an em is brought to 500 by cubic interpolation, as scanners do. In sRGB, the light of a picture blurred by 0.9 px
+(0.85 on paper, 0.03 on ink) is written as sRGB has it, and read in both ways. Several programs can be given as NAME=PATH.
 """
 import argparse, os, sys, tempfile
 from multiprocessing import Pool
@@ -34,6 +35,15 @@ def enlarged(bench, true, upem, char, times):
     return np.asarray(large), tuple(v * times for v in place)
 
 
+def in_srgb(bench, true, upem, char, blur):
+    """A letter's light in sRGB, its px a font unit and the place of its origin."""
+    image, place = bench.render(true, upem, PPEM, 20, "clean", ord(char))
+    light = 0.85 - 0.82 * gaussian_filter(1 - image / WHITE, blur)
+    number = np.where(light <= 0.0031308, 12.92 * light, 1.055 * light ** (1 / 2.4) - 0.055)
+    noise = np.random.default_rng(ord(char)).normal(0, NOISE, light.shape)
+    return np.clip(np.rint(WHITE * number + noise), 0, WHITE).astype(np.uint8), place
+
+
 def letters(task):
     """The comparisons of one font drawn in one way, by tool."""
     import outline_bench as bench
@@ -45,6 +55,9 @@ def letters(task):
     glyphs, cmap, upem = font.getGlyphSet(), font.getBestCmap(), font["head"].unitsPerEm
     tools = {"potrace": bench.tool_potrace}
     tools |= {tool: bench.custom(f"{exe} --quiet trace {{in}} -o {{out}}") for tool, exe in khatts.items()}
+    if draw is in_srgb:
+        told = {f"{tool} --tones srgb": f"{exe} --quiet trace --tones srgb {{in}} -o {{out}}" for tool, exe in khatts.items()}
+        tools |= {tool: bench.custom(command) for tool, command in told.items()}
     found = {tool: [] for tool in tools}
     with tempfile.TemporaryDirectory() as folder:
         files = {end: os.path.join(folder, f"letter.{end}") for end in ("png", "pbm", "svg")}
@@ -70,6 +83,7 @@ def main():
     parser.add_argument("--bench", required=True, help="folder of outline_bench.py")
     parser.add_argument("--blur", default="2,3,5", help="px")
     parser.add_argument("--enlarge", default="2,3", help="times")
+    parser.add_argument("--srgb", action="store_true")
     parser.add_argument("--every", type=int, default=3, help="of so many letters one is drawn")
     args = parser.parse_args()
     sys.path.insert(0, args.bench)
@@ -78,6 +92,7 @@ def main():
     khatts = dict(k.split("=", 1) if "=" in k else ("khatt", k) for k in args.khatt)
     ways = [(out_of_focus, float(px)) for px in args.blur.split(",") if px]
     ways += [(enlarged, int(times)) for times in args.enlarge.split(",") if times]
+    ways += [(in_srgb, 0.9)] if args.srgb else []
     tasks = [(khatts, font, way, args.every) for font in bench.FONTS for way in ways]
     print("| font | picture | tool | letters | " + " | ".join(COLUMNS) + " |")
     print("|---" * (4 + len(COLUMNS)) + "|")

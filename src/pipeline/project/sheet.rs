@@ -1,7 +1,7 @@
 //! `[[sheet]]`: a page and what is drawn on it.
 
 use super::check;
-use crate::scan::{self, Direction, Inks, Options, Order, Polarity, Scale, Turn};
+use crate::scan::{self, Direction, Inks, Options, Order, Polarity, Scale, Tones, Turn};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
@@ -31,6 +31,9 @@ pub struct SheetTable {
     /// Which of dark and light is the ink.
     #[serde(default)]
     pub polarity: Polarity,
+    /// How the picture's numbers tell light.
+    #[serde(default)]
+    pub tones: Tones,
     /// Which ink the letters are drawn with, where the page has other colours too; a list of inks makes each of them a
     /// layer of a colour font, the lowest first.
     #[serde(default)]

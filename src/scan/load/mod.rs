@@ -3,6 +3,7 @@
 mod colour;
 mod pdf;
 mod polarity;
+mod tones;
 
 use super::error::{MAX_PIXELS, ScanError};
 use super::header;
@@ -15,6 +16,8 @@ use polarity::{Certainty, Guess, guess};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::io::{Cursor, ErrorKind};
+
+pub use tones::Tones;
 
 /// Bytes that decoding one page may take: eight a pixel, 16 bit RGBA, of the largest page.
 const MAX_BYTES: u64 = 8 * MAX_PIXELS;
@@ -52,12 +55,29 @@ pub enum Polarity {
 /// 16 bit, or the scans inside a PDF. `source` names the file in messages.
 ///
 /// Ink is 1 − luma (or luma, see [`Polarity`]), black and white of the file being 1 and 0: levels and noise
-/// stay as they were scanned. Transparency lies over white paper; where colour says nothing, opacity is the ink.
+/// stay as they were scanned, numbers in proportion to light ([`Tones`]). Transparency lies over white paper; where colour says nothing, opacity is the ink.
 ///
 /// # Errors
 /// The content is no picture of these kinds, ends too early, is damaged, or is larger than a page can be.
 pub fn load(bytes: &[u8], source: &str, polarity: Polarity) -> Result<Vec<Sheet>, ScanError> {
-    load_turned(bytes, source, polarity, (Turn::None, Grain::Blocks))
+    let reading = Reading {
+        polarity,
+        ..Reading::default()
+    };
+    load_as(bytes, source, reading)
+}
+
+/// How a picture file is read.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Reading {
+    /// Which of dark and light is the ink.
+    pub polarity: Polarity,
+    /// How its numbers tell light.
+    pub tones: Tones,
+    /// How it must be turned.
+    pub turn: Turn,
+    /// How closely its colours are looked at.
+    pub grain: Grain,
 }
 
 /// How a picture must be turned to stand upright, beyond what its file says: clockwise.
@@ -111,16 +131,11 @@ impl Turn {
     }
 }
 
-/// The same with every page turned, its colours looked at more closely or not.
+/// The same, read in another way.
 ///
 /// # Errors
 /// As of [`load`].
-pub fn load_turned(
-    bytes: &[u8],
-    source: &str,
-    polarity: Polarity,
-    (turn, grain): (Turn, Grain),
-) -> Result<Vec<Sheet>, ScanError> {
+pub fn load_as(bytes: &[u8], source: &str, reading: Reading) -> Result<Vec<Sheet>, ScanError> {
     let pictures = if pdf::is_pdf(bytes) {
         pdf::pages(bytes, source)?
     } else {
@@ -149,24 +164,24 @@ pub fn load_turned(
     };
     let sheets = pictures.into_iter().zip(1..);
     sheets
-        .map(|((image, dpi), n)| sheet((turn.apply(image), dpi), &name(n), polarity, grain))
+        .map(|((image, dpi), n)| sheet((reading.turn.apply(image), dpi), &name(n), reading))
         .collect()
 }
 
 fn sheet(
     (image, dpi): (DynamicImage, Option<f64>),
     source: &str,
-    polarity: Polarity,
-    grain: Grain,
+    reading: Reading,
 ) -> Result<Sheet, ScanError> {
     let (width, height) = (image.width() as usize, image.height() as usize);
-    let mut colours = colour::colours(&image, grain);
-    let mut samples = ink(image, grain);
+    let mut colours = colour::colours(&image, reading.grain);
+    let mut samples = ink(image, reading.grain);
+    reading.tones.straighten(&mut samples);
     let told = |shade| Guess {
         shade,
         certainty: Certainty::Sure,
     };
-    let guess = match polarity {
+    let guess = match reading.polarity {
         Polarity::Auto => guess(&samples, width),
         Polarity::DarkInk => told(Shade::Dark),
         Polarity::LightInk => told(Shade::Light),

@@ -58,8 +58,10 @@ fn read(picture: RgbImage, polarity: Polarity) -> Sheet {
     sheet(
         (DynamicImage::ImageRgb8(picture), None),
         "page",
-        polarity,
-        Grain::Blocks,
+        Reading {
+            polarity,
+            ..Reading::default()
+        },
     )
     .unwrap()
 }

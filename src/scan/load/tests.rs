@@ -333,3 +333,39 @@ fn a_pdf_gives_the_scan_of_its_page() {
     assert!(load(&short, "short.pdf", Polarity::Auto).is_err());
     assert!(load(b"%PDF-1.4 and nothing", "empty.pdf", Polarity::Auto).is_err());
 }
+
+#[test]
+fn srgb_is_read_as_the_light_that_it_stands_for() {
+    // half of the light, whichever of dark and light is the ink
+    let column = |x: u32| match x {
+        0..20 => 255,
+        20 => 188,
+        _ => 0,
+    };
+    let image = DynamicImage::from(GrayImage::from_fn(40, 30, |x, _| Luma([column(x)])));
+    let bytes = encoded(&image, ImageFormat::Png);
+    for (polarity, ends) in [
+        (Polarity::DarkInk, [0.0, 1.0]),
+        (Polarity::LightInk, [1.0, 0.0]),
+    ] {
+        for (tones, at_edge) in [(Tones::Linear, 188.0 / 255.0), (Tones::Srgb, 0.503)] {
+            let reading = Reading {
+                polarity,
+                tones,
+                ..Reading::default()
+            };
+            let gray = &load_as(&bytes, "page", reading).unwrap()[0].gray;
+            let light = if polarity == Polarity::DarkInk {
+                1.0 - gray.at(20, 9)
+            } else {
+                gray.at(20, 9)
+            };
+            assert!(
+                (light - at_edge).abs() < 1e-3,
+                "{polarity:?} {tones:?}: {light}"
+            );
+            let off = [gray.at(3, 9) - ends[0], gray.at(30, 9) - ends[1]];
+            assert!(off.iter().all(|v| v.abs() < 1e-6), "{polarity:?} {tones:?}");
+        }
+    }
+}
