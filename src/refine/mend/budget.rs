@@ -5,10 +5,10 @@ use crate::numeric::cast::index;
 use std::cell::Cell;
 
 /// Segments that may be fit to pixels, each time that they are, in any picture, and more for a px of its outlines.
-/// Letters of 30 to 80 px an em took up to 9,800, of which a px 105; those of 120 to 400 px up to 1.6 a px; noise
-/// took 900 a px.
-const MOST: f64 = 12_000.0;
-const MOST_PX: f64 = 4.0;
+/// Letters of 30 to 80 px an em took up to 9,800, of which a px 105; those of 120 to 400 px up to 1.6 a px, but for
+/// letters hatched by hand, which want nearly all of this at 150 px; noise took 900 a px.
+const MOST: f64 = 40_000.0;
+const MOST_PX: f64 = 200.0;
 
 /// The fits that were made, counted by their segments: what takes time is counted, not time, so that the same picture
 /// always gives the same outlines.

@@ -44,7 +44,7 @@ use part::changed;
 use place::{CHORD_PX, Look, Mended, NEAR_PX, Place};
 use std::mem;
 use tangle::Crossing;
-use tips::{ONE_PX, beyond, tip, trimmed};
+use tips::{NEEDLE_PX, ONE_PX, beyond, is_needle, tip, trimmed};
 
 /// Directions that differ by less are one, radians.
 const SMOOTH: f64 = 0.0175;
@@ -182,6 +182,8 @@ impl Work<'_> {
     /// Cuts off as much of the end of corner `i` of ring `k` as is nothing to the picture; whether there is such.
     fn shorten(&mut self, k: usize, i: usize, one_px: f64) -> bool {
         let mut steps = usize::MAX;
+        let needle = self.chains[k].as_ref().is_some_and(|c| is_needle(c, i));
+        let one_px = if needle { NEEDLE_PX } else { one_px };
         let cut = |work: &Self, steps| trimmed(work.chains[k].as_ref()?, i, one_px, steps);
         while let Some((shorter, last)) = cut(self, steps) {
             if self.put(k, shorter, LOBE) {

@@ -253,17 +253,23 @@ fn sides_that_cross_or_run_on_as_one_end_where_they_part() {
 }
 
 #[test]
-fn a_lobe_behind_a_narrow_neck_stays_and_a_loop_that_no_pixel_holds_goes() {
+fn a_lobe_behind_a_narrow_neck_stays_and_loops_and_needles_that_no_pixel_holds_go() {
     let body = |end: &str| {
         let text = format!("M6.2 5.3L42.1 5.3L42.1 15.4L{end}L6.2 15.4Z");
         BezPath::from_svg(&text).unwrap()
     };
     let lobe = body("24.02 15.4C30 20 27 26 24 34C21 26 18 20 23.98 15.4");
     let loop_ = body("24.02 15.4C24.3 18 24.2 26 24 34C23.8 26 23.7 18 24.03 15.4");
+    // its sides are a fifth of a pixel apart
+    let needle = body("24.1 15.4L24 24L23.9 15.4");
     let bare = body("24 15.4");
     for lens in [0.0, 0.9] {
         let blur = Contour::PIXEL_BLUR_PX.hypot(lens);
-        for (name, drawn, fit) in [("lobe", &lobe, &lobe), ("loop", &bare, &loop_)] {
+        for (name, drawn, fit) in [
+            ("lobe", &lobe, &lobe),
+            ("loop", &bare, &loop_),
+            ("needle", &bare, &needle),
+        ] {
             let got = mended(&photograph(drawn, lens), fit, blur);
             let off = apart(&got, drawn);
             assert!(off < 0.2, "{name}, lens {lens}: {off} {}", got.to_svg());

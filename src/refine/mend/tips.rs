@@ -25,6 +25,8 @@ const NEEDLE: f64 = 0.04;
 const BEHIND_PX: f64 = 4.0;
 /// Sides no further apart than this are one, px, unless pixels tell.
 pub(super) const ONE_PX: f64 = 0.05;
+/// And those of a needle: no pen draws one, and no lens shows it.
+pub(super) const NEEDLE_PX: f64 = 0.3;
 /// Ends that are no longer stay, unless their sides cross, px.
 const SHORT_PX: f64 = 1.0;
 /// Sides of corners that are no tips cross no further away, px: further away both are drawn.
