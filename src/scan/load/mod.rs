@@ -55,7 +55,8 @@ pub enum Polarity {
 /// 16 bit, or the scans inside a PDF. `source` names the file in messages.
 ///
 /// Ink is 1 − luma (or luma, see [`Polarity`]), black and white of the file being 1 and 0: levels and noise
-/// stay as they were scanned, numbers in proportion to light ([`Tones`]). Transparency lies over white paper; where colour says nothing, opacity is the ink.
+/// stay as they were scanned, numbers in proportion to light ([`Tones`]). Transparency lies over white paper; where
+/// colour says nothing, opacity is the ink.
 ///
 /// # Errors
 /// The content is no picture of these kinds, ends too early, is damaged, or is larger than a page can be.
@@ -175,8 +176,7 @@ fn sheet(
 ) -> Result<Sheet, ScanError> {
     let (width, height) = (image.width() as usize, image.height() as usize);
     let mut colours = colour::colours(&image, reading.grain);
-    let mut samples = ink(image, reading.grain);
-    reading.tones.straighten(&mut samples);
+    let mut samples = ink(image, reading);
     let told = |shade| Guess {
         shade,
         certainty: Certainty::Sure,
@@ -252,17 +252,17 @@ fn decode(bytes: &[u8], source: &str) -> Result<DynamicImage, ScanError> {
 }
 
 /// Ink of every pixel over white.
-fn ink(image: DynamicImage, grain: Grain) -> Vec<f32> {
+fn ink(image: DynamicImage, reading: Reading) -> Vec<f32> {
     let width = image.width() as usize;
     match image {
-        DynamicImage::ImageLuma8(i) => grey(i.as_raw()),
-        DynamicImage::ImageLumaA8(i) => grey_alpha(i.as_raw(), width),
-        DynamicImage::ImageRgb8(i) => rgb(i.as_raw(), grain),
-        DynamicImage::ImageRgba8(i) => rgba((i.as_raw(), width), grain),
-        DynamicImage::ImageLuma16(i) => grey(i.as_raw()),
-        DynamicImage::ImageLumaA16(i) => grey_alpha(i.as_raw(), width),
-        DynamicImage::ImageRgb16(i) => rgb(i.as_raw(), grain),
-        other => rgba((other.into_rgba16().as_raw(), width), grain),
+        DynamicImage::ImageLuma8(i) => grey(i.as_raw(), reading),
+        DynamicImage::ImageLumaA8(i) => grey_alpha((i.as_raw(), width), reading),
+        DynamicImage::ImageRgb8(i) => rgb(i.as_raw(), reading),
+        DynamicImage::ImageRgba8(i) => rgba((i.as_raw(), width), reading),
+        DynamicImage::ImageLuma16(i) => grey(i.as_raw(), reading),
+        DynamicImage::ImageLumaA16(i) => grey_alpha((i.as_raw(), width), reading),
+        DynamicImage::ImageRgb16(i) => rgb(i.as_raw(), reading),
+        other => rgba((other.into_rgba16().as_raw(), width), reading),
     }
 }
 
@@ -284,31 +284,35 @@ impl Sample for u16 {
 }
 
 /// What counts of a pixel's light: luma, or the darkest channel.
-fn light<S: Sample>(p: &[S], grain: Grain) -> f32 {
-    match grain {
-        Grain::Blocks => p.iter().zip(LUMA).map(|(s, w)| s.unit() * w).sum(),
-        Grain::Pixels => p.iter().map(|s| s.unit()).fold(1.0, f32::min),
+fn light<S: Sample>(p: &[S], reading: Reading) -> f32 {
+    let light = p.iter().map(|s| reading.tones.light(s.unit()));
+    match reading.grain {
+        Grain::Blocks => light.zip(LUMA).map(|(v, w)| v * w).sum(),
+        Grain::Pixels => light.fold(1.0, f32::min),
     }
 }
 
-fn grey<S: Sample>(raw: &[S]) -> Vec<f32> {
-    raw.par_iter().map(|s| 1.0 - s.unit()).collect()
+fn grey<S: Sample>(raw: &[S], reading: Reading) -> Vec<f32> {
+    let light = |s: &S| reading.tones.light(s.unit());
+    raw.par_iter().map(|s| 1.0 - light(s)).collect()
 }
 
-fn rgb<S: Sample>(raw: &[S], grain: Grain) -> Vec<f32> {
+fn rgb<S: Sample>(raw: &[S], reading: Reading) -> Vec<f32> {
     let pixels = raw.par_chunks_exact(3);
-    pixels.map(|p| 1.0 - light(p, grain)).collect()
+    pixels.map(|p| 1.0 - light(p, reading)).collect()
 }
 
-fn grey_alpha<S: Sample>(raw: &[S], width: usize) -> Vec<f32> {
+fn grey_alpha<S: Sample>((raw, width): (&[S], usize), reading: Reading) -> Vec<f32> {
     let pixels = raw.par_chunks_exact(2);
-    let pixels = pixels.map(|p| (p[0].unit(), p[1].unit())).collect();
+    let pixels = pixels
+        .map(|p| (reading.tones.light(p[0].unit()), p[1].unit()))
+        .collect();
     over_white(pixels, width)
 }
 
-fn rgba<S: Sample>((raw, width): (&[S], usize), grain: Grain) -> Vec<f32> {
+fn rgba<S: Sample>((raw, width): (&[S], usize), reading: Reading) -> Vec<f32> {
     let pixels = raw.par_chunks_exact(4);
-    let pixels = pixels.map(|p| (light(&p[..3], grain), p[3].unit()));
+    let pixels = pixels.map(|p| (light(&p[..3], reading), p[3].unit()));
     over_white(pixels.collect(), width)
 }
 

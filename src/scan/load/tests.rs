@@ -1,7 +1,8 @@
 use super::*;
 use image::imageops::invert;
 use image::{
-    ExtendedColorType, GrayImage, ImageEncoder, ImageFormat, Luma, codecs::tiff::TiffEncoder,
+    ExtendedColorType, GrayAlphaImage, GrayImage, ImageEncoder, ImageFormat, Luma, LumaA,
+    codecs::tiff::TiffEncoder,
 };
 
 /// A ramp with a dark spot.
@@ -121,9 +122,7 @@ fn light_ink_and_opacity_become_ink() {
     let bytes = encoded(&DynamicImage::ImageLuma8(dark), ImageFormat::Png);
     let kept = load(&bytes, "dark", Polarity::DarkInk).unwrap();
     assert!(kept[0].gray.at(12, 10) < 0.1, "as told");
-    let glass = image::GrayAlphaImage::from_fn(9, 9, |x, _| {
-        image::LumaA([255, if x == 4 { 200 } else { 0 }])
-    });
+    let glass = GrayAlphaImage::from_fn(9, 9, |x, _| LumaA([255, if x == 4 { 200 } else { 0 }]));
     let drawn = one(&encoded(
         &DynamicImage::ImageLumaA8(glass),
         ImageFormat::Png,
@@ -332,6 +331,24 @@ fn a_pdf_gives_the_scan_of_its_page() {
     );
     assert!(load(&short, "short.pdf", Polarity::Auto).is_err());
     assert!(load(b"%PDF-1.4 and nothing", "empty.pdf", Polarity::Auto).is_err());
+}
+
+#[test]
+fn opacity_is_no_number_of_srgb() {
+    let alpha = |x: u32| if x < 20 { 255 } else { 128 };
+    let image = GrayAlphaImage::from_fn(40, 30, |x, _| LumaA([0, alpha(x)]));
+    let bytes = encoded(&image.into(), ImageFormat::Png);
+    let reading = Reading {
+        tones: Tones::Srgb,
+        polarity: Polarity::DarkInk,
+        ..Reading::default()
+    };
+    let gray = &load_as(&bytes, "drawing", reading).unwrap()[0].gray;
+    assert!(
+        (gray.at(30, 9) - 128.0 / 255.0).abs() < 1e-3,
+        "{}",
+        gray.at(30, 9)
+    );
 }
 
 #[test]
