@@ -3,6 +3,7 @@
 SOURCE holds africa_50m.geojson (Natural Earth), mpeg7/ and the BMP silhouettes. Needs Pillow with Raqm.
 """
 import json
+import math
 import sys
 from pathlib import Path
 
@@ -12,8 +13,8 @@ source, arabic, latin, out = (Path(a) for a in sys.argv[1:])
 out.mkdir(parents=True, exist_ok=True)
 
 
-def africa(width=164, height=175):
-    """Mainland Africa by even-odd fill, the ring's box on width x height pixels."""
+def coast():
+    """Mainland Africa's outline, degrees."""
     rings = []
 
     def walk(c):
@@ -26,15 +27,37 @@ def africa(width=164, height=175):
     data = json.loads((source / "africa_50m.geojson").read_text())
     for f in data["features"] if "features" in data else [data]:
         walk(f.get("geometry", f)["coordinates"])
-    ring = max(rings, key=len)
-    xs, ys = [p[0] for p in ring], [p[1] for p in ring]
-    sx, sy = (width - 1) / (max(xs) - min(xs)), (height - 1) / (max(ys) - min(ys))
+    return max(rings, key=len)
+
+
+def equal_area(longitude, latitude):
+    """Lambert's azimuthal projection around 0° N 20° E, the usual one of a map of Africa."""
+    x, y = math.radians(longitude - 20.0), math.radians(latitude)
+    k = math.sqrt(2.0 / (1.0 + math.cos(y) * math.cos(x)))
+    return k * math.cos(y) * math.sin(x), k * math.sin(y)
+
+
+def boxed(points, width, height):
+    """Points, y up, with their box brought to 0…width x 0…height, y down."""
+    xs, ys = [p[0] for p in points], [p[1] for p in points]
+    sx, sy = width / (max(xs) - min(xs)), height / (max(ys) - min(ys))
+    return [((p[0] - min(xs)) * sx, (max(ys) - p[1]) * sy) for p in points]
+
+
+def africa(width=164, height=175):
+    """The coast by longitude and latitude, and as a map shows it; the latter also smoothed, to the paper's 507 points
+    and on the way there."""
     image = Image.new("L", (width, height), 255)
-    points = [((p[0] - min(xs)) * sx, (max(ys) - p[1]) * sy) for p in ring]
-    ImageDraw.Draw(image).polygon(points, fill=0)
+    ImageDraw.Draw(image).polygon(boxed(coast(), width - 1, height - 1), fill=0)
     image.save(out / "africa.png")
-    # a coast as smooth as the paper's, which has 507 points on this grid
-    smoothed(image, 507).save(out / "africa-507.png")
+    fine, margin = 16, 12
+    outline = boxed([equal_area(*p) for p in coast()], width * fine, height * fine)
+    image = Image.new("L", ((width + 2 * margin) * fine, (height + 2 * margin) * fine), 255)
+    ImageDraw.Draw(image).polygon([(x + margin * fine, y + margin * fine) for x, y in outline], fill=0)
+    land = image.reduce(fine)
+    blurred(land, 0.0).save(out / "africa-map.png")
+    for points in (520, 511, 507):
+        smoothed(land, points).save(out / f"africa-{points}.png")
 
 
 def smoothed(image, points):
