@@ -2,6 +2,7 @@
 
 use super::cast::single;
 use super::coverage::blur;
+use std::ops::BitOrAssign;
 
 /// Spread of the neighbourhood a level is the mean of, px. Print and paper grain vary within a few
 /// pixels: 8 px follows them less well, and percentiles of a window are led astray by the edge itself.
@@ -116,14 +117,18 @@ fn told(values: &[f32], w: usize, model: &[f32]) -> [Vec<f32>; 4] {
 
 /// Bits, rows of `width`, that are set or have a set one in the square of `reach` around them.
 #[must_use]
-pub fn dilated(bits: &[bool], width: usize, reach: usize) -> Vec<bool> {
+pub fn dilated<B: Copy + BitOrAssign>(bits: &[B], width: usize, reach: usize) -> Vec<B> {
     let across = smeared(bits, (width, 1), reach);
     smeared(&across, (bits.len(), width), reach)
 }
 
 /// Bits that are set or have a set one within `reach` steps of `step` in their line of `line` bits.
-fn smeared(bits: &[bool], (line, step): (usize, usize), reach: usize) -> Vec<bool> {
-    let set = |to: &mut [bool], from: &[bool]| to.iter_mut().zip(from).for_each(|(t, f)| *t |= f);
+fn smeared<B: Copy + BitOrAssign>(
+    bits: &[B],
+    (line, step): (usize, usize),
+    reach: usize,
+) -> Vec<B> {
+    let set = |to: &mut [B], from: &[B]| to.iter_mut().zip(from).for_each(|(t, f)| *t |= *f);
     let mut out = bits.to_vec();
     let lines = out.chunks_exact_mut(line.max(1));
     for (to, from) in lines.zip(bits.chunks_exact(line.max(1))) {

@@ -132,9 +132,9 @@ impl Residual<'_> {
         /// Half the width of those lines, px.
         const OPEN_PX: f64 = 2.0;
         let (w, h) = (self.seen.width(), self.seen.height());
-        let pairs = self.off.iter().zip(self.seen.samples());
-        self.off = pairs.map(|(off, seen)| seen - off).collect();
-        let mut told = self.off.clone();
+        // the model again
+        self.compare();
+        let mut told = Cow::Borrowed(&self.off);
         for line in open {
             let around = Rect::from_points(line.p0, line.p1).inflate(OPEN_PX, OPEN_PX);
             let span = |from: f64, to: f64, n: usize| index(from)..index(to + 1.0).min(n);
@@ -142,7 +142,7 @@ impl Residual<'_> {
                 for x in span(around.x0, around.x1, w) {
                     let p = Point::new(x as f64 + 0.5, (h - y) as f64 - 0.5);
                     if line.nearest(p, 0.0).distance_sq < OPEN_PX * OPEN_PX {
-                        told[y * w + x] = 0.5;
+                        told.to_mut()[y * w + x] = 0.5;
                     }
                 }
             }

@@ -14,6 +14,9 @@ const MARGIN: usize = 2;
 
 /// Ink and paper that differ by less are not looked at for thin lines.
 const CONTRAST: f32 = 0.2;
+/// A pixel's kind; near both it is neither's.
+const INK: u8 = 1;
+const PAPER: u8 = 2;
 /// What tells neither level.
 const UNTOLD: f32 = 0.5;
 
@@ -24,16 +27,16 @@ const UNTOLD: f32 = 0.5;
 #[must_use]
 pub fn level(gray: &Gray) -> Gray {
     let w = gray.width();
-    let ink: Vec<bool> = gray.samples().iter().map(|&v| v >= 0.5).collect();
-    let paper: Vec<bool> = ink.iter().map(|b| !b).collect();
-    let (near_ink, near_paper) = (dilated(&ink, w, MARGIN), dilated(&paper, w, MARGIN));
+    let kind = |v: &f32| if *v >= 0.5 { INK } else { PAPER };
+    let kinds: Vec<u8> = gray.samples().iter().map(kind).collect();
     // what is neither surely ink nor surely paper tells nothing
-    let model = |(ink, paper): (&bool, &bool)| match (ink, paper) {
-        (true, true) => UNTOLD,
-        (true, false) => 1.0,
-        _ => 0.0,
+    let model = |near: u8| match near {
+        INK => 1.0,
+        PAPER => 0.0,
+        _ => UNTOLD,
     };
-    let mut model: Vec<f32> = near_ink.iter().zip(&near_paper).map(model).collect();
+    let near = dilated(&kinds, w, MARGIN).into_iter();
+    let mut model: Vec<f32> = near.map(model).collect();
     // thin lines on sure paper would pass for paper, and slits for ink
     let paper = mean(gray, &model, |m| m < UNTOLD);
     let ink = mean(gray, &model, |m| m > UNTOLD);

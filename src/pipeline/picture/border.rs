@@ -50,6 +50,12 @@ pub(super) fn cuts(coverage: &Gray) -> bool {
     if coverage.width().min(coverage.height()) < LEAST_PX {
         return false;
     }
+    let (right, bottom) = (coverage.width() - 1, coverage.height() - 1);
+    let rows = (0..=right).flat_map(|x| [(x, 0), (x, bottom)]);
+    let mut rim = rows.chain((0..=bottom).flat_map(|y| [(0, y), (right, y)]));
+    if !rim.any(|(x, y)| coverage.at(x, y) >= INK) {
+        return false;
+    }
     let mut grid = Grid::new(coverage);
     (0..4).any(|_| {
         let cuts = !grid.strokes().is_empty();
