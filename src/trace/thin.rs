@@ -179,14 +179,13 @@ impl<'a> Field<'a> {
     fn crests(&self) -> Vec<Crest> {
         let w = self.gray.width();
         let low = |c: &&Crest| c.1 < LOW * self.level;
-        let mut map = vec![0.0; self.gray.samples().len()];
-        let some: Vec<usize> = self
-            .standing_out(RELIEF)
-            .iter()
-            .filter(low)
-            .map(|c| c.0)
-            .collect();
+        let some = self.standing_out(RELIEF);
+        let some: Vec<usize> = some.iter().filter(low).map(|c| c.0).collect();
         // nearly all pictures end here, before anything dear
+        if some.len() < LONG {
+            return Vec::new();
+        }
+        let mut map = vec![0.0; self.gray.samples().len()];
         if longest(&some, &mut map, w) < LONG {
             return Vec::new();
         }
