@@ -5,7 +5,7 @@ use khatt::numeric::coverage::blur;
 use khatt::pipeline::picture::{Options, trace_picture};
 use khatt::types::Gray;
 use khatt::write::picture::to_picture;
-use kurbo::{BezPath, ParamCurve, ParamCurveArclen, PathEl, PathSeg, Point, Shape, Vec2};
+use kurbo::{Affine, BezPath, ParamCurve, ParamCurveArclen, PathEl, PathSeg, Point, Shape, Vec2};
 
 /// A picture of `side` px squared, y down, of the points where `distance` is below 0; 8 × 8 samples a pixel.
 fn picture(side: usize, distance: impl Fn(Point) -> f64) -> Gray {
@@ -420,4 +420,28 @@ fn pictures_of_a_few_columns_in_two_levels_end() {
         let paths = outlines(&picture);
         assert!(paths.iter().all(BezPath::is_finite), "{width} × {height}");
     }
+}
+
+/// A stem on a foot whose serifs are as short as three to four of the lens' deviations.
+#[test]
+fn short_serifs_are_not_cut_off() {
+    let lost = |k: &u32| {
+        let k = f64::from(*k);
+        let serif = 3.0 + 0.1 * (k % 11.0);
+        let middle = CENTRE + Vec2::new(0.13 * k % 1.0, 0.29 * k % 1.0);
+        let turn = Affine::rotate_about((7.0 * k % 5.0 - 2.0).to_radians(), middle);
+        let distance = |p: Point| {
+            let d = turn.inverse() * p - middle;
+            let stem = (d.x.abs() - 2.1).max(d.y.abs() - 18.0);
+            let foot = Vec2::new((d.x.abs() - 2.1 - serif + 0.7).max(0.0), d.y - 17.2);
+            stem.min(foot.hypot() - 0.8)
+        };
+        let paths = outlines(&out_of_focus(&picture(96, distance), 0.9));
+        let inside = |p: Point| paths.iter().map(|path| path.winding(p)).sum::<i32>() != 0;
+        let serifs = [-1.0, 1.0].map(|side| (side * (2.1 + 0.6 * serif), 17.2));
+        serifs
+            .iter()
+            .any(|s| !inside(turn * (middle + Vec2::from(*s))))
+    };
+    assert_eq!((0..55).filter(lost).collect::<Vec<_>>(), [0_u32; 0]);
 }

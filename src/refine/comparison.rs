@@ -86,11 +86,18 @@ impl<'g> Comparison<'g> {
     }
 
     /// Paths like those, with the few nodes around each place that is left unexplained fit to its pixels, in the structure
-    /// that leaves least.
+    /// that leaves least; and the places where a part of the drawing is missing all the same.
     #[must_use]
-    pub fn mended(&self, paths: &[BezPath]) -> Vec<BezPath> {
+    pub fn mended(&self, paths: &[BezPath]) -> (Vec<BezPath>, Vec<Point>) {
         mend::mended(&self.residual, paths)
     }
+}
+
+/// Sum of the squared differences between a coverage and the fill of paths, blurred by `blur_px`.
+#[must_use]
+pub fn squares_left(coverage: &Gray, paths: &[BezPath], blur_px: f64) -> f64 {
+    let rings = polygons(paths);
+    Residual::as_seen(coverage, rings.iter().map(Vec::as_slice), blur_px).all_squares()
 }
 
 /// The segments of a path.

@@ -23,7 +23,7 @@ mod residual;
 mod tests;
 
 pub use blunt::Overlooked;
-pub use comparison::{Comparison, Doubts};
+pub use comparison::{Comparison, Doubts, squares_left};
 pub use corners::confirmed;
 
 use crate::{

@@ -89,17 +89,36 @@ impl<'g> Residual<'g> {
         rings: impl Iterator<Item = &'r [Point]>,
         blur_px: f64,
     ) -> Self {
+        let mut residual = Self::drawn(gray, rings, blur_px);
+        // with the edges known, pixels up to them say what ink and paper are
+        let seen = normalised(gray.samples(), gray.width(), &residual.off);
+        residual.seen = Cow::Owned(gray.with_samples(seen));
+        residual.compare();
+        residual
+    }
+
+    /// The same with the picture's levels as they are: what the rings leave out passes for no level.
+    pub(super) fn as_seen<'r>(
+        gray: &'g Gray,
+        rings: impl Iterator<Item = &'r [Point]>,
+        blur_px: f64,
+    ) -> Self {
+        let mut residual = Self::drawn(gray, rings, blur_px);
+        residual.compare();
+        residual
+    }
+
+    /// The model in place of the differences.
+    fn drawn<'r>(gray: &'g Gray, rings: impl Iterator<Item = &'r [Point]>, blur_px: f64) -> Self {
         let pixel = Contour::PIXEL_BLUR_PX;
         let lens = (blur_px * blur_px - pixel * pixel).max(0.0).sqrt();
         let spread = blur_px.max(MIN_SPREAD_PX);
         let mut fill = Coverage::new(gray.width(), gray.height());
         let mut off = Vec::new();
         draw(rings, (&mut fill, &mut off), lens);
-        // with the edges known, pixels up to them say what ink and paper are
-        let seen = normalised(gray.samples(), gray.width(), &off);
-        let mut residual = Self {
+        Self {
             gray,
-            seen: Cow::Owned(gray.with_samples(seen)),
+            seen: Cow::Borrowed(gray),
             off,
             fill,
             lens,
@@ -107,9 +126,7 @@ impl<'g> Residual<'g> {
             // a straight edge moved by 1 px changes the pixels by its own profile's slope, a Gaussian of
             // `blur_px`, of which the weights see one of both deviations together
             gain: TAU.sqrt() * blur_px.hypot(spread),
-        };
-        residual.compare();
-        residual
+        }
     }
 }
 
@@ -274,6 +291,11 @@ impl Residual<'_> {
             }
         }
         (seen, whole)
+    }
+
+    /// Sum of all squared differences.
+    pub(super) fn all_squares(&self) -> f64 {
+        self.off.iter().map(|off| f64::from(off * off)).sum()
     }
 
     /// Sum of the squared differences within `reach` px of `p`.

@@ -4,13 +4,17 @@ use super::contours::sharp;
 use super::options::Options;
 use crate::{
     fit::FitError,
-    refine::{Comparison, Cornered, Doubts},
+    refine::{Comparison, Cornered, Doubts, squares_left},
     types::Gray,
 };
 use kurbo::{BezPath, Point};
 
 /// A corner so near to a node that is gone is gone with it, px.
 const SAME_PX: f64 = 1.5;
+/// Corners so near to a missing part are gone with it, px.
+const LOST_PX: f64 = 8.0;
+/// A part that is brought back leaves so many squares less.
+const LOST: f64 = 0.5;
 /// Times that a contour which was fit again is looked at once more.
 const REVISIONS: usize = 3;
 
@@ -25,7 +29,8 @@ pub(super) fn reviewed(
     let blur = found.first().map_or(0.0, |(c, _)| c.blur_px());
     let seen = Comparison::new(coverage, paths, blur);
     let mut doubts = seen.doubts(paths);
-    let mut again = refit(coverage, found, (paths, &doubts), options)?;
+    let mut wanted = corrected(found, &doubts);
+    let mut again = refit(coverage, (found, paths), &wanted, options)?;
     for _ in 0..REVISIONS {
         if again == paths {
             break;
@@ -35,23 +40,66 @@ pub(super) fn reviewed(
             break;
         }
         doubts = revised;
-        again = refit(coverage, found, (paths, &doubts), options)?;
+        wanted = corrected(found, &doubts);
+        again = refit(coverage, (found, paths), &wanted, options)?;
     }
-    Ok(seen.mended(&seen.settled(&again)))
+    let mut drawn = seen.mended(&seen.settled(&again));
+    for _ in 0..REVISIONS {
+        let Some((fewer, better)) = completed(coverage, &wanted, &drawn, options)? else {
+            break;
+        };
+        (wanted, drawn) = (fewer, better);
+    }
+    let (paths, _) = drawn;
+    Ok(paths)
 }
 
-/// The paths, those anew whose corners are doubted.
-fn refit(
+/// Paths, and the places where they leave out a part of the drawing.
+type Drawn = (Vec<BezPath>, Vec<Point>);
+
+/// The contours without the corners beside which parts of the drawing are lost, and their paths: sides that a corner was
+/// found from can lie beyond a short serif, which it then cuts off. Nothing where they bring no part back.
+fn completed(
     coverage: &Gray,
     found: &[Cornered],
-    (paths, doubts): (&[BezPath], &[Doubts]),
+    (paths, lost): &Drawn,
+    options: &Options,
+) -> Result<Option<(Vec<Cornered>, Drawn)>, FitError> {
+    let without = |(contour, at): &Cornered| {
+        let apart = |i: &usize| {
+            let at = contour.points()[*i];
+            lost.iter().all(|p| p.distance(at) > LOST_PX)
+        };
+        (contour.clone(), at.iter().copied().filter(apart).collect())
+    };
+    let wanted: Vec<Cornered> = found.iter().map(without).collect();
+    if wanted == found {
+        return Ok(None);
+    }
+    let again = refit(coverage, (found, paths), &wanted, options)?;
+    let blur = found.first().map_or(0.0, |(c, _)| c.blur_px());
+    let seen = Comparison::new(coverage, &again, blur);
+    let (mut again, lost) = seen.mended(&seen.settled(&again));
+    for (k, path) in paths.iter().enumerate() {
+        if wanted[k] == found[k] {
+            again[k].clone_from(path);
+        }
+    }
+    let [before, after] = [paths, &again].map(|p| squares_left(coverage, p, blur));
+    Ok((after + LOST < before).then_some((wanted, (again, lost))))
+}
+
+/// The paths, those anew whose corners are not those found.
+fn refit(
+    coverage: &Gray,
+    (found, paths): (&[Cornered], &[BezPath]),
+    wanted: &[Cornered],
     options: &Options,
 ) -> Result<Vec<BezPath>, FitError> {
-    let wanted: Vec<Cornered> = found.iter().zip(doubts).map(corrected).collect();
     if wanted == found {
         return Ok(paths.to_vec());
     }
-    let edges = sharp(coverage, &wanted, options);
+    let edges = sharp(coverage, wanted, options);
     let other = |k: &usize| wanted[*k] != found[*k];
     let others: Vec<usize> = (0..paths.len()).filter(other).collect();
     let edges: Vec<Cornered> = others.iter().map(|&k| edges[k].clone()).collect();
@@ -62,8 +110,12 @@ fn refit(
     Ok(paths)
 }
 
-/// A contour without the corners that are drawn round, and with those that were overlooked.
-fn corrected(((contour, at), doubts): (&Cornered, &Doubts)) -> Cornered {
+/// The contours without the corners that are drawn round, and with those that were overlooked.
+fn corrected(found: &[Cornered], doubts: &[Doubts]) -> Vec<Cornered> {
+    found.iter().zip(doubts).map(told).collect()
+}
+
+fn told(((contour, at), doubts): (&Cornered, &Doubts)) -> Cornered {
     let points = contour.points();
     let off = |i: usize, p: Point| points[i].distance(p);
     let nearest = |among: &mut dyn Iterator<Item = usize>, p: Point| {

@@ -53,6 +53,8 @@ const STEP_PX: f64 = 1.5;
 /// Sum of squares around a place from which it is wrong, and from which in the picture's grain.
 const WRONG: f64 = 0.018;
 const WRONG_GRAIN: f64 = 90.0;
+/// And from which a part of the drawing is missing there.
+const LOST: f64 = 0.5;
 /// Places that are tried at most, the worst first: a picture of noise is wrong everywhere.
 const MOST: usize = 1000;
 /// Places nearer to one that was tried are that one, px.
@@ -75,12 +77,14 @@ const REACH_PX: f64 = 6.0;
 const REACH_LENS: f64 = 2.0;
 const WIDE: f64 = 2.0;
 
-/// The paths, changed where a few nodes explain the picture better, and with nodes at all extrema in the end.
-pub(super) fn mended(residual: &Residual<'_>, paths: &[BezPath]) -> Vec<BezPath> {
+/// The paths, changed where a few nodes explain the picture better, and with nodes at all extrema in the end; and the places
+/// where they leave out a part of the drawing that no change of a few nodes brought back.
+pub(super) fn mended(residual: &Residual<'_>, paths: &[BezPath]) -> (Vec<BezPath>, Vec<Point>) {
     let mut work = Work::new(residual, paths);
     work.mend();
     work.untangle(paths);
-    work.finished()
+    let lost = work.lost();
+    (work.finished(), lost)
 }
 
 /// Paths on their way.
@@ -136,6 +140,16 @@ impl Work<'_> {
         self.settle();
         // sides that run close together do so for the pixels' sake now
         self.trim(0.0);
+    }
+
+    /// The places that were tried in vain where more is left than an edge leaves that is a little off.
+    fn lost(&self) -> Vec<Point> {
+        eprintln!(
+            "LEFT {:.3}",
+            self.vain.iter().map(|v| self.left(v.0)).fold(0., f64::max)
+        );
+        let places = self.vain.iter().map(|(p, _)| *p);
+        places.filter(|p| self.left(*p) > LOST).collect()
     }
 
     /// The paths as they are, with nodes at all extrema.
