@@ -70,6 +70,51 @@ fn what_was_found_can_be_written_and_builds_the_same_font() {
 }
 
 #[test]
+fn a_picture_that_says_how_it_tells_light_is_asked_where_tones_say_so() {
+    let plain = page(&[]);
+    // as sRGB: length, kind and intent of the chunk, and its sum
+    let chunk = b"\0\0\0\x01sRGB\0\xae\xce\x1c\xe9";
+    let told = [&plain[..33], chunk.as_slice(), &plain[33..]].concat();
+    let run = |picture: &[u8], tones: &str, command: &[&str]| {
+        let dir = project(LETTERS, picture);
+        let path = dir.path().join("font.toml");
+        let text = fs::read_to_string(&path).expect("the project");
+        let text = text.replacen("[[sheet]]", &format!("[[sheet]]\n{tones}"), 1);
+        fs::write(&path, text).expect("a project");
+        let out = khatt(dir.path(), command);
+        let said = String::from_utf8_lossy(&out.stderr).into_owned();
+        (dir, out.status.code(), said)
+    };
+    let (build, cut) = (["build", "font.toml"], ["cut", "font.toml", "-o", "cells"]);
+    let [asked, srgb, linear] = ["tones = \"profile\"", "tones = \"srgb\"", ""].map(|tones| {
+        let (dir, code, said) = run(&told, tones, &build);
+        assert_eq!(code, Some(0), "{said}");
+        assert!(!said.contains("tones"), "{said}");
+        font(dir.path())
+    });
+    assert!(
+        asked == srgb && asked != linear,
+        "the same light, the same font"
+    );
+    for (picture, tones, noted) in [
+        (&told, "", true),
+        (&told, "tones = \"profile\"", false),
+        (&plain, "", false),
+    ] {
+        let (_dir, code, said) = run(picture, tones, &cut);
+        assert_eq!(code, Some(0), "{said}");
+        let note = "note: page.png says itself how much light its numbers stand for";
+        assert_eq!(said.contains(note), noted, "{said}");
+    }
+    let (_dir, code, said) = run(&plain, "tones = \"profile\"", &build);
+    assert_eq!(code, Some(1), "{said}");
+    assert!(
+        said.contains("page.png") && said.contains("tones = \"srgb\""),
+        "{said}"
+    );
+}
+
+#[test]
 fn corrections_change_one_letter() {
     let plain = page(&[]);
     let h = bounds("", &plain, 'H').expect("a letter");

@@ -5,13 +5,14 @@ use super::files::is_dash;
 use super::project::Opened;
 use super::{Common, Outcome, staged};
 use clap::Args;
-use khatt::pipeline::project::{CellTable, Cells, Layout};
-use khatt::pipeline::{self, Page};
-use khatt::scan::Warning;
+use khatt::pipeline::project::{CellTable, Cells, Layout, Project};
+use khatt::pipeline::{self, Inputs, Page};
+use khatt::scan::{self, Tones, Warning};
 use khatt::types::{Cell, Files, Png};
 use kurbo::Rect;
 use serde_json::{Value, json};
-use std::path::PathBuf;
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
 
 /// Writes the cells of the project's pages as pictures, with a list of them in cells.json
 #[derive(Debug, Args)]
@@ -39,12 +40,13 @@ impl Cut {
             return Err(Failure::new(what).help("name a folder: -o DIR"));
         }
         let opened = Opened::new(&self.project)?;
-        let (pages, ..) = opened.work(common, |project, world| {
-            pipeline::pages(project, world, |page| {
+        let ((pages, notes), ..) = opened.work(common, |project, world| {
+            let pages = pipeline::pages(project, world, |page| {
                 let table = project.sheets.get(page.table);
                 let layout = table.map(|t| t.layout);
                 Ok((entry(&page), found(&page, layout), warnings(&page)))
-            })
+            })?;
+            Ok((pages, unasked(project, &opened)))
         })?;
         let (mut files, mut list, mut cells) = (Files::default(), Vec::new(), Cells::new());
         let mut said = String::new();
@@ -67,7 +69,7 @@ impl Cut {
         }
         staged::write(&outputs, &opened.named())?;
         if !common.quiet {
-            eprint!("{said}");
+            eprint!("{said}{notes}");
         }
         Ok(())
     }
@@ -86,6 +88,26 @@ pub(super) fn warnings(page: &Page) -> String {
     let warnings = page.cut.warnings.iter();
     let line = |w: &Warning| format!("warning: {}, {w}\n", page.name);
     warnings.map(line).collect()
+}
+
+/// Pictures that say how much light their numbers stand for, and are not asked: a line each.
+fn unasked(project: &Project, inputs: &dyn Inputs) -> String {
+    let sheets = project.sheets.iter();
+    let linear = sheets.filter(|s| s.tones == Tones::Linear);
+    let images: BTreeSet<_> = linear.flat_map(|s| &s.image).collect();
+    let says = |path: &Path| {
+        let bytes = inputs.read(path);
+        bytes.is_ok_and(|b| scan::describes_light(&b))
+    };
+    let said = images.into_iter().filter(|path| says(path));
+    let line = |path: &PathBuf| {
+        format!(
+            "note: {} says itself how much light its numbers stand for, and is read as if they were light; scanned or \
+             photographed strokes come out too thin unless `tones` is \"profile\"\n",
+            path.display()
+        )
+    };
+    said.map(line).collect()
 }
 
 /// Where a page's letters were found; a template's page says that itself.

@@ -38,7 +38,7 @@ pub(crate) struct Trace {
     /// Area of ink or paper below which it is dust, in square pixels [default: 4]
     #[arg(long, value_name = "PX2", value_parser = positive)]
     speckle: Option<f64>,
-    /// How the picture's numbers tell light: in proportion to it, or as cameras and most scanners write it [default: linear]
+    /// How the picture's numbers tell light: in proportion to it, as cameras and most scanners write it, or as the file says [default: linear]
     #[arg(long, value_name = "TONES", value_parser = PossibleValuesParser::new(Tones::ALL.map(|t| t.0)))]
     tones: Option<String>,
     /// Give the middle of the lines that a pen drew, with their width, in place of their outline

@@ -44,6 +44,17 @@ pub enum ScanError {
         /// px
         height: u32,
     },
+    /// A picture is to be read as its file says, which says nothing, or nothing that is understood.
+    #[error(
+        "{source_name} does not say how much light its numbers stand for: {why}; write tones = \"srgb\" if they are in sRGB, as \
+         cameras' are and most scanners', or leave `tones` out"
+    )]
+    Tones {
+        /// the file
+        source_name: String,
+        /// what it lacks
+        why: String,
+    },
     /// Nothing on the page is darker than its paper.
     #[error("{source_name} is blank: no ink stands out of its paper")]
     Blank {

@@ -1,6 +1,6 @@
 //! What the headers of picture files say beside the pixels: resolution, further pages, completeness.
 
-use exif::{In, Reader, Tag, Value};
+use exif::{Context, Exif, In, Reader, Tag, Value};
 use std::io::Cursor;
 use std::ops::Range;
 
@@ -43,20 +43,25 @@ fn le32(bytes: &[u8], at: usize) -> Option<u32> {
     Some(u32::from_le_bytes(*bytes.get(at..)?.first_chunk()?))
 }
 
-/// `pHYs`, which stands before the first `IDAT`.
-fn png_dpi(bytes: &[u8]) -> Option<(f64, f64)> {
+/// The content of a chunk that stands before the first `IDAT` of a PNG.
+pub(super) fn png_chunk<'a>(bytes: &'a [u8], kind: &[u8; 4]) -> Option<&'a [u8]> {
     let mut at = bytes.starts_with(b"\x89PNG").then_some(8)?;
     loop {
         let length = be32(bytes, at)? as usize;
+        let end = at.checked_add(8)?.checked_add(length)?;
         match bytes.get(at + 4..at + 8)? {
-            b"pHYs" if bytes.get(at + 16) == Some(&1) => {
-                let axis = |o| Some(f64::from(be32(bytes, at + o)?) * METRES_PER_INCH);
-                return Some((axis(8)?, axis(12)?));
-            }
+            found if found == kind => return bytes.get(at + 8..end),
             b"IDAT" => return None,
-            _ => at = at.checked_add(length)?.checked_add(12)?,
+            _ => at = end.checked_add(4)?,
         }
     }
+}
+
+/// `pHYs`, where it counts pixels a metre.
+fn png_dpi(bytes: &[u8]) -> Option<(f64, f64)> {
+    let size = png_chunk(bytes, b"pHYs").filter(|c| c.get(8) == Some(&1))?;
+    let axis = |o| Some(f64::from(be32(size, o)?) * METRES_PER_INCH);
+    Some((axis(0)?, axis(4)?))
 }
 
 /// Pixels a metre of `BITMAPINFOHEADER`.
@@ -81,11 +86,33 @@ pub(super) fn is_pcx(bytes: &[u8]) -> bool {
     matches!(bytes, [10, 0 | 2 | 3 | 4 | 5, 0 | 1, 1 | 2 | 4 | 8, ..])
 }
 
-/// `XResolution` and `YResolution` of TIFF itself and of Exif inside JPEG, WebP and PNG.
+/// The fields of TIFF itself and of Exif inside JPEG, WebP and PNG.
+fn exif(bytes: &[u8]) -> Option<Exif> {
+    let read = Reader::new().read_from_container(&mut Cursor::new(bytes));
+    read.ok()
+}
+
+/// The ICC profile of TIFF's field, however few pixels stand beside it.
+pub(super) fn tiff_profile(bytes: &[u8]) -> Option<Vec<u8>> {
+    const PROFILE: Tag = Tag(Context::Tiff, 34675);
+    match exif(bytes)?.get_field(PROFILE, In::PRIMARY)?.value {
+        Value::Undefined(ref profile, _) | Value::Byte(ref profile) => Some(profile.clone()),
+        _ => None,
+    }
+}
+
+/// Whether Exif says that the colours are those of sRGB.
+pub(super) fn exif_is_srgb(bytes: &[u8]) -> bool {
+    let space = |e: Exif| {
+        let field = e.get_field(Tag::ColorSpace, In::PRIMARY)?;
+        field.value.get_uint(0)
+    };
+    exif(bytes).and_then(space) == Some(1)
+}
+
+/// `XResolution` and `YResolution`.
 fn exif_dpi(bytes: &[u8]) -> Option<(f64, f64)> {
-    let exif = Reader::new()
-        .read_from_container(&mut Cursor::new(bytes))
-        .ok()?;
+    let exif = exif(bytes)?;
     let axis = |tag| match exif.get_field(tag, In::PRIMARY)?.value {
         Value::Rational(ref v) => v.first().map(|r| r.to_f64()),
         _ => None,

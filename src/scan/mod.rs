@@ -33,7 +33,7 @@ pub use cut::{Cut, Pin, Reason, Region, Rejected, Warning, cut, cut_with};
 pub use cut::{SMALL, SMALL_LETTER, is_full};
 pub use error::ScanError;
 pub use ink::{Ink, Inks};
-pub use load::{Grain, Polarity, Reading, Tones, Turn, load, load_as};
+pub use load::{Grain, Polarity, Reading, Tones, Turn, describes_light, load, load_as};
 pub use options::{Direction, Layout, Options, Order, Scale};
 pub use range::{full_range, is_all_dark};
 pub use separation::Colour;

@@ -12,7 +12,7 @@ import argparse, os, sys, tempfile
 from multiprocessing import Pool
 
 import numpy as np
-from PIL import Image
+from PIL import Image, ImageCms
 from scipy.ndimage import gaussian_filter
 
 PPEM, WHITE, PAPER, INK, NOISE = 500, 255, 235, 0.8, 3
@@ -56,8 +56,10 @@ def letters(task):
     tools = {"potrace": bench.tool_potrace}
     tools |= {tool: bench.custom(f"{exe} --quiet trace {{in}} -o {{out}}") for tool, exe in khatts.items()}
     if draw is in_srgb:
-        told = {f"{tool} --tones srgb": f"{exe} --quiet trace --tones srgb {{in}} -o {{out}}" for tool, exe in khatts.items()}
-        tools |= {tool: bench.custom(command) for tool, command in told.items()}
+        for tones in ("srgb", "profile"):
+            told = {f"{tool} --tones {tones}": f"{exe} --quiet trace --tones {tones} {{in}} -o {{out}}" for tool, exe in khatts.items()}
+            tools |= {tool: bench.custom(command) for tool, command in told.items()}
+    profile = ImageCms.ImageCmsProfile(ImageCms.createProfile("sRGB")).tobytes() if draw is in_srgb else None
     found = {tool: [] for tool in tools}
     with tempfile.TemporaryDirectory() as folder:
         files = {end: os.path.join(folder, f"letter.{end}") for end in ("png", "pbm", "svg")}
@@ -67,7 +69,7 @@ def letters(task):
             if not true:
                 continue
             image, (scale, left, foot) = draw(bench, true, upem, char, how)
-            Image.fromarray(image).save(files["png"])
+            Image.fromarray(image).save(files["png"], icc_profile=profile)
             half = (float(image.min()) + float(image.max())) / 2
             Image.fromarray(np.where(image < half, 0, WHITE).astype(np.uint8)).convert("1", dither=0).save(files["pbm"])
             for tool, trace in tools.items():

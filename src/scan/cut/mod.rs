@@ -4,6 +4,7 @@
 //!
 //! | room | what happens there |
 //! |---|---|
+//! | `level` | the coverage from which ink is connected, one at which printed lines hold together |
 //! | `sieve` | pieces of ink that may be letters are told from dust, borders and other inks |
 //! | `pins` | what a user says of single letters takes its ink first, and stands over all that is found |
 //! | `layout` | pieces become letters in reading order: cells of a grid, printed boxes, rows of a bare page |
@@ -14,6 +15,7 @@
 
 mod guides;
 mod layout;
+mod level;
 mod marks;
 mod pins;
 mod remarks;
@@ -25,7 +27,7 @@ pub use pins::{Pin, Region};
 pub use remarks::{SMALL, SMALL_LETTER, is_full};
 
 use super::clean::Page;
-use super::components::{Component, components};
+use super::components::Component;
 use super::deskew::{Edges, skew_deg};
 use super::error::ScanError;
 use super::options::Options;
@@ -39,13 +41,6 @@ use sieve::{Inks, sort, speck_limit, stroke_width, telling};
 use stance::Stance;
 use std::fmt;
 
-/// Coverage from which connected ink counts: below the half level, so that thin strokes hold together,
-/// and above printed guides in a light colour.
-const LOW: f32 = 0.33;
-/// Coverage that a piece of ink must reach somewhere.
-const SEED: f32 = 0.5;
-/// Standard deviations of noise that both levels keep from the paper.
-const NOISE: f32 = 6.0;
 /// Ink beside a letter of one piece that is smaller than a square of this many stroke widths is dust.
 const DUST: f64 = 0.85;
 /// Skews below this, degrees, are left alone: over a page they move a letter by a hair.
@@ -239,13 +234,13 @@ fn cut_page(
     pins: &[Pin],
 ) -> Result<Cut, ScanError> {
     let gray = &page.sheet.gray;
-    let low = LOW.max(NOISE * page.noise);
+    let (low, ink) = level::pieces(gray, page.noise);
     let Inks {
         letters: mut all,
         rejected: beside,
         mut small,
         specks,
-    } = sort(components(gray, low, SEED.max(low)), page, options)?;
+    } = sort(ink, page, options)?;
     let separation = Separation::measure(&page.sheet, &all, &options.ink, speck_limit(&all))?;
     let telling = telling(&all, page);
     let edges = Edges::new(&telling, gray.height());

@@ -16,7 +16,7 @@ const DOT: f64 = 0.4;
 /// And smaller than of this many it is dust in any style.
 const LEAST_DOT: f64 = 0.25;
 /// A printed line or lattice: its length at least and its thickness at most, as shares of the longer side of all ink.
-const LINE: (f64, f64) = (0.5, 0.02);
+pub(super) const LINE: (f64, f64) = (0.5, 0.02);
 /// Share of its box that a printed lattice covers at most.
 pub(super) const LATTICE_COVER: f64 = 0.12;
 /// Share of a piece of ink that lies on the page at least.

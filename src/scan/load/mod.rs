@@ -3,6 +3,7 @@
 mod colour;
 mod pdf;
 mod polarity;
+mod profile;
 mod tones;
 
 use super::error::{MAX_PIXELS, ScanError};
@@ -18,11 +19,14 @@ use serde::{Deserialize, Serialize};
 use std::io::{Cursor, ErrorKind};
 
 pub use tones::Tones;
+use tones::{Light, Sample};
 
 /// Bytes that decoding one page may take: eight a pixel, 16 bit RGBA, of the largest page.
 const MAX_BYTES: u64 = 8 * MAX_PIXELS;
 /// Rec. 709 luma weights of red, green and blue.
 const LUMA: [f32; 3] = [0.2126, 0.7152, 0.0722];
+/// So many times its size is the most that DEFLATE unpacks to.
+const DEFLATE: u64 = 1032;
 /// A picture whose colours differ by less than this, of 1, says nothing by its colours.
 const FLAT: f32 = 0.02;
 
@@ -137,19 +141,19 @@ impl Turn {
 /// # Errors
 /// As of [`load`].
 pub fn load_as(bytes: &[u8], source: &str, reading: Reading) -> Result<Vec<Sheet>, ScanError> {
+    let tones = reading.tones;
     let pictures = if pdf::is_pdf(bytes) {
-        pdf::pages(bytes, source)?
+        pdf::pages(bytes, source, tones)?
     } else {
-        let page = |file: &[u8]| Ok((decode(file, source)?, header::dpi(file)));
         let pages = header::tiff_pages(bytes);
         if pages.is_empty() {
-            vec![page(bytes)?]
+            vec![decode(bytes, source, tones)?]
         } else {
             // decoders begin at the first page: one copy, whose header points to one after the other
             let mut file = bytes.to_vec();
             let mut begun = |first: [u8; 4]| {
                 file[header::TIFF_FIRST].copy_from_slice(&first);
-                page(&file)
+                decode(&file, source, tones)
             };
             let decoded = pages.into_iter().map(&mut begun);
             decoded.collect::<Result<_, ScanError>>()?
@@ -165,18 +169,25 @@ pub fn load_as(bytes: &[u8], source: &str, reading: Reading) -> Result<Vec<Sheet
     };
     let sheets = pictures.into_iter().zip(1..);
     sheets
-        .map(|((image, dpi), n)| sheet((reading.turn.apply(image), dpi), &name(n), reading))
+        .map(|(picture, n)| sheet(picture, &name(n), reading))
         .collect()
 }
 
-fn sheet(
-    (image, dpi): (DynamicImage, Option<f64>),
-    source: &str,
-    reading: Reading,
-) -> Result<Sheet, ScanError> {
+/// A page as its file has it, upright.
+struct Picture {
+    image: DynamicImage,
+    /// of the image's numbers
+    light: Light,
+    /// dots an inch
+    dpi: Option<f64>,
+}
+
+fn sheet(picture: Picture, source: &str, reading: Reading) -> Result<Sheet, ScanError> {
+    let Picture { image, light, dpi } = picture;
+    let image = reading.turn.apply(image);
     let (width, height) = (image.width() as usize, image.height() as usize);
     let mut colours = colour::colours(&image, reading.grain);
-    let mut samples = ink(image, reading);
+    let mut samples = ink(image, &light, reading.grain);
     let told = |shade| Guess {
         shade,
         certainty: Certainty::Sure,
@@ -203,21 +214,60 @@ fn sheet(
     })
 }
 
+/// The light of a picture's numbers, which `told` says where `tones` leaves it to the file.
+fn light(
+    tones: Tones,
+    source: &str,
+    told: impl FnOnce() -> Result<Light, String>,
+) -> Result<Light, ScanError> {
+    let known = tones.light().map_or_else(told, Ok);
+    known.map_err(|why| ScanError::Tones {
+        source_name: source.to_owned(),
+        why,
+    })
+}
+
+/// Whether a picture file says itself that its numbers are not in proportion to light, so that [`Tones::Profile`] reads
+/// it otherwise than [`Tones::Linear`]: its first page, and not of a PDF file.
+#[must_use]
+pub fn describes_light(bytes: &[u8]) -> bool {
+    let told = |mut decoder: Box<dyn ImageDecoder + '_>| profile::of_file(bytes, &mut decoder).ok();
+    let light = opened(bytes, "").ok().and_then(told);
+    light.is_some() && light != Tones::Linear.light()
+}
+
 /// The picture as the file has it, turned upright as its orientation tag says.
-fn decode(bytes: &[u8], source: &str) -> Result<DynamicImage, ScanError> {
+fn decode(bytes: &[u8], source: &str, tones: Tones) -> Result<Picture, ScanError> {
+    let mut decoder = opened(bytes, source)?;
+    if bytes.starts_with(b"\xff\xd8") && !header::jpeg_is_whole(bytes) {
+        return Err(ScanError::Truncated {
+            source_name: source.to_owned(),
+        });
+    }
+    let light = light(tones, source, || profile::of_file(bytes, &mut decoder))?;
+    let orientation = decoder.orientation().unwrap_or(Orientation::NoTransforms);
+    let image = DynamicImage::from_decoder(decoder);
+    let mut image = image.map_err(|e| unreadable(e, source))?;
+    image.apply_orientation(orientation);
+    let dpi = header::dpi(bytes);
+    Ok(Picture { image, light, dpi })
+}
+
+/// What decodes a picture file that is no PDF, held to what a page may take.
+fn opened<'a>(bytes: &'a [u8], source: &str) -> Result<Box<dyn ImageDecoder + 'a>, ScanError> {
     let source_name = || source.to_owned();
-    let fail = |e: ImageError| match e {
-        ImageError::IoError(e) if e.kind() == ErrorKind::UnexpectedEof => ScanError::Truncated {
-            source_name: source_name(),
-        },
-        e => ScanError::Decode {
-            source_name: source_name(),
-            why: e.to_string(),
-        },
-    };
+    let fail = |e: ImageError| unreadable(e, source);
     let kind = || ScanError::Kind {
         source_name: source_name(),
     };
+    // a PNG's is unpacked before any limit holds
+    let profile = header::png_chunk(bytes, b"iCCP").map_or(0, <[u8]>::len);
+    if profile as u64 > MAX_BYTES / DEFLATE {
+        return Err(ScanError::Decode {
+            source_name: source_name(),
+            why: "its colour profile is larger than a page".to_owned(),
+        });
+    }
     let mut decoder: Box<dyn ImageDecoder + '_> = if header::is_pcx(bytes) {
         Box::new(PCXDecoder::new(Cursor::new(bytes)).map_err(fail)?)
     } else {
@@ -235,84 +285,61 @@ fn decode(bytes: &[u8], source: &str) -> Result<DynamicImage, ScanError> {
             height,
         });
     }
-    if bytes.starts_with(b"\xff\xd8") && !header::jpeg_is_whole(bytes) {
-        return Err(ScanError::Truncated {
-            source_name: source_name(),
-        });
-    }
     // `from_decoder` does not hold the decoder to any limit by itself.
     let mut limits = Limits::no_limits();
     limits.max_alloc = Some(2 * MAX_BYTES);
     limits.reserve(decoder.total_bytes()).map_err(fail)?;
     decoder.set_limits(limits).map_err(fail)?;
-    let orientation = decoder.orientation().unwrap_or(Orientation::NoTransforms);
-    let mut image = DynamicImage::from_decoder(decoder).map_err(fail)?;
-    image.apply_orientation(orientation);
-    Ok(image)
+    Ok(decoder)
+}
+
+/// What a decoder says is wrong.
+fn unreadable(wrong: ImageError, source: &str) -> ScanError {
+    let source_name = source.to_owned();
+    match wrong {
+        ImageError::IoError(e) if e.kind() == ErrorKind::UnexpectedEof => {
+            ScanError::Truncated { source_name }
+        }
+        e => ScanError::Decode {
+            source_name,
+            why: e.to_string(),
+        },
+    }
 }
 
 /// Ink of every pixel over white.
-fn ink(image: DynamicImage, reading: Reading) -> Vec<f32> {
+fn ink(image: DynamicImage, light: &Light, grain: Grain) -> Vec<f32> {
     let width = image.width() as usize;
     match image {
-        DynamicImage::ImageLuma8(i) => grey(i.as_raw(), reading),
-        DynamicImage::ImageLumaA8(i) => grey_alpha((i.as_raw(), width), reading),
-        DynamicImage::ImageRgb8(i) => rgb(i.as_raw(), reading),
-        DynamicImage::ImageRgba8(i) => rgba((i.as_raw(), width), reading),
-        DynamicImage::ImageLuma16(i) => grey(i.as_raw(), reading),
-        DynamicImage::ImageLumaA16(i) => grey_alpha((i.as_raw(), width), reading),
-        DynamicImage::ImageRgb16(i) => rgb(i.as_raw(), reading),
-        other => rgba((other.into_rgba16().as_raw(), width), reading),
+        DynamicImage::ImageLuma8(i) => grey(i.as_raw(), light),
+        DynamicImage::ImageLumaA8(i) => grey_alpha((i.as_raw(), width), light),
+        DynamicImage::ImageRgb8(i) => rgb(i.as_raw(), light, grain),
+        DynamicImage::ImageRgba8(i) => rgba((i.as_raw(), width), light, grain),
+        DynamicImage::ImageLuma16(i) => grey(i.as_raw(), light),
+        DynamicImage::ImageLumaA16(i) => grey_alpha((i.as_raw(), width), light),
+        DynamicImage::ImageRgb16(i) => rgb(i.as_raw(), light, grain),
+        other => rgba((other.into_rgba16().as_raw(), width), light, grain),
     }
 }
 
-/// A channel's sample, 0 to 1.
-trait Sample: Copy + Sync {
-    fn unit(self) -> f32;
+fn grey<S: Sample>(raw: &[S], light: &Light) -> Vec<f32> {
+    raw.par_iter().map(|s| 1.0 - light.grey(*s)).collect()
 }
 
-impl Sample for u8 {
-    fn unit(self) -> f32 {
-        f32::from(self) / 255.0
-    }
-}
-
-impl Sample for u16 {
-    fn unit(self) -> f32 {
-        f32::from(self) / 65535.0
-    }
-}
-
-/// What counts of a pixel's light: luma, or the darkest channel.
-fn light<S: Sample>(p: &[S], reading: Reading) -> f32 {
-    let light = p.iter().map(|s| reading.tones.light(s.unit()));
-    match reading.grain {
-        Grain::Blocks => light.zip(LUMA).map(|(v, w)| v * w).sum(),
-        Grain::Pixels => light.fold(1.0, f32::min),
-    }
-}
-
-fn grey<S: Sample>(raw: &[S], reading: Reading) -> Vec<f32> {
-    let light = |s: &S| reading.tones.light(s.unit());
-    raw.par_iter().map(|s| 1.0 - light(s)).collect()
-}
-
-fn rgb<S: Sample>(raw: &[S], reading: Reading) -> Vec<f32> {
+fn rgb<S: Sample>(raw: &[S], light: &Light, grain: Grain) -> Vec<f32> {
     let pixels = raw.par_chunks_exact(3);
-    pixels.map(|p| 1.0 - light(p, reading)).collect()
+    pixels.map(|p| 1.0 - light.colour(p, grain)).collect()
 }
 
-fn grey_alpha<S: Sample>((raw, width): (&[S], usize), reading: Reading) -> Vec<f32> {
+fn grey_alpha<S: Sample>((raw, width): (&[S], usize), light: &Light) -> Vec<f32> {
     let pixels = raw.par_chunks_exact(2);
-    let pixels = pixels
-        .map(|p| (reading.tones.light(p[0].unit()), p[1].unit()))
-        .collect();
-    over_white(pixels, width)
+    let pixels = pixels.map(|p| (light.grey(p[0]), p[1].unit()));
+    over_white(pixels.collect(), width)
 }
 
-fn rgba<S: Sample>((raw, width): (&[S], usize), reading: Reading) -> Vec<f32> {
+fn rgba<S: Sample>((raw, width): (&[S], usize), light: &Light, grain: Grain) -> Vec<f32> {
     let pixels = raw.par_chunks_exact(4);
-    let pixels = pixels.map(|p| (light(&p[..3], reading), p[3].unit()));
+    let pixels = pixels.map(|p| (light.colour(&p[..3], grain), p[3].unit()));
     over_white(pixels.collect(), width)
 }
 
@@ -354,6 +381,8 @@ fn lies_on_nothing(pixels: &[(f32, f32)], width: usize) -> bool {
     2 * pixels.iter().filter(seen).count() < pixels.len() && 10 * around < ring.len()
 }
 
+#[cfg(test)]
+mod carriers;
 #[cfg(test)]
 mod shades;
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! The scans that a PDF file holds: the largest picture of each page, at its own resolution.
 
+use super::{Picture, Tones, light, profile};
 use crate::scan::error::{MAX_PIXELS, ScanError};
 use hayro_syntax::Pdf;
 use hayro_syntax::object::stream::{FilterResult, ImageDecodeParams};
@@ -18,17 +19,14 @@ pub(super) fn is_pdf(bytes: &[u8]) -> bool {
 }
 
 /// The picture of each page, upright, with its resolution where it covers the page.
-pub(super) fn pages(
-    bytes: &[u8],
-    source: &str,
-) -> Result<Vec<(DynamicImage, Option<f64>)>, ScanError> {
+pub(super) fn pages(bytes: &[u8], source: &str, tones: Tones) -> Result<Vec<Picture>, ScanError> {
     let fail = |why: &str| ScanError::Decode {
         source_name: source.to_owned(),
         why: why.to_owned(),
     };
     let pdf = Pdf::new(bytes.to_vec()).map_err(|_| fail("the PDF file cannot be read"))?;
-    let found: Result<Vec<_>, ScanError> =
-        pdf.pages().iter().map(|p| page(p, source, &fail)).collect();
+    let pages = pdf.pages().iter().map(|p| page(p, source, tones, &fail));
+    let found: Result<Vec<_>, ScanError> = pages.collect();
     found.and_then(|f| {
         if f.is_empty() {
             Err(fail("the PDF file has no page"))
@@ -41,8 +39,9 @@ pub(super) fn pages(
 fn page(
     page: &Page<'_>,
     source: &str,
+    tones: Tones,
     fail: &dyn Fn(&str) -> ScanError,
-) -> Result<(DynamicImage, Option<f64>), ScanError> {
+) -> Result<Picture, ScanError> {
     let objects = &page.resources().x_objects;
     let pictures = objects.keys().filter_map(|key| {
         let stream = objects.get::<Stream<'_>>(&key)?;
@@ -66,6 +65,7 @@ fn page(
             "its scan's coding claims other rows and columns than the scan has",
         ));
     }
+    let light = light(tones, source, || profile::of_pdf(stream.dict()))?;
     let image = decode(&stream, (width, height)).map_err(fail)?;
     let media = page.media_box();
     let (across, down) = (
@@ -77,13 +77,13 @@ fn page(
         f64::from(image.height()) / down,
     );
     let dpi = ((x / y - 1.0).abs() < COVERS).then_some(x);
-    let turned = match page.rotation() {
+    let image = match page.rotation() {
         Rotation::None => image,
         Rotation::Horizontal => image.rotate90(),
         Rotation::Flipped => image.rotate180(),
         Rotation::FlippedHorizontal => image.rotate270(),
     };
-    Ok((turned, dpi))
+    Ok(Picture { image, light, dpi })
 }
 
 /// Whether the parameters of its coding claim rows or columns far beyond its longer side, by which a decoder would

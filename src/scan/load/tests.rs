@@ -244,29 +244,37 @@ fn what_is_no_whole_picture_is_refused_with_its_name() {
     assert!(matches!(no(&huge), ScanError::Large { width: 60_000, .. }));
 }
 
-/// A PDF file of one page of 144 × 108 points with one picture.
-fn pdf_file(entries: &str, data: &[u8]) -> Vec<u8> {
+/// A stream of a PDF file.
+pub(super) fn pdf_stream(entries: &str, data: &[u8]) -> Vec<u8> {
+    let head = format!("<< {entries} /Length {} >>\nstream\n", data.len());
+    [head.as_bytes(), data, b"\nendstream"].concat()
+}
+
+/// A PDF file of one page of 144 × 108 points with one picture, and other objects from the fifth on.
+pub(super) fn pdf_file(entries: &str, data: &[u8], others: &[Vec<u8>]) -> Vec<u8> {
     let mut out = b"%PDF-1.4\n".to_vec();
-    let stream = [format!("<< /Type /XObject /Subtype /Image /Width 40 /Height 30 {entries} /Length {} >>\nstream\n", data.len()).as_bytes(), data, b"\nendstream"].concat();
-    let objects: [Vec<u8>; 4] = [
+    let picture = format!("/Type /XObject /Subtype /Image /Width 40 /Height 30 {entries}");
+    let mut objects: Vec<Vec<u8>> = vec![
         b"<< /Type /Catalog /Pages 2 0 R >>".to_vec(),
         b"<< /Type /Pages /Kids [3 0 R] /Count 1 >>".to_vec(),
         b"<< /Type /Page /Parent 2 0 R /MediaBox [0 0 144 108] /Resources << /XObject << /Im0 4 0 R >> >> >>".to_vec(),
-        stream,
+        pdf_stream(&picture, data),
     ];
+    objects.extend_from_slice(others);
     let mut at = Vec::new();
     for (i, body) in objects.iter().enumerate() {
         at.push(out.len());
         out.extend([format!("{} 0 obj\n", i + 1).as_bytes(), body, b"\nendobj\n"].concat());
     }
-    let start = out.len();
-    out.extend(b"xref\n0 5\n0000000000 65535 f \n");
+    let (start, size) = (out.len(), objects.len() + 1);
+    out.extend(format!("xref\n0 {size}\n0000000000 65535 f \n").into_bytes());
     out.extend(
         at.iter()
             .flat_map(|a| format!("{a:010} 00000 n \n").into_bytes()),
     );
     out.extend(
-        format!("trailer\n<< /Size 5 /Root 1 0 R >>\nstartxref\n{start}\n%%EOF\n").into_bytes(),
+        format!("trailer\n<< /Size {size} /Root 1 0 R >>\nstartxref\n{start}\n%%EOF\n")
+            .into_bytes(),
     );
     out
 }
@@ -282,6 +290,7 @@ fn a_pdf_that_claims_what_its_scan_has_not() {
         let file = pdf_file(
             &format!("{coding} /DecodeParms [<< /K -1 {claim} >>]"),
             b"\x00\x10",
+            &[],
         );
         let wrong = load(&file, "page.pdf", Polarity::Auto).unwrap_err();
         assert!(
@@ -294,11 +303,16 @@ fn a_pdf_that_claims_what_its_scan_has_not() {
 #[test]
 fn a_pdf_gives_the_scan_of_its_page() {
     let grey = picture();
-    let plain = pdf_file("/ColorSpace /DeviceGray /BitsPerComponent 8", grey.as_raw());
+    let plain = pdf_file(
+        "/ColorSpace /DeviceGray /BitsPerComponent 8",
+        grey.as_raw(),
+        &[],
+    );
     let jpeg = encoded(&DynamicImage::ImageLuma8(grey.clone()), ImageFormat::Jpeg);
     let jpeg = pdf_file(
         "/ColorSpace /DeviceGray /BitsPerComponent 8 /Filter /DCTDecode",
         &jpeg,
+        &[],
     );
     let bits: Vec<u8> = grey
         .as_raw()
@@ -308,6 +322,7 @@ fn a_pdf_gives_the_scan_of_its_page() {
     let bilevel = pdf_file(
         "/ColorSpace /DeviceGray /BitsPerComponent 1 /Decode [1 0]",
         &bits,
+        &[],
     );
     for (i, file) in [plain, jpeg, bilevel].iter().enumerate() {
         let sheet = one(file);
@@ -328,6 +343,7 @@ fn a_pdf_gives_the_scan_of_its_page() {
     let short = pdf_file(
         "/ColorSpace /DeviceGray /BitsPerComponent 8",
         &grey.as_raw()[..100],
+        &[],
     );
     assert!(load(&short, "short.pdf", Polarity::Auto).is_err());
     assert!(load(b"%PDF-1.4 and nothing", "empty.pdf", Polarity::Auto).is_err());
