@@ -11,6 +11,8 @@ from multiprocessing import Pool
 
 LIMITS = {"clean": (0.05, 0.6), "scan": (0.10, 1.0)}
 WORST, CORNERS = 3, 0.96
+# an outline so far off has a part too much or too little
+PART_PX = 2.5
 WHAT = ("mean", "median max", "worst", "corner F1")
 
 
@@ -89,10 +91,12 @@ def main():
     rows = [(name, *row) for name, rows in fonts for row in rows]
     found = [row for row in rows if row[3]]
     over = [row for row in found if row[3]["max"] > WORST]
+    lost = [row for row in found if row[3]["max"] * args.ppem / 1000 > PART_PX]
     print(
         f"\n{len(rows)} pictures, {len(rows) - len(found)} failed; mean {np.mean([r[3]['mean'] for r in found]):.4f}, mean of the "
-        f"maxima {np.mean([r[3]['max'] for r in found]):.4f}, above {WORST}: {len(over)}, of them {sum(r[5] for r in over)} of glyphs "
-        f"that cross themselves (of {len({r[:2] for r in rows})} glyphs {len({r[:2] for r in rows if r[5]})} do)"
+        f"maxima {np.mean([r[3]['max'] for r in found]):.4f}, above {PART_PX} px: {len(lost)}, above {WORST}: {len(over)}, of them "
+        f"{sum(r[5] for r in over)} of glyphs that cross themselves (of {len({r[:2] for r in rows})} glyphs "
+        f"{len({r[:2] for r in rows if r[5]})} do)"
     )
     new = [f"{name} {char} {condition}" for name, char, condition, _, tangled, drawn in rows if tangled and not drawn]
     print(f"cross where the font's outlines do not: {len(new)}: {', '.join(new)}")
