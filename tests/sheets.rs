@@ -151,36 +151,54 @@ impl OutlinePen for Segments {
     fn close(&mut self) {}
 }
 
+/// What is said while a font is built of a page with [`LETTERS`], and how many segments its H and l have.
+fn segments(page: &[u8]) -> (Vec<usize>, String) {
+    let dir = project(LETTERS, page);
+    let out = khatt(dir.path(), &["build", "font.toml", "--no-cache"]);
+    let stderr = String::from_utf8_lossy(&out.stderr).into_owned();
+    assert_eq!(out.status.code(), Some(0), "{stderr}");
+    let bytes = fs::read(dir.path().join("out/test.otf")).expect("a font");
+    let font = FontRef::new(&bytes).expect("a font");
+    let points = |c: char| {
+        let glyph = font.charmap().map(c).expect("a letter that was named");
+        let mut pen = Segments(0);
+        let size = DrawSettings::unhinted(Size::unscaled(), LocationRef::default());
+        let outline = font.outline_glyphs().get(glyph).expect("its outline");
+        outline.draw(size, &mut pen).expect("it can be drawn");
+        pen.0
+    };
+    ("Hl".chars().map(points).collect(), stderr)
+}
+
 #[test]
 fn a_page_out_of_focus_is_told_and_keeps_its_corners() {
     let sharp = page(&[]);
-    let built = |page: &[u8]| {
-        let dir = project(LETTERS, page);
-        let out = khatt(dir.path(), &["build", "font.toml", "--no-cache"]);
-        let stderr = String::from_utf8_lossy(&out.stderr).into_owned();
-        assert_eq!(out.status.code(), Some(0), "{stderr}");
-        let bytes = fs::read(dir.path().join("out/test.otf")).expect("a font");
-        let font = FontRef::new(&bytes).expect("a font");
-        let points = |c: char| {
-            let glyph = font.charmap().map(c).expect("a letter that was named");
-            let mut pen = Segments(0);
-            let size = DrawSettings::unhinted(Size::unscaled(), LocationRef::default());
-            let outline = font.outline_glyphs().get(glyph).expect("its outline");
-            outline.draw(size, &mut pen).expect("it can be drawn");
-            pen.0
-        };
-        ("Hl".chars().map(points).collect::<Vec<_>>(), stderr)
-    };
     let sheets = load(&sharp, "page.png", Polarity::DarkInk).expect("a picture");
     let mut samples = sheets[0].gray.samples().to_vec();
     blur(&mut samples, 600, 3.0, 0);
     let soft = sheets[0].gray.with_samples(samples).levels();
     let soft = png(600, 600, |x, y| soft[(y * 600 + x) as usize]);
-    let ((wanted, quiet), (got, told)) = (built(&sharp), built(&soft));
+    let ((wanted, quiet), (got, told)) = (segments(&sharp), segments(&soft));
     assert!(!quiet.contains("out of focus"), "{quiet}");
     let remark = "page.png, the letters are out of focus: their edges are blurred by";
     assert!(told.contains(remark), "{told}");
     assert_eq!(got, wanted, "segments of each letter");
+}
+
+/// The page with another ink where its letters are, by column and row.
+fn redrawn(ink: impl Fn(f64, f64, f64) -> f64) -> Vec<u8> {
+    let sheets = load(&page(&[]), "page.png", Polarity::DarkInk).expect("a picture");
+    png(600, 600, |x, y| {
+        let drawn = f64::from(sheets[0].gray.at(x as usize, y as usize));
+        edge(0.5 - ink(drawn, f64::from(x), f64::from(y)))
+    })
+}
+
+#[test]
+fn ink_of_a_pen_that_shades_is_as_good_as_even_ink() {
+    let pools = redrawn(|drawn, x, y| drawn * (0.65 + 0.35 * (x / 11.0).sin() * (y / 13.0).cos()));
+    let ((wanted, _), (got, told)) = (segments(&page(&[])), segments(&pools));
+    assert_eq!(got, wanted, "segments of each letter: {told}");
 }
 
 #[test]

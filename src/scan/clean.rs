@@ -6,6 +6,7 @@
 use super::error::ScanError;
 use super::light::Field;
 use super::paper::Paper;
+use super::shading;
 use super::steps::softened;
 use super::whole::{floor, narrow, ratio};
 use crate::types::{Gray, Sheet};
@@ -111,6 +112,7 @@ fn even(
         source_name: source.clone(),
         why: e.to_string(),
     })?;
+    let gray = shading::page(&gray, paper.as_ref().or(lit.as_ref())).unwrap_or(gray);
     Ok(Page {
         sheet: Sheet {
             gray: gray.with_scatter(scatter_px),

@@ -3,7 +3,7 @@
 //! | step | from → to | unit, axes | guaranteed |
 //! |---|---|---|---|
 //! | [`load()`] | bytes → [`Sheet`](crate::types::Sheet)s | sheet px, y down | the file's own pixels, turned as it says, 1 = ink; nothing resampled |
-//! | [`clean()`] | `Sheet` → [`Page`] | sheet px | light evened out: paper 0, ink 1; noise and edges as scanned, but for steps of two levels, which are softened |
+//! | [`clean()`] | `Sheet` → [`Page`] | sheet px | light and shaded ink evened out: paper 0, ink 1; noise and edges as scanned, but for steps of two levels, which are softened |
 //! | [`cut()`] | `Page` → [`Cell`](crate::types::Cell)s | upright px | each piece of ink in one cell or in the list of what was rejected, with a reason |
 //!
 //! Letters of a skewed page come out upright: their pixels are interpolated once, the only resampling
@@ -25,6 +25,7 @@ mod paper;
 mod perspective;
 mod range;
 mod separation;
+mod shading;
 mod steps;
 mod whole;
 
@@ -37,4 +38,5 @@ pub use load::{Grain, Polarity, Reading, Tones, Turn, load, load_as};
 pub use options::{Direction, Layout, Options, Order, Scale};
 pub use range::{full_range, is_all_dark};
 pub use separation::Colour;
+pub use shading::shaded;
 pub use steps::softened;
