@@ -29,7 +29,7 @@ mod shading;
 mod steps;
 mod whole;
 
-pub use clean::{Page, clean, clean_paper};
+pub use clean::{Page, clean, clean_otherwise};
 pub use cut::{Cut, Pin, Reason, Region, Rejected, Warning, cut, cut_with};
 pub use cut::{SMALL, SMALL_LETTER, is_full};
 pub use error::ScanError;
