@@ -202,13 +202,6 @@ fn ink_of_a_pen_that_shades_is_as_good_as_even_ink() {
 }
 
 #[test]
-fn letters_in_a_shadow_over_half_of_the_page_are_not_off_it() {
-    let shadow = |x: f64| 1.0 - 0.5 * ((x - 170.0) / 30.0).clamp(0.0, 1.0);
-    let page = redrawn(|drawn, x, _| 1.0 - shadow(x) * (0.9 - 0.8 * drawn));
-    assert!(segments(&page).0.iter().all(|n| *n > 0));
-}
-
-#[test]
 fn the_date_is_the_one_that_reproducible_builds_ask_for() {
     let dir = project(LETTERS, &page(&[]));
     let build = |date: &str| {
