@@ -202,6 +202,39 @@ fn ink_of_a_pen_that_shades_is_as_good_as_even_ink() {
 }
 
 #[test]
+fn letters_in_a_shadow_over_half_of_the_page_are_not_off_it() {
+    let shadow = |x: f64, y: f64| {
+        let beyond = x + 0.4 * (y - 300.0) - 340.0;
+        1.0 - 0.5 * (beyond / 30.0).clamp(0.0, 1.0)
+    };
+    // four rows of six cells of 150 × 150 px with H, o and l by turns
+    let picture = png(900, 600, |x, y| {
+        let light = shadow(f64::from(x), f64::from(y));
+        let cell = y / 150 * 6 + x / 150;
+        let (x, y) = (f64::from(x % 150) + 0.5, f64::from(y % 150) + 0.5);
+        let bar = |x0: f64, y0: f64, x1: f64, y1: f64| {
+            let distance = (x0 - x).max(x - x1).max((y0 - y).max(y - y1));
+            (0.5 - distance).clamp(0.0, 1.0)
+        };
+        let ink = match cell % 3 {
+            0 => bar(45.0, 40.0, 57.0, 110.0)
+                .max(bar(93.0, 40.0, 105.0, 110.0))
+                .max(bar(50.0, 69.0, 100.0, 81.0)),
+            1 => (6.5 - ((x - 75.0).hypot(y - 90.0) - 20.0).abs()).clamp(0.0, 1.0),
+            _ => bar(69.0, 30.0, 81.0, 110.0),
+        };
+        edge(light * (0.9 - 0.8 * ink) - 0.5)
+    });
+    let dir = project(&"H o l ".repeat(8), &picture);
+    let text = fs::read_to_string(dir.path().join("font.toml")).expect("a project");
+    let text = text.replace("grid = [3, 3]", "grid = [4, 6]");
+    fs::write(dir.path().join("font.toml"), text).expect("a project");
+    let out = khatt(dir.path(), &["build", "font.toml", "--no-cache", "--quiet"]);
+    let stderr = String::from_utf8_lossy(&out.stderr);
+    assert_eq!(out.status.code(), Some(0), "{stderr}");
+}
+
+#[test]
 fn the_date_is_the_one_that_reproducible_builds_ask_for() {
     let dir = project(LETTERS, &page(&[]));
     let build = |date: &str| {
