@@ -151,36 +151,87 @@ impl OutlinePen for Segments {
     fn close(&mut self) {}
 }
 
+/// What is said while a font is built of a page with [`LETTERS`], and how many segments its H and l have.
+fn segments(page: &[u8]) -> (Vec<usize>, String) {
+    let dir = project(LETTERS, page);
+    let out = khatt(dir.path(), &["build", "font.toml", "--no-cache"]);
+    let stderr = String::from_utf8_lossy(&out.stderr).into_owned();
+    assert_eq!(out.status.code(), Some(0), "{stderr}");
+    let bytes = fs::read(dir.path().join("out/test.otf")).expect("a font");
+    let font = FontRef::new(&bytes).expect("a font");
+    let points = |c: char| {
+        let glyph = font.charmap().map(c).expect("a letter that was named");
+        let mut pen = Segments(0);
+        let size = DrawSettings::unhinted(Size::unscaled(), LocationRef::default());
+        let outline = font.outline_glyphs().get(glyph).expect("its outline");
+        outline.draw(size, &mut pen).expect("it can be drawn");
+        pen.0
+    };
+    ("Hl".chars().map(points).collect(), stderr)
+}
+
 #[test]
 fn a_page_out_of_focus_is_told_and_keeps_its_corners() {
     let sharp = page(&[]);
-    let built = |page: &[u8]| {
-        let dir = project(LETTERS, page);
-        let out = khatt(dir.path(), &["build", "font.toml", "--no-cache"]);
-        let stderr = String::from_utf8_lossy(&out.stderr).into_owned();
-        assert_eq!(out.status.code(), Some(0), "{stderr}");
-        let bytes = fs::read(dir.path().join("out/test.otf")).expect("a font");
-        let font = FontRef::new(&bytes).expect("a font");
-        let points = |c: char| {
-            let glyph = font.charmap().map(c).expect("a letter that was named");
-            let mut pen = Segments(0);
-            let size = DrawSettings::unhinted(Size::unscaled(), LocationRef::default());
-            let outline = font.outline_glyphs().get(glyph).expect("its outline");
-            outline.draw(size, &mut pen).expect("it can be drawn");
-            pen.0
-        };
-        ("Hl".chars().map(points).collect::<Vec<_>>(), stderr)
-    };
     let sheets = load(&sharp, "page.png", Polarity::DarkInk).expect("a picture");
     let mut samples = sheets[0].gray.samples().to_vec();
     blur(&mut samples, 600, 3.0, 0);
     let soft = sheets[0].gray.with_samples(samples).levels();
     let soft = png(600, 600, |x, y| soft[(y * 600 + x) as usize]);
-    let ((wanted, quiet), (got, told)) = (built(&sharp), built(&soft));
+    let ((wanted, quiet), (got, told)) = (segments(&sharp), segments(&soft));
     assert!(!quiet.contains("out of focus"), "{quiet}");
     let remark = "page.png, the letters are out of focus: their edges are blurred by";
     assert!(told.contains(remark), "{told}");
     assert_eq!(got, wanted, "segments of each letter");
+}
+
+/// The page with another ink where its letters are, by column and row.
+fn redrawn(ink: impl Fn(f64, f64, f64) -> f64) -> Vec<u8> {
+    let sheets = load(&page(&[]), "page.png", Polarity::DarkInk).expect("a picture");
+    png(600, 600, |x, y| {
+        let drawn = f64::from(sheets[0].gray.at(x as usize, y as usize));
+        edge(0.5 - ink(drawn, f64::from(x), f64::from(y)))
+    })
+}
+
+#[test]
+fn ink_of_a_pen_that_shades_is_as_good_as_even_ink() {
+    let pools = redrawn(|drawn, x, y| drawn * (0.65 + 0.35 * (x / 11.0).sin() * (y / 13.0).cos()));
+    let ((wanted, _), (got, told)) = (segments(&page(&[])), segments(&pools));
+    assert_eq!(got, wanted, "segments of each letter: {told}");
+}
+
+#[test]
+fn letters_in_a_shadow_over_half_of_the_page_are_not_off_it() {
+    let shadow = |x: f64, y: f64| {
+        let beyond = x + 0.4 * (y - 300.0) - 340.0;
+        1.0 - 0.5 * (beyond / 30.0).clamp(0.0, 1.0)
+    };
+    // four rows of six cells of 150 × 150 px with H, o and l by turns
+    let picture = png(900, 600, |x, y| {
+        let light = shadow(f64::from(x), f64::from(y));
+        let cell = y / 150 * 6 + x / 150;
+        let (x, y) = (f64::from(x % 150) + 0.5, f64::from(y % 150) + 0.5);
+        let bar = |x0: f64, y0: f64, x1: f64, y1: f64| {
+            let distance = (x0 - x).max(x - x1).max((y0 - y).max(y - y1));
+            (0.5 - distance).clamp(0.0, 1.0)
+        };
+        let ink = match cell % 3 {
+            0 => bar(45.0, 40.0, 57.0, 110.0)
+                .max(bar(93.0, 40.0, 105.0, 110.0))
+                .max(bar(50.0, 69.0, 100.0, 81.0)),
+            1 => (6.5 - ((x - 75.0).hypot(y - 90.0) - 20.0).abs()).clamp(0.0, 1.0),
+            _ => bar(69.0, 30.0, 81.0, 110.0),
+        };
+        edge(light * (0.9 - 0.8 * ink) - 0.5)
+    });
+    let dir = project(&"H o l ".repeat(8), &picture);
+    let text = fs::read_to_string(dir.path().join("font.toml")).expect("a project");
+    let text = text.replace("grid = [3, 3]", "grid = [4, 6]");
+    fs::write(dir.path().join("font.toml"), text).expect("a project");
+    let out = khatt(dir.path(), &["build", "font.toml", "--no-cache", "--quiet"]);
+    let stderr = String::from_utf8_lossy(&out.stderr);
+    assert_eq!(out.status.code(), Some(0), "{stderr}");
 }
 
 #[test]

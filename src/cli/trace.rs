@@ -78,7 +78,7 @@ impl Trace {
         let dark = dark.flatten();
         let gray = dark.as_ref().unwrap_or(&page.gray);
         if self.centerline {
-            let soft = scan::softened(gray);
+            let soft = scan::softened(gray).or_else(|| scan::shaded(gray));
             return self.write_lines(soft.as_ref().unwrap_or(gray));
         }
         let options = self.options();

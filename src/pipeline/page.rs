@@ -1,6 +1,6 @@
 //! One picture → a page and its cells, the right way up.
 
-use super::labels;
+use super::labels::{self, is_space, skips};
 use super::letter::Letter;
 use super::problem::Problem;
 use super::project::{Project, SheetTable};
@@ -9,6 +9,7 @@ use super::world::World;
 use crate::scan::{self, Cut, Grain, Options, Pin, Reading, Turn, Warning};
 use crate::template::{self, Gain};
 use crate::types::{Label, Sheet};
+use std::collections::BTreeSet;
 
 /// A page and what it was cut into.
 #[derive(Debug, Clone)]
@@ -114,13 +115,17 @@ fn read_turned(
         let _time = world.watch.enter(Stage::Clean);
         scan::clean(sheet).map_err(Problem::from)
     };
-    let cut = sheet().and_then(clean).and_then(cut).or_else(|problem| {
-        // perhaps there is a table around the page
-        let page = sheet()
-            .ok()
-            .and_then(|s| scan::clean_paper(s).ok().flatten());
-        page.and_then(|p| cut(p).ok()).ok_or(problem)
-    });
+    // what seems to lie beside the page may be in a shadow on it, and a table may seem to be the page
+    let is_whole = |(cut, _): &(Cut, _)| empty(cut, labels.iter().enumerate()).next().is_none();
+    let first = sheet().and_then(clean).and_then(cut);
+    let cut = if first.as_ref().is_ok_and(is_whole) {
+        first
+    } else {
+        let other = sheet().and_then(|s| Ok(scan::clean_otherwise(s)?));
+        let other = other.ok().flatten().and_then(|page| cut(page).ok());
+        let better = |found: &_| first.is_err() || is_whole(found);
+        other.filter(better).map_or(first, Ok)
+    };
     let (cut, dpi) = cut?;
     Ok(Page {
         name: table.name(),
@@ -129,6 +134,16 @@ fn read_turned(
         gain: None,
         px_per_mm: dpi.map(|dpi| dpi / MM_PER_INCH),
     })
+}
+
+/// Names whose letter is in no cell, though somebody should have drawn it.
+pub(super) fn empty<'a>(
+    cut: &Cut,
+    wanted: impl Iterator<Item = (usize, &'a Label)>,
+) -> impl Iterator<Item = (usize, &'a Label)> {
+    let drawn: BTreeSet<usize> = cut.cells.iter().map(|c| c.index).collect();
+    let named = wanted.filter(|(_, label)| !skips(label) && !is_space(label));
+    named.filter(move |(index, _)| !drawn.contains(index))
 }
 
 /// The one picture that a table names; none that khatt printed, where captions and marks would be taken for letters.

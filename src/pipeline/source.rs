@@ -2,7 +2,7 @@
 
 use super::batch::{self, Batch};
 use super::corrections::Corrections;
-use super::labels::{is_space, skips};
+use super::labels::is_space;
 use super::page::{self, Page};
 use super::picture;
 use super::printing::Printing;
@@ -215,13 +215,11 @@ fn clear_spaces(cut: &mut Cut) {
 
 /// Names without a letter.
 fn gaps<'a>(page: &Page, wanted: impl Iterator<Item = &'a (usize, Label)>) -> Vec<Problem> {
-    let drawn: BTreeSet<usize> = page.cut.cells.iter().map(|c| c.index).collect();
-    let named = wanted.filter(|(_, label)| !skips(label) && !is_space(label));
-    let empty = named.filter(|(index, _)| !drawn.contains(index));
+    let empty = page::empty(&page.cut, wanted.map(|(index, label)| (*index, label)));
     let empty = empty.map(|(index, label)| {
         Problem::Empty(Place {
             sheet: page.name.clone(),
-            index: *index,
+            index,
             label: Some(label.0.clone()),
         })
     });

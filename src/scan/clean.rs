@@ -1,11 +1,12 @@
 //! Uneven light evened out: paper becomes 0 and ink 1 all over the page.
 //!
-//! Light multiplies: what the scanner sees is light × reflectance. The light is the paper's level ([`Field`]) and divided
-//! out. One level of ink and one of noise are then measured for the whole page.
+//! Light multiplies: what the scanner sees is light × reflectance. The light is the paper's level ([`Field`]) and
+//! divided out. One level of ink and one of noise are then measured for the whole page.
 
 use super::error::ScanError;
 use super::light::Field;
 use super::paper::Paper;
+use super::shading;
 use super::steps::softened;
 use super::whole::{floor, narrow, ratio};
 use crate::types::{Gray, Sheet};
@@ -40,8 +41,8 @@ pub struct Page {
     pub(super) lit: Option<Paper>,
 }
 
-/// Evens out the light of a page, of two levels once its steps are softened ([`softened`]). Where the paper covers less
-/// than half of the picture, what lies beside it counts for nothing.
+/// Evens out the light of a page, of two levels once its steps are softened ([`softened`]). Where the paper covers
+/// less than half of the picture, what lies beside it counts for nothing.
 ///
 /// # Errors
 /// Nothing on the page is darker than its paper.
@@ -49,25 +50,35 @@ pub fn clean(sheet: Sheet) -> Result<Page, ScanError> {
     let sheet = grey(sheet);
     let field = Field::measure(&sheet.gray);
     let found = field.paper();
-    let (paper, lit) = match found {
-        Some(p) if p.share < SURROUNDED => (Some(p), None),
+    let seen = match found {
+        Some(p) if is_surrounded(&p) => (Some(p), None),
         other => (None, other),
     };
-    even(sheet, &field, (paper, lit))
+    even(sheet, &field, seen)
 }
 
-/// The same wherever a picture shows more than the page; `None` where it shows one sheet of paper alone. A shadow
-/// with a sharp edge looks like the paper's end, so this is for pictures that cannot be cut otherwise.
+/// The same the other way: what [`clean`] takes for the whole picture's paper is a page with something around it,
+/// and what it takes for a page the lighter part of one, beside a shadow with a sharp edge or a fold; `None` where
+/// there is no other way. For pictures that cannot be cut as they look at first.
 ///
 /// # Errors
 /// Nothing on the page is darker than its paper.
-pub fn clean_paper(sheet: Sheet) -> Result<Option<Page>, ScanError> {
+pub fn clean_otherwise(sheet: Sheet) -> Result<Option<Page>, ScanError> {
     let sheet = grey(sheet);
     let field = Field::measure(&sheet.gray);
-    field
-        .paper()
-        .map(|p| even(sheet, &field, (Some(p), None)))
-        .transpose()
+    let seen = field.paper().map(|p| {
+        if is_surrounded(&p) {
+            (None, Some(p))
+        } else {
+            (Some(p), None)
+        }
+    });
+    seen.map(|seen| even(sheet, &field, seen)).transpose()
+}
+
+/// Whether a page is surely surrounded by something else.
+fn is_surrounded(paper: &Paper) -> bool {
+    paper.share < SURROUNDED
 }
 
 /// The sheet in grey levels, softened where it has but two.
@@ -111,6 +122,7 @@ fn even(
         source_name: source.clone(),
         why: e.to_string(),
     })?;
+    let gray = shading::page(&gray, paper.as_ref().or(lit.as_ref())).unwrap_or(gray);
     Ok(Page {
         sheet: Sheet {
             gray: gray.with_scatter(scatter_px),

@@ -3,7 +3,7 @@
 //! | step | from → to | unit, axes | guaranteed |
 //! |---|---|---|---|
 //! | [`load()`] | bytes → [`Sheet`](crate::types::Sheet)s | sheet px, y down | the file's own pixels, turned as it says, 1 = ink; nothing resampled |
-//! | [`clean()`] | `Sheet` → [`Page`] | sheet px | light evened out: paper 0, ink 1; noise and edges as scanned, but for steps of two levels, which are softened |
+//! | [`clean()`] | `Sheet` → [`Page`] | sheet px | light and shaded ink evened out: paper 0, ink 1; noise and edges as scanned, but for steps of two levels, which are softened |
 //! | [`cut()`] | `Page` → [`Cell`](crate::types::Cell)s | upright px | each piece of ink in one cell or in the list of what was rejected, with a reason |
 //!
 //! Letters of a skewed page come out upright: their pixels are interpolated once, the only resampling
@@ -25,10 +25,11 @@ mod paper;
 mod perspective;
 mod range;
 mod separation;
+mod shading;
 mod steps;
 mod whole;
 
-pub use clean::{Page, clean, clean_paper};
+pub use clean::{Page, clean, clean_otherwise};
 pub use cut::{Cut, Pin, Reason, Region, Rejected, Warning, cut, cut_with};
 pub use cut::{SMALL, SMALL_LETTER, is_full};
 pub use error::ScanError;
@@ -37,4 +38,5 @@ pub use load::{Grain, Polarity, Reading, Tones, Turn, describes_light, load, loa
 pub use options::{Direction, Layout, Options, Order, Scale};
 pub use range::{full_range, is_all_dark};
 pub use separation::Colour;
+pub use shading::shaded;
 pub use steps::softened;

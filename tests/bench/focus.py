@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
-"""Letters out of focus, enlarged, and in sRGB: known fonts drawn, spoilt and traced.
+"""Letters out of focus, enlarged, in sRGB, and as ink and paper make them: known fonts drawn, spoilt and traced.
 
     python3 tests/bench/focus.py --khatt target/release/khatt --bench ../shared/bench [--blur 2,3,5] [--enlarge 2,3] [--srgb] [--every 3]
+    python3 tests/bench/focus.py ... --blur '' --enlarge '' --ways pools,ballpoint
 
 Pictures, potrace and the comparison are those of outline_bench.py at 500 px an em. Out of focus, the clean picture is blurred by a
 Gaussian of so many px, its black set to 0.8 of the way to white, and noise of 3/255 added; enlarged, the scanned picture of as
 many times fewer px an em is brought to 500 by cubic interpolation, as scanners do. In sRGB, the light of a picture blurred by 0.9 px
-(0.85 on paper, 0.03 on ink) is written as sRGB has it, and read in both ways. Several programs can be given as NAME=PATH.
+(0.85 on paper, 0.03 on ink) is written as sRGB has it, and read in both ways. --ways are those of spoilt.py, at 600 dpi; potrace's threshold is then Otsu's. Several programs can be given as NAME=PATH.
 """
 import argparse, os, sys, tempfile
 from multiprocessing import Pool
@@ -14,6 +15,8 @@ from multiprocessing import Pool
 import numpy as np
 from PIL import Image, ImageCms
 from scipy.ndimage import gaussian_filter
+
+import spoilt
 
 PPEM, WHITE, PAPER, INK, NOISE = 500, 255, 235, 0.8, 3
 COLUMNS = ("mean", "median max", "worst", "nodes ÷ designer’s", "corner F1", "node F1")
@@ -44,6 +47,22 @@ def in_srgb(bench, true, upem, char, blur):
     return np.clip(np.rint(WHITE * number + noise), 0, WHITE).astype(np.uint8), place
 
 
+def spoiled(bench, true, upem, char, way):
+    """A letter's picture as a way of spoilt.py has it, its px a font unit and the place of its origin."""
+    image, place = bench.render(true, upem, PPEM, 20, "clean", ord(char))
+    seen = spoilt.WAYS[way](np.random.default_rng(ord(char)), 1 - image.astype(np.float32) / WHITE, 1, PPEM)
+    return seen, place
+
+
+def half(image):
+    """The level by which ink and paper differ most, as Otsu has it: in colours, of their luma."""
+    levels = np.arange(WHITE + 1)
+    counts = np.bincount(image.ravel(), minlength=WHITE + 1).astype(float)
+    below, sums = np.cumsum(counts), np.cumsum(counts * levels)
+    apart = (sums[-1] * below / below[-1] - sums) ** 2 / np.maximum(below * (below[-1] - below), 1)
+    return np.argmax(apart) + 0.5
+
+
 def letters(task):
     """The comparisons of one font drawn in one way, by tool."""
     import outline_bench as bench
@@ -70,13 +89,17 @@ def letters(task):
                 continue
             image, (scale, left, foot) = draw(bench, true, upem, char, how)
             Image.fromarray(image).save(files["png"], icc_profile=profile)
-            half = (float(image.min()) + float(image.max())) / 2
-            Image.fromarray(np.where(image < half, 0, WHITE).astype(np.uint8)).convert("1", dither=0).save(files["pbm"])
+            if draw is spoiled:
+                image = np.asarray(Image.fromarray(image).convert("L"))
+                level = half(image)
+            else:
+                level = (float(image.min()) + float(image.max())) / 2
+            Image.fromarray(np.where(image < level, 0, WHITE).astype(np.uint8)).convert("1", dither=0).save(files["pbm"])
             for tool, trace in tools.items():
                 got, _ = trace(files)
                 got = [[tuple(((x - left) / scale, (foot - y) / scale) for x, y in s) for s in c] for c in got]
                 found[tool].append(bench.compare(true, bench.clean(got, upem * 2e-4), upem, PPEM))
-    return name, f"{draw.__name__.replace('_', ' ')}, {how:g}", found
+    return name, how if draw is spoiled else f"{draw.__name__.replace('_', ' ')}, {how:g}", found
 
 
 def main():
@@ -86,6 +109,7 @@ def main():
     parser.add_argument("--blur", default="2,3,5", help="px")
     parser.add_argument("--enlarge", default="2,3", help="times")
     parser.add_argument("--srgb", action="store_true")
+    parser.add_argument("--ways", default="", help=f"of {', '.join(spoilt.WAYS)}")
     parser.add_argument("--every", type=int, default=3, help="of so many letters one is drawn")
     args = parser.parse_args()
     sys.path.insert(0, args.bench)
@@ -95,6 +119,7 @@ def main():
     ways = [(out_of_focus, float(px)) for px in args.blur.split(",") if px]
     ways += [(enlarged, int(times)) for times in args.enlarge.split(",") if times]
     ways += [(in_srgb, 0.9)] if args.srgb else []
+    ways += [(spoiled, way) for way in args.ways.split(",") if way]
     tasks = [(khatts, font, way, args.every) for font in bench.FONTS for way in ways]
     print("| font | picture | tool | letters | " + " | ".join(COLUMNS) + " |")
     print("|---" * (4 + len(COLUMNS)) + "|")

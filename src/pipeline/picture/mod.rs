@@ -24,7 +24,7 @@ use kurbo::{Affine, BezPath};
 /// # Errors
 /// An option of the fitter is outside its range.
 pub fn trace_picture(gray: &Gray, options: &Options) -> Result<Vec<BezPath>, FitError> {
-    let soft = softened(gray, options);
+    let soft = legible(gray, options);
     let gray = soft.as_ref().unwrap_or(gray);
     let coverage = trace::level(gray);
     let contours = trace::trace(&coverage, &options.trace);
@@ -71,10 +71,12 @@ fn look_at_grey(options: &Options) -> bool {
     matches!(options.fit, fit::Method::Joint(_)) && options.trace.boundary == Boundary::Iso
 }
 
-/// The picture in grey levels, for the methods that look at them, where it has but two.
-fn softened(gray: &Gray, options: &Options) -> Option<Gray> {
+/// The picture with its ink at one level where it is pale in many places; in grey levels, for the methods that look at
+/// them, where it has but two.
+fn legible(gray: &Gray, options: &Options) -> Option<Gray> {
     let looks = look_at_grey(options);
-    looks.then(|| scan::softened(gray)).flatten()
+    let soft = looks.then(|| scan::softened(gray)).flatten();
+    soft.or_else(|| scan::shaded(gray))
 }
 
 /// The picture in larger pixels, for the methods that look at grey levels, where it is out of focus; and the side of one.

@@ -274,7 +274,7 @@ fn cut_page(
     let guides = guides::measure(&layer, &all, page, options, seen)?;
     let stance = Stance::of(&layer, &all, &guides.drop);
     let mut warnings = guides.warnings;
-    warnings.extend(remarks::colourless(page, options));
+    warnings.extend(remarks::of_picture(page, options));
     warnings.extend(stance.shifted(labels));
     let picture = Rect::new(0.0, 0.0, gray.width() as f64, gray.height() as f64);
     warnings.extend(remarks::warnings(

@@ -1,5 +1,6 @@
 //! What a user should look at: letters that may be torn, joined or cut off.
 
+mod grain;
 mod signs;
 
 use super::{Layer, Slot, Warning};
@@ -131,8 +132,15 @@ fn across(slots: &[&Slot], all: &[Component], baseline: impl Fn(&Slot) -> f64) -
     slots.iter().filter_map(reaches).collect()
 }
 
+/// What is odd about the picture as a whole.
+pub(super) fn of_picture(page: &Page, options: &Options) -> impl Iterator<Item = Warning> {
+    grain::warning(&page.sheet.gray)
+        .into_iter()
+        .chain(colourless(page, options))
+}
+
 /// A remark where inks are to be told apart in a picture without colours.
-pub(super) fn colourless(page: &Page, options: &Options) -> Option<Warning> {
+fn colourless(page: &Page, options: &Options) -> Option<Warning> {
     let useless = options.ink.choose() && page.sheet.colours.is_none();
     useless.then(|| Warning {
         index: None,

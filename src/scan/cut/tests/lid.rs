@@ -1,4 +1,4 @@
-//! What surrounds a page does not turn it.
+//! What surrounds a page does not turn it, and what only looks like that is no loss.
 
 use super::*;
 
@@ -76,4 +76,22 @@ fn a_letter_that_touches_a_lid_is_cut_free() {
     assert_eq!(cut.cells.len(), 20);
     assert!(cut.cells[0].in_sheet.width() > 60.0, "with its stroke");
     assert!(cut.rejected.iter().any(|r| r.reason == Reason::OffPage));
+}
+
+#[test]
+fn a_shadow_over_half_of_a_page_can_be_read_as_the_page() {
+    let plain = grid_page(0.0).scan();
+    // from left to right within 30 px
+    let shadow = |x: usize| 1.0 - 0.5 * ((x as f32 - 270.0) / 30.0).clamp(0.0, 1.0);
+    let sheet = || Sheet {
+        gray: Gray::from_fn(700, 500, |x, y| {
+            1.0 - shadow(x) * (1.0 - plain.gray.at(x, y))
+        }),
+        ..plain.clone()
+    };
+    let cut = |page: &Page| cut(page, &labels(NAMES), &options(Layout::Grid(4, 5)));
+    let lit = cut(&clean(sheet()).unwrap()).map_or(0, |cut| cut.cells.len());
+    assert!(lit < 20, "what is dark seems to lie beside the page");
+    let page = clean_otherwise(sheet()).unwrap().expect("another way");
+    assert_eq!(cut(&page).unwrap().cells.len(), 20);
 }

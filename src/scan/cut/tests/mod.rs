@@ -6,7 +6,7 @@ mod signs;
 mod small;
 mod told;
 
-use super::super::clean::clean;
+use super::super::clean::{clean, clean_otherwise};
 use super::super::options::{Direction, Layout, Order, Scale};
 use super::super::whole::floor;
 use super::*;
