@@ -169,9 +169,9 @@ mod tests {
         Gray::new(W, H, samples.collect()).unwrap()
     }
 
-    /// Where the bar's lower edge lies in a column, px from the top.
-    fn edge(gray: &Gray, x: usize, [paper, ink]: [f32; 2]) -> f32 {
-        let half = f32::midpoint(paper, ink);
+    /// Where the bar's lower edge lies in a column, px from the top: at half of the ink's level in the bar's middle.
+    fn edge(gray: &Gray, x: usize, paper: f32) -> f32 {
+        let half = f32::midpoint(paper, gray.at(x, 30));
         let y = (30..H - 1).find(|&y| gray.at(x, y) < half).unwrap();
         let (a, b) = (gray.at(x, y - 1), gray.at(x, y));
         (y as f32 - 0.5) + (a - half) / (a - b)
@@ -183,11 +183,13 @@ mod tests {
 
     #[test]
     fn pale_ink_ends_at_half_of_its_own_level() {
-        for levels in [[0.0, 1.0], [0.08, 0.84]] {
-            let even = shaded(&bar(pales, levels)).expect("ink that pales");
+        for [paper, ink] in [[0.0, 1.0], [0.08, 0.84]] {
+            let even = shaded(&bar(pales, [paper, ink])).expect("ink that pales");
             for x in (14..107).step_by(3).filter(|x| !(54..68).contains(x)) {
-                let edge = edge(&even, x, levels);
-                assert!((edge - 40.0).abs() < 0.2, "column {x}: {edge}");
+                let level = (even.at(x, 30) - paper) / (ink - paper);
+                assert!((0.8..1.0).contains(&level), "column {x}: {level}");
+                let edge = edge(&even, x, paper);
+                assert!((edge - 40.0).abs() < 0.15, "column {x}: {edge}");
             }
         }
     }
