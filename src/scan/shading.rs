@@ -9,7 +9,7 @@ use super::paper::Paper;
 use super::whole::floor;
 use crate::numeric::coverage::blur;
 use crate::types::Gray;
-use std::mem;
+use std::{mem, ops::Range};
 
 /// Ink is flat where the least of a pixel and its eight neighbours is this part of the greatest: what a lens blurs
 /// is steeper.
@@ -37,8 +37,8 @@ const BELOW: f64 = 0.8;
 const LEAST: f32 = 0.1;
 /// Samples beyond each end of a drawing's range.
 const BEYOND: f64 = 0.001;
-/// Samples that say enough of a drawing's levels.
-const MANY: usize = 1_000_000;
+/// Steps in which a drawing's levels are told.
+const STEPS: usize = 2048;
 
 /// A page of paper 0 and ink 1 whose ink is pale in many places, with its ink 1 there, too. `None` of a page whose
 /// ink is even; of a picture that shows more than the page its paper tells, not a table's grain.
@@ -57,17 +57,25 @@ pub fn shaded(gray: &Gray) -> Option<Gray> {
 
 /// The levels of a drawing's paper and of its darker ink.
 fn levels(gray: &Gray) -> Option<[f32; 2]> {
-    fn nth(samples: &mut [f32], share: f64) -> Option<f32> {
-        let last = samples.len().checked_sub(1)?;
-        let (_, v, _) = samples.select_nth_unstable_by(floor(share * last as f64), f32::total_cmp);
-        Some(*v)
+    let (low, high) = (-Gray::OVERSHOOT, 1.0 + Gray::OVERSHOOT);
+    let step = (high - low) / STEPS as f32;
+    let mut counts = [0_usize; STEPS];
+    for v in gray.samples() {
+        let bin = floor(f64::from((v - low) / step));
+        counts[bin.min(STEPS - 1)] += 1;
     }
-    let step = (gray.samples().len() / MANY).max(1);
-    let mut all: Vec<f32> = gray.samples().iter().step_by(step).copied().collect();
-    let (low, high) = (nth(&mut all, BEYOND)?, nth(&mut all, 1.0 - BEYOND)?);
-    let middle = f32::midpoint(low, high);
-    let (mut ink, mut paper): (Vec<f32>, Vec<f32>) = all.into_iter().partition(|v| *v > middle);
-    let levels = [nth(&mut paper, 0.5)?, nth(&mut ink, BELOW)?];
+    let nth = |mut bins: Range<usize>, share: f64| {
+        let last = counts[bins.clone()].iter().sum::<usize>().checked_sub(1)?;
+        let mut left = floor(share * last as f64);
+        bins.find(|&i| {
+            let is_here = counts[i] > left;
+            left = left.saturating_sub(counts[i]);
+            is_here
+        })
+    };
+    let middle = (nth(0..STEPS, BEYOND)? + nth(0..STEPS, 1.0 - BEYOND)?) / 2 + 1;
+    let bins = [nth(0..middle, 0.5)?, nth(middle..STEPS, BELOW)?];
+    let levels = bins.map(|i| low + (i as f32 + 0.5) * step);
     (levels[1] - levels[0] >= LEAST).then_some(levels)
 }
 
