@@ -15,6 +15,8 @@ const SAME_PX: f64 = 1.5;
 const LOST_PX: f64 = 8.0;
 /// A part that is brought back leaves so many squares less.
 const LOST: f64 = 0.5;
+/// Where more are missing corners are not why: hatching and noise leave them everywhere.
+const MOST_LOST: usize = 4;
 /// Times that a contour which was fit again is looked at once more.
 const REVISIONS: usize = 3;
 
@@ -65,6 +67,9 @@ fn completed(
     (paths, lost): &Drawn,
     options: &Options,
 ) -> Result<Option<(Vec<Cornered>, Drawn)>, FitError> {
+    if lost.is_empty() || lost.len() > MOST_LOST {
+        return Ok(None);
+    }
     let without = |(contour, at): &Cornered| {
         let apart = |i: &usize| {
             let at = contour.points()[*i];

@@ -142,12 +142,12 @@ impl Work<'_> {
         self.trim(0.0);
     }
 
-    /// The places that were tried in vain where more is left than an edge leaves that is a little off.
+    /// The places that were tried in vain where more is left than an edge leaves that is a little off; none where the budget
+    /// is why.
     fn lost(&self) -> Vec<Point> {
-        eprintln!(
-            "LEFT {:.3}",
-            self.vain.iter().map(|v| self.left(v.0)).fold(0., f64::max)
-        );
+        if self.work.is_spent() {
+            return Vec::new();
+        }
         let places = self.vain.iter().map(|(p, _)| *p);
         places.filter(|p| self.left(*p) > LOST).collect()
     }

@@ -38,7 +38,7 @@ fn apart(a: &BezPath, b: &BezPath) -> f64 {
 
 fn mended(gray: &Gray, path: &BezPath, blur: f64) -> BezPath {
     let path = std::slice::from_ref(path);
-    Comparison::new(gray, path, blur).mended(path).remove(0)
+    Comparison::new(gray, path, blur).mended(path).0.remove(0)
 }
 
 #[test]
