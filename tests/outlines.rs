@@ -274,7 +274,7 @@ fn a_quarter_turn_turns() {
     let turned = Gray::from_fn(96, 96, |x, y| gray.at(y, 95 - x));
     let (a, b) = (outlines(&gray), outlines(&turned));
     // (x, y) came from (y, 96 − x): back again
-    let back = kurbo::Affine::new([0.0, -1.0, 1.0, 0.0, 0.0, 96.0]);
+    let back = Affine::new([0.0, -1.0, 1.0, 0.0, 0.0, 96.0]);
     let b: Vec<BezPath> = b.iter().map(|p| back * p).collect();
     assert_eq!(nodes(&a[0]), nodes(&b[0]));
     let near = |p: &Point| {
