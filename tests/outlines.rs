@@ -202,7 +202,8 @@ fn hairlines_keep_their_width() {
     assert!((width - 1.5).abs() < 0.1, "{width}");
 }
 
-/// Part of a step's height that a lens leaves at distance `d` px inside of it; nearly a Gaussian of 0.95 px, the pixel's box included.
+/// Part of a step's height that a lens leaves at distance `d` px inside of it; nearly a Gaussian of 0.95 px, the
+/// pixel's box included.
 fn step(d: f64) -> f64 {
     1.0 / (1.0 + (-1.702 * d / 0.95).exp())
 }

@@ -103,7 +103,8 @@ fn dots_tell_letters_apart_at_every_size() {
             let told = dots::compare(&drawn, size);
             assert_eq!(told.pairs, 20, "the groups' pairs");
             assert_eq!(told.alike, [""; 0], "at {size} px an em");
-            // three dots of 40 px an em are one blot of 12 px, and those of 56 across are where pixels happen to lie so
+            // three dots of 40 px an em are one blot of 12 px, and those of 56 across are where pixels happen to lie
+            // so
             if size * cut.as_coeffs()[0] > 60.0 {
                 assert_eq!(told.misread, [""; 0], "{cut:?} at {size} px an em");
             }

@@ -3,9 +3,9 @@
 //!     cargo run --release --manifest-path fuzz/Cargo.toml -- [--seconds N] [--start N] [DOOR…]
 //!     cargo run --release --manifest-path fuzz/Cargo.toml -- --show N DOOR > input
 //!
-//! Input N of a door is made by a generator that starts at N alone, so `--show` gives any of them again. An input that
-//! makes a door panic, or keeps it longer than ten seconds, is named with its number, and the exit status is 1. The number of
-//! the input at work stands on standard error.
+//! Input N of a door is made by a generator that starts at N alone, so `--show` gives any of them again. An input
+//! that makes a door panic, or keeps it longer than ten seconds, is named with its number, and the exit status is 1.
+//! The number of the input at work stands on standard error.
 
 use khatt_fuzz::{TARGETS, Target};
 use std::io::Write;

@@ -7,11 +7,12 @@
 //! half the overlap, it is replaced by a square tab of that length. So at every join two strokes lie over
 //! each other with the same edges: no gap, and no step beyond what an end was too far away to be moved.
 //!
-//! Many styles draw no stroke where a letter's body itself can be met: a stem, a bow, a tooth. Such a body stays as it was
-//! drawn; the advance ends at its edge, and the next letter's stroke runs into it.
+//! Many styles draw no stroke where a letter's body itself can be met: a stem, a bow, a tooth. Such a body stays as
+//! it was drawn; the advance ends at its edge, and the next letter's stroke runs into it.
 //!
-//! Slanted and Nastaliq styles join at many heights, which the drawings tell. There strokes stay as they were drawn, and the
-//! middle of each end becomes a cursive anchor (`entry`, `exit`): text programs shift letters until the ends of two meet.
+//! Slanted and Nastaliq styles join at many heights, which the drawings tell. There strokes stay as they were drawn,
+//! and the middle of each end becomes a cursive anchor (`entry`, `exit`): text programs shift letters until the ends
+//! of two meet.
 
 use super::stroke::{self, Edges, End, Side, Tab, Warp};
 use super::{Draft, Note};
@@ -72,8 +73,8 @@ const DEPTH: f64 = 0.012;
 /// Thinnest and thickest stroke that can be a joining one, em.
 const THICKNESS: (f64, f64) = (0.008, 0.3);
 
-/// How much thicker a stroke becomes over a length of its end at most, part of that length: half a right angle between its
-/// edges. What opens wider is a body's bow or tooth.
+/// How much thicker a stroke becomes over a length of its end at most, part of that length: half a right angle
+/// between its edges. What opens wider is a body's bow or tooth.
 const OPENING: f64 = 1.0;
 
 /// The most that an edge's slope is changed: a sixth of a right angle. A stroke that runs on more
@@ -83,15 +84,15 @@ const MOST_SHEAR: f64 = 0.27;
 /// How far an ink's end may lie from the whole letter's and still be the same, em.
 const SAME: f64 = 0.01;
 
-/// How many times as thick as the others, or as thin, a joining stroke is at most, and the least part of it that lies at their
-/// height. What is unlike them and has ink at all of their height is a body.
+/// How many times as thick as the others, or as thin, a joining stroke is at most, and the least part of it that lies
+/// at their height. What is unlike them and has ink at all of their height is a body.
 const THICKER: f64 = 1.75;
 const COMMON: f64 = 1.0 / 3.0;
 
-/// A style joins at many heights where more than the first share of its joins cannot be brought to one, and more than the second have their
-/// letter's outermost ink elsewhere. Of 150 pages those of six nastaliq, ruqaa and slanted styles have either at least 0.22 and 0.2 or 0.06 and
-/// 0.47; all others have at most 0.17, or 0.01 where the second share is more than 0.3. Of 123 pages more two of letters woven into
-/// their neighbours pass for such styles.
+/// A style joins at many heights where more than the first share of its joins cannot be brought to one, and more than
+/// the second have their letter's outermost ink elsewhere. Of 150 pages those of six nastaliq, ruqaa and slanted
+/// styles have either at least 0.22 and 0.2 or 0.06 and 0.47; all others have at most 0.17, or 0.01 where the second
+/// share is more than 0.3. Of 123 pages more two of letters woven into their neighbours pass for such styles.
 const MANY: [(f64, f64); 2] = [(0.2, 0.0), (0.03, 0.3)];
 /// Joins that tell it, at least.
 const FEWEST: usize = 12;
@@ -150,8 +151,8 @@ impl Joint {
         self.ends.get(self.chosen?)
     }
 
-    /// Takes the end nearest to these edges; one that lies further in counts as further away, and one of a contour that is not the body
-    /// is none beside them.
+    /// Takes the end nearest to these edges; one that lies further in counts as further away, and one of a contour
+    /// that is not the body is none beside them.
     fn choose(&mut self, (low, high): (f64, f64)) {
         let outermost = self
             .ends
@@ -287,8 +288,8 @@ pub(super) fn settled(drafts: &[Draft], em: f64, options: &Options) -> (Method, 
     (Method::Cursive, note.into_iter().collect())
 }
 
-/// How far the middles of a draft's joining strokes lie above the contract's, left and right, font units; none where no stroke
-/// leaves it.
+/// How far the middles of a draft's joining strokes lie above the contract's, left and right, font units; none where
+/// no stroke leaves it.
 pub(super) type Height = (Option<f64>, Option<f64>);
 
 /// The heights of every draft's joining strokes.
@@ -351,8 +352,8 @@ fn joints(drafts: &[Draft], em: f64, method: Method) -> Vec<Joint> {
     out
 }
 
-/// Whether a stroke leaves a letter there: it does not open like a bow, and no ink of its contour lies before it, so that
-/// the next letter's stroke can reach it.
+/// Whether a stroke leaves a letter there: it does not open like a bow, and no ink of its contour lies before it, so
+/// that the next letter's stroke can reach it.
 fn leaves(end: &End, contours: &[BezPath], side: Side) -> bool {
     let opening = side.inward(end.slopes.1 - end.slopes.0);
     let own = contours.get(end.contour..=end.contour).unwrap_or(&[]);
@@ -360,8 +361,8 @@ fn leaves(end: &End, contours: &[BezPath], side: Side) -> bool {
     opening < OPENING && first.is_some_and(|(first, _)| first > end.tip - SAME_TIP)
 }
 
-/// Where the advance ends of a letter whose body the strokes of this height meet; none where a stroke leaves it, or where it has
-/// no ink at that height.
+/// Where the advance ends of a letter whose body the strokes of this height meet; none where a stroke leaves it, or
+/// where it has no ink at that height.
 fn met(draft: &Draft, joint: &Joint, (low, high): Edges) -> Option<f64> {
     let thick = high - low;
     let (first, last) = stroke::face(draft.outline.contours(), joint.side, (low, high))?;

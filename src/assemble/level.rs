@@ -1,10 +1,11 @@
 //! Letters of a joining script that were drawn too high or too low as a whole.
 //!
-//! All joining strokes end at one height. So what the ends of a whole row have in common is how far the row's baseline
-//! was missed: the side of nothing on which all of them lie, and the least of them. What is left of the two ends of a
-//! medial form has in common how far that letter strays, and differs by how far strokes stray by themselves. Let `a` and
-//! `b` be what is left of the heights of a form's ends above the usual one. With the letters' variance `v` and the
-//! strokes' own `w`, taken from all medial forms by the medians of `|a + b|` and `|a - b|`, the likeliest stray is
+//! All joining strokes end at one height. So what the ends of a whole row have in common is how far the row's
+//! baseline was missed: the side of nothing on which all of them lie, and the least of them. What is left of the two
+//! ends of a medial form has in common how far that letter strays, and differs by how far strokes stray by
+//! themselves. Let `a` and `b` be what is left of the heights of a form's ends above the usual one. With the letters'
+//! variance `v` and the strokes' own `w`, taken from all medial forms by the medians of `|a + b|` and `|a - b|`, the
+//! likeliest stray is
 //!
 //! ```text
 //! two ends   v / (v + w/2) · (a + b)/2         one end   v / (v + w) · a
@@ -24,8 +25,8 @@ const ROW: usize = 3;
 /// Medial forms from which variances are taken.
 const FEWEST: usize = 8;
 
-/// What lies farther off than so many standard deviations was meant so, or is no stroke. Slips are not quite normal, and a
-/// median of two dozen forms can be half of what it should be: hence more than twice the usual three.
+/// What lies farther off than so many standard deviations was meant so, or is no stroke. Slips are not quite normal,
+/// and a median of two dozen forms can be half of what it should be: hence more than twice the usual three.
 const MOST: f64 = 8.0;
 
 /// Least deviation of strokes, em: they are not measured better than that.
@@ -34,8 +35,8 @@ const MEASURED: f64 = 0.001;
 /// A standard deviation in medians of the distance, where it is a normal one.
 const NORMAL: f64 = 1.4826;
 
-/// How far each letter lies above where its joining strokes and those of its row say that it belongs, font units; 0 where
-/// they do not tell. Letters of the same number in `rows` were given one baseline.
+/// How far each letter lies above where its joining strokes and those of its row say that it belongs, font units; 0
+/// where they do not tell. Letters of the same number in `rows` were given one baseline.
 ///
 /// # Errors
 /// A label names no glyph, or two shapes have one name.

@@ -141,8 +141,8 @@ pub fn identify(label: &Label) -> Result<Identity, LabelError> {
     }
 }
 
-/// Blocks of single letters' joining forms in Unicode, and of lam with alef: those of one letter stand in the order isolated,
-/// final, initial, medial.
+/// Blocks of single letters' joining forms in Unicode, and of lam with alef: those of one letter stand in the order
+/// isolated, final, initial, medial.
 const PRESENTED: [RangeInclusive<char>; 3] = [
     '\u{FE80}'..='\u{FEFC}',
     '\u{FB50}'..='\u{FBE9}',

@@ -1,4 +1,5 @@
-//! Ranges of the numbers that a project gives, parts of the em where they are lengths. The decoder adds where they stand.
+//! Ranges of the numbers that a project gives, parts of the em where they are lengths. The decoder adds where they
+//! stand.
 
 use serde::de::Error;
 use serde::{Deserialize, Deserializer};

@@ -17,8 +17,8 @@
 //! number; with a family held out, the median error of its advances is 17 thousandths of the em.
 //! Leaning fonts are set upright before they are measured.
 //!
-//! Letters of a joining script have the same room on every side that does not join, a part of alef's height, but for their
-//! tails and tops.
+//! Letters of a joining script have the same room on every side that does not join, a part of alef's height, but for
+//! their tails and tops.
 
 use super::features::is_arabic;
 use super::profile::{Profile, white};
@@ -68,8 +68,8 @@ const WEIGHTS: [f64; 4] = [0.17, -1.023, 0.361, -0.296];
 const DEPTHS: (f64, f64) = (0.3, 0.5);
 /// Room beside letters of a joining script that do not join, part of alef's height: by least absolute deviations over
 /// 13 fonts of six families, each family weighing the same. A bold font has no more room than its regular one, so
-/// strokes tell less: with a family held out a side is off by 14 thousandths of the em in the mean of medians, 18 by the
-/// joining stroke's thickness and 20 by the em. Neither teeth, counters nor white areas added to it tell more.
+/// strokes tell less: with a family held out a side is off by 14 thousandths of the em in the mean of medians, 18 by
+/// the joining stroke's thickness and 20 by the em. Neither teeth, counters nor white areas added to it tell more.
 const OF_ALEF: f64 = 0.082;
 /// The same of the joining stroke's thickness, where there is no alef.
 const OF_STROKE: f64 = 0.51;

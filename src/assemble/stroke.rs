@@ -62,8 +62,8 @@ pub(super) struct End {
 /// Heights at which a letter's face is felt, evenly between the edges of a stroke that meets it.
 const RAYS: u32 = 5;
 
-/// Inward distances at which a stroke that comes from that side meets ink: the first and the last of its heights. None where
-/// it has no ink before it at one of them.
+/// Inward distances at which a stroke that comes from that side meets ink: the first and the last of its heights.
+/// None where it has no ink before it at one of them.
 pub(super) fn face(contours: &[BezPath], side: Side, (low, high): Edges) -> Option<Edges> {
     let bounds = contours
         .iter()

@@ -1,8 +1,8 @@
 //! Tails and tops of Arabic letters: reh and waw reach under the letter that follows, madda over both neighbours.
 //!
-//! Beside a letter that never joins the next, room is counted from its ink above the baseline: a tail below it
-//! takes none. Of what reaches beyond a letter's body above it, such as madda, dots over a narrow tooth and kaf's arm,
-//! half takes none. Tails and tops stay clear of every letter that can follow, which is looked at row by row.
+//! Beside a letter that never joins the next, room is counted from its ink above the baseline: a tail below it takes
+//! none. Of what reaches beyond a letter's body above it, such as madda, dots over a narrow tooth and kaf's arm, half
+//! takes none. Tails and tops stay clear of every letter that can follow, which is looked at row by row.
 
 use super::Draft;
 use super::features::is_arabic;
@@ -12,9 +12,9 @@ use unicode_joining_type::{JoiningType, get_joining_type};
 /// Rows above and below that count as level: ink that passes so near is felt as beside. em
 const NEAR: f64 = 0.03;
 
-/// Height of a letter's body, part of alef's: ink above reaches over its neighbours. Over six families the room on the
-/// right is off by 10.8 thousandths of the em in place of 11.3 (mean of medians; 19.1 for 21.1, mean of means), beside
-/// letters that never join the next by 21.0 in place of 24.6; 0.5 and 0.7 do as well.
+/// Height of a letter's body, part of alef's: ink above reaches over its neighbours. Over six families the room on
+/// the right is off by 10.8 thousandths of the em in place of 11.3 (mean of medians; 19.1 for 21.1, mean of means),
+/// beside letters that never join the next by 21.0 in place of 24.6; 0.5 and 0.7 do as well.
 const BODY: f64 = 0.6;
 
 /// Room that every follower leaves, part of the room of two sides.
@@ -26,13 +26,15 @@ const FURTHEST: f64 = 0.2;
 /// Where the advance of a letter ends in its own x; none where the plain rule says it.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(super) struct Ends {
-    /// Of an Arabic letter that never joins the next: after one that does, in its final and isolated form, a word ends.
+    /// Of an Arabic letter that never joins the next: after one that does, in its final and isolated form, a word
+    /// ends.
     pub(super) left: Option<f64>,
     /// Of one that does not join the one before.
     pub(super) right: Option<f64>,
 }
 
-/// The ends of each draft. `side` is the room beside a letter, `alef` the height of alef where there is one, font units.
+/// The ends of each draft. `side` is the room beside a letter, `alef` the height of alef where there is one, font
+/// units.
 pub(super) fn ends(drafts: &[Draft], side: f64, alef: Option<f64>, em: f64) -> Vec<Ends> {
     let body = alef.map_or(f64::INFINITY, |height| BODY * height);
     let profile = |d: &Draft| Profile::of(&d.outline, em, 0.0, 0.0);

@@ -32,8 +32,8 @@ const SHRINK: f64 = 1.0;
 /// Gaps further from the usual than so many times the median distance do not count.
 const SLIPS: f64 = 3.0;
 
-/// An Arabic gap tells of room where it is no narrower than that part of two letters' own: tails and tops reach into the
-/// others, and there hands and fonts kern.
+/// An Arabic gap tells of room where it is no narrower than that part of two letters' own: tails and tops reach into
+/// the others, and there hands and fonts kern.
 const OPEN: f64 = 0.75;
 
 /// By how much a written piece may be wider or narrower than its letters, part of its width, and em.
@@ -161,8 +161,8 @@ fn is_free(draft: &Draft, side: Side) -> bool {
     joint.is_none() && draft.given.is_none()
 }
 
-/// What gaps want in the median, and what single sides want beyond half of it; from open gaps where they are enough. `side`
-/// is the room of an Arabic letter without tail or top.
+/// What gaps want in the median, and what single sides want beyond half of it; from open gaps where they are enough.
+/// `side` is the room of an Arabic letter without tail or top.
 fn room(gaps: &[&Measured], side: f64) -> (f64, BTreeMap<Edge, f64>) {
     let is_open = |g: &Measured| g.script == Script::Rightward || g.gap.set >= OPEN * 2.0 * side;
     let open = gaps.iter().filter(|g| is_open(g)).count();

@@ -236,8 +236,8 @@ fn keep_handwork(opened: &Opened, outputs: &mut [(PathBuf, Files)]) -> Result<St
     Ok(said)
 }
 
-/// The report with the time of each stage, and how many times as long as decoding the pages their cleaning and cutting
-/// took.
+/// The report with the time of each stage, and how many times as long as decoding the pages their cleaning and
+/// cutting took.
 fn timed(report: &Report, total: Duration, times: &Times) -> Value {
     let stages = times.iter();
     let stages: serde_json::Map<_, _> = stages

@@ -1,4 +1,5 @@
-//! Whether a build has nothing to do: the files that it read last time and the outputs that it wrote are still the same.
+//! Whether a build has nothing to do: the files that it read last time and the outputs that it wrote are still the
+//! same.
 
 use super::cache::Cache;
 use super::project::Opened;

@@ -73,7 +73,8 @@ impl PageServer {
     }
 }
 
-/// Answers one request. Only requests to this very address are answered, so that no page from elsewhere reads the proof.
+/// Answers one request. Only requests to this very address are answered, so that no page from elsewhere reads the
+/// proof.
 fn answer(stream: TcpStream, address: SocketAddr, shown: &Mutex<(u64, String)>) -> io::Result<()> {
     stream.set_read_timeout(Some(PATIENCE))?;
     stream.set_write_timeout(Some(PATIENCE))?;

@@ -38,7 +38,8 @@ pub(crate) struct Trace {
     /// Area of ink or paper below which it is dust, in square pixels [default: 4]
     #[arg(long, value_name = "PX2", value_parser = positive)]
     speckle: Option<f64>,
-    /// How the picture's numbers tell light: in proportion to it, as cameras and most scanners write it, or as the file says [default: linear]
+    /// How the picture's numbers tell light: in proportion to it, as cameras and most scanners write it, or as the
+    /// file says [default: linear]
     #[arg(long, value_name = "TONES", value_parser = PossibleValuesParser::new(Tones::ALL.map(|t| t.0)))]
     tones: Option<String>,
     /// Give the middle of the lines that a pen drew, with their width, in place of their outline
@@ -94,8 +95,8 @@ impl Trace {
         self.write(&picture::svg(size, &paths))
     }
 
-    /// Writes the middle of the lines: a UFO where the output is named so, else an SVG. The UFO's glyph bears the output's
-    /// name, and its character where that names one.
+    /// Writes the middle of the lines: a UFO where the output is named so, else an SVG. The UFO's glyph bears the
+    /// output's name, and its character where that names one.
     fn write_lines(&self, gray: &Gray) -> Outcome {
         let drawn = recognise::centerline(gray);
         let size = (gray.width(), gray.height());

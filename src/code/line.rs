@@ -118,7 +118,8 @@ impl Line {
         !close
     }
 
-    /// Whether the square of a point's distance from a chord is within a limit; both times the chord's squared length.
+    /// Whether the square of a point's distance from a chord is within a limit; both times the chord's squared
+    /// length.
     #[inline]
     fn close(&self, (p, limit): (Point, f64), k: usize) -> bool {
         let (px, py) = (p.x - self.x[k], p.y - self.y[k]);

@@ -45,8 +45,8 @@ impl Judgement {
     }
 }
 
-/// A curve farther from its points than this many times their extent, and as much again in px, is astray: measuring it would take as
-/// many chords as it is large.
+/// A curve farther from its points than this many times their extent, and as much again in px, is astray: measuring
+/// it would take as many chords as it is large.
 const FAR: f64 = 100.0;
 
 /// Measures `path` against `span`; all infinite when the path draws nothing, is not finite or leaves its points for

@@ -243,9 +243,10 @@ impl Chain {
         }
     }
 
-    /// Reads a path of lines and cubics back. Nodes whose sides differ by less than `turn` radians are
-    /// smooth, and extrema where that direction is as near to an axis; beside a line it must all but be on it. The ends of an open path are
-    /// [`Join::End`]. `None` for a path with quadratics, with fewer than two nodes, or with a second move.
+    /// Reads a path of lines and cubics back. Nodes whose sides differ by less than `turn` radians are smooth, and
+    /// extrema where that direction is as near to an axis; beside a line it must all but be on it. The ends of an
+    /// open path are [`Join::End`]. `None` for a path with quadratics, with fewer than two nodes, or with a second
+    /// move.
     #[must_use]
     pub fn from_path(path: &BezPath, turn: f64) -> Option<Self> {
         let (pieces, closed) = pieces(path)?;

@@ -93,7 +93,8 @@ impl Polyline {
         }
     }
 
-    /// Whether no point of a row lies farther away than `limit`: each is looked for where the one before it was found.
+    /// Whether no point of a row lies farther away than `limit`: each is looked for where the one before it was
+    /// found.
     #[must_use]
     pub fn is_within(&self, points: impl IntoIterator<Item = Point>, limit: f64) -> bool {
         let mut at = 0;

@@ -82,8 +82,8 @@ impl<F: Fn(usize, usize) -> f32> Field<F> {
     }
 }
 
-/// All rings at `level`, ink on the left, px, y up; ordered by their first grid edge in reading order. `samples` takes a column and a
-/// row and is 0 outside of the w × h px.
+/// All rings at `level`, ink on the left, px, y up; ordered by their first grid edge in reading order. `samples`
+/// takes a column and a row and is 0 outside of the w × h px.
 #[must_use]
 pub fn rings(
     (w, h): (usize, usize),

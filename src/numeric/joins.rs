@@ -1,5 +1,5 @@
-//! Joins that a fit leaves undecided: curves that turn back just before their end, corners that hardly turn, and smooth
-//! nodes that turn at once.
+//! Joins that a fit leaves undecided: curves that turn back just before their end, corners that hardly turn, and
+//! smooth nodes that turn at once.
 
 use super::chain::{Chain, Join, Kind, Node};
 use kurbo::common::solve_quadratic;
@@ -9,7 +9,8 @@ use kurbo::{CubicBez, ParamCurve, ParamCurveDeriv, Vec2};
 const SOFT: f64 = 0.44;
 /// Directions so near to an axis are on it, radians.
 const LEVEL: f64 = 0.02;
-/// A curve that leaves its direction within so short a handle, px, and turns more than this there, radians, has a corner.
+/// A curve that leaves its direction within so short a handle, px, and turns more than this there, radians, has a
+/// corner.
 const AT_ONCE: (f64, f64) = (0.5, 1.0);
 /// A direction is parallel to an axis whose other component is less.
 const ON_AXIS: f64 = 1e-6;
@@ -129,8 +130,8 @@ fn level_end(chain: &mut Chain, i: usize) {
     }
 }
 
-/// By how much the handles of a cubic, its first and its last, pass the level of an extremum that it ends in on the other side:
-/// it would turn back once more. As parts of the handles.
+/// By how much the handles of a cubic, its first and its last, pass the level of an extremum that it ends in on the
+/// other side: it would turn back once more. As parts of the handles.
 #[must_use]
 pub fn past_levels(chain: &Chain, segment: usize) -> [f64; 2] {
     let (a, b) = chain.ends(segment);

@@ -28,10 +28,10 @@ const NEAR: usize = 6;
 
 /// Where each value lies between the paper's level (0) and the ink's (1) around it.
 ///
-/// `values` run row by row, `width` a row; `model` is what each would be if ink were 1 and paper 0. A pixel tells all of
-/// a level where its model is ink or paper alone, less the more it holds of the other, whose part is taken off. A level
-/// is the Gaussian mean of what is told around, and where that is next to nothing, of all. Far from pixels that leave it
-/// open what they are nothing is asked: there ink is 1 and paper 0.
+/// `values` run row by row, `width` a row; `model` is what each would be if ink were 1 and paper 0. A pixel tells all
+/// of a level where its model is ink or paper alone, less the more it holds of the other, whose part is taken off. A
+/// level is the Gaussian mean of what is told around, and where that is next to nothing, of all. Far from pixels that
+/// leave it open what they are nothing is asked: there ink is 1 and paper 0.
 #[must_use]
 pub fn normalised(values: &[f32], width: usize, model: &[f32]) -> Vec<f32> {
     let w = width.max(1);
@@ -140,8 +140,8 @@ fn smeared<B: Copy + BitOrAssign>(
     out
 }
 
-/// Where each value lies between the levels of ink and paper around it, which are read between the blocks' centres; or
-/// what is `sure` of its block, where that is a number.
+/// Where each value lies between the levels of ink and paper around it, which are read between the blocks' centres;
+/// or what is `sure` of its block, where that is a number.
 fn between(values: &[f32], w: usize, levels: &[Vec<f32>; 2], sure: &[f32]) -> Vec<f32> {
     let columns = w.div_ceil(BLOCK);
     let last = (sure.len() / columns.max(1)).saturating_sub(1);

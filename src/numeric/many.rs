@@ -1,7 +1,7 @@
 //! One function for every item of a list, on all threads where there are many.
 //!
-//! Items know nothing of each other, and answers come in the items' order: what comes out is the same on any number of
-//! threads.
+//! Items know nothing of each other, and answers come in the items' order: what comes out is the same on any number
+//! of threads.
 
 use rayon::prelude::*;
 

@@ -37,8 +37,8 @@ impl Powers {
         )
     }
 
-    /// Moves the parameters `t` towards the feet of the points `at` by at most two of Newton's steps, none longer than
-    /// `stride` nor out of `range`. Feet do not depend on those beside them.
+    /// Moves the parameters `t` towards the feet of the points `at` by at most two of Newton's steps, none longer
+    /// than `stride` nor out of `range`. Feet do not depend on those beside them.
     #[must_use]
     pub fn feet<const N: usize>(
         &self,

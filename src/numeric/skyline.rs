@@ -47,8 +47,8 @@ impl Skyline {
         }
     }
 
-    /// Adds `by` times `values`, those of the columns from the first on, to row `i` up to its diagonal. What lies outside the
-    /// envelope is passed over.
+    /// Adds `by` times `values`, those of the columns from the first on, to row `i` up to its diagonal. What lies
+    /// outside the envelope is passed over.
     pub fn add_row(&mut self, i: usize, values: &[f64], by: f64) {
         if i < self.len() {
             let (start, first) = (self.start[i], self.first[i]);

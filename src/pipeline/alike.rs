@@ -13,7 +13,8 @@ use rayon::prelude::*;
 const SAME: f64 = 0.004;
 /// How far the points that are compared lie apart at most, as a share of the outline's longer side.
 const STEP: f64 = 0.02;
-/// Letters that look the same where another follows, and those that do where none does: who has drawn one may copy it.
+/// Letters that look the same where another follows, and those that do where none does: who has drawn one may copy
+/// it.
 const WITHIN_WORDS: [&str; 4] = ["ٯڡ", "ٮںى", "كک", "يی"];
 const AT_ENDS: [&str; 2] = ["هہ", "ىی"];
 

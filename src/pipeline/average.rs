@@ -1,8 +1,8 @@
 //! Several drawings of one glyph → the one in the middle of them.
 //!
-//! Their scanned edges are brought to one size and laid centre of gravity upon centre of gravity, to the fraction of a
-//! pixel. Of each pixel's distances to them, positive inside, the median says how far it lies from the middle shape:
-//! of two drawings the edge runs halfway, of three it follows the two that agree.
+//! Their scanned edges are brought to one size and laid centre of gravity upon centre of gravity, to the fraction of
+//! a pixel. Of each pixel's distances to them, positive inside, the median says how far it lies from the middle
+//! shape: of two drawings the edge runs halfway, of three it follows the two that agree.
 
 use super::letter::Letter;
 use crate::numeric::cast::{index, single};

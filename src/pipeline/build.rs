@@ -156,8 +156,8 @@ fn batches(sources: &[Source<'_>], project: &Project, world: World<'_>) -> Vec<B
     batches.into_iter().flatten().collect()
 }
 
-/// What `second` makes of each item and of what `first` made of it. `first` is one item ahead of `second`: it keeps one
-/// thread while the others share out what `second` does, and no more than two of its results exist at a time.
+/// What `second` makes of each item and of what `first` made of it. `first` is one item ahead of `second`: it keeps
+/// one thread while the others share out what `second` does, and no more than two of its results exist at a time.
 fn ahead<T: Sync, A: Send, B: Send>(
     items: &[T],
     first: impl Fn(&T) -> A + Sync,

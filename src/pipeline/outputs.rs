@@ -26,8 +26,8 @@ pub struct Outputs {
     pub report: Option<Report>,
 }
 
-/// Everything that the project's `[output]` names. `last` is the proof of the build before, where there was one: the new
-/// one shows what has changed.
+/// Everything that the project's `[output]` names. `last` is the proof of the build before, where there was one: the
+/// new one shows what has changed.
 ///
 /// # Errors
 /// A format cannot hold the font, or a gate does not let it through.

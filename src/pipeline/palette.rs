@@ -4,8 +4,8 @@ use super::page::Page;
 use super::project::Project;
 use crate::scan::Colour;
 
-/// The inks that are layers and how they look, red, green and blue: in the order in which the project names them, each as
-/// the mean of its pages, by their ink.
+/// The inks that are layers and how they look, red, green and blue: in the order in which the project names them,
+/// each as the mean of its pages, by their ink.
 pub(super) fn of(project: &Project, pages: &[Page]) -> Vec<(String, [u8; 3])> {
     let named = project.sheets.iter().flat_map(|s| s.ink.layers());
     let mut palette: Vec<(String, [u8; 3])> = Vec::new();

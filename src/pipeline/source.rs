@@ -64,7 +64,8 @@ impl<'a> Source<'a> {
         })
     }
 
-    /// The picture files: each can be read without the others. None is given where the table does not name the one that it must.
+    /// The picture files: each can be read without the others. None is given where the table does not name the one
+    /// that it must.
     pub(super) fn images(&self) -> Vec<Option<&'a Path>> {
         let given = self.table.image.iter().map(|i| Some(i.as_path()));
         match (&self.printing, self.table.image.as_slice()) {

@@ -1,10 +1,10 @@
 //! A smooth run of quadratics as few cubics, by kurbo's fit of one cubic, in bounded time.
 //!
-//! That fit measures the length of a cubic that it tries where the given run bends much between two samples, and looks
-//! for places along it in steps of 10⁻⁹ units. On a cubic longer than some 10⁷ units such steps are finer than numbers
-//! are, and the search never ends. One that long comes so far only where it was near all samples before its length is
-//! asked for, and what of it is near them is straight: through one of the run's ends, along one of the tangents there. So
-//! a range that bends and whose samples lie on such lines is not asked, but halved.
+//! That fit measures the length of a cubic that it tries where the given run bends much between two samples, and
+//! looks for places along it in steps of 10⁻⁹ units. On a cubic longer than some 10⁷ units such steps are finer than
+//! numbers are, and the search never ends. One that long comes so far only where it was near all samples before its
+//! length is asked for, and what of it is near them is straight: through one of the run's ends, along one of the
+//! tangents there. So a range that bends and whose samples lie on such lines is not asked, but halved.
 
 use kurbo::simplify::SimplifyBezPath;
 use kurbo::{BezPath, CubicBez, ParamCurveFit, Point, QuadBez, Vec2, fit_to_cubic};
@@ -23,8 +23,8 @@ const NEAR: f64 = 2.0;
 /// Coordinates that no font holds (16 bits), units: the run's own length is then not too long either.
 const LARGEST: f64 = 65_536.0;
 
-/// The cubics, within `tolerance` of the run. They are never more than its quadratics, which are the answer themselves
-/// where no fewer will do.
+/// The cubics, within `tolerance` of the run. They are never more than its quadratics, which are the answer
+/// themselves where no fewer will do.
 pub(super) fn fit(run: &[QuadBez], tolerance: f64) -> Vec<CubicBez> {
     let exact = || run.iter().map(QuadBez::raise).collect();
     let small = |p: Point| p.x.abs().max(p.y.abs()) <= LARGEST;

@@ -269,10 +269,10 @@ impl Alphabet {
         all.collect()
     }
 
-    /// Takes the reference's proportions off a page: finds the scale and height that take the ink of surely
-    /// known cells to the reference's, and puts every cell's place in the reference's em. Cells without a baseline give
-    /// their heights alone, where these are of one scale. Where too few are sure, places are forgotten and shapes alone
-    /// decide.
+    /// Takes the reference's proportions off a page: finds the scale and height that take the ink of surely known
+    /// cells to the reference's, and puts every cell's place in the reference's em. Cells without a baseline give
+    /// their heights alone, where these are of one scale. Where too few are sure, places are forgotten and shapes
+    /// alone decide.
     pub fn settle_page(&self, looks: &mut [Look]) {
         let (mut lines, mut heights) = (Vec::new(), Vec::new());
         for look in looks.iter() {

@@ -22,7 +22,8 @@ const ROUND_SCATTER: f64 = 5.0;
 /// That times this where the contour alone does not look like a corner, and where it does.
 const DOUBT: [f64; 2] = [0.8, 1.3];
 
-/// A fitted corner may reach further than its tip is drawn by this, px, and by this for each px of the lens' deviation.
+/// A fitted corner may reach further than its tip is drawn by this, px, and by this for each px of the lens'
+/// deviation.
 const LONG_PX: (f64, f64) = (1.0, 1.2);
 
 /// Which of the corners of sharpened contours are drawn as corners. `seen` says what the contour alone tells of

@@ -2,7 +2,8 @@
 
 use kurbo::{Point, Rect};
 
-/// The crossings of lines, each other or themselves, as pairs of their indices: of chords within `bounds`, where there are such.
+/// The crossings of lines, each other or themselves, as pairs of their indices: of chords within `bounds`, where
+/// there are such.
 pub(super) fn crossings<'r>(
     lines: impl Iterator<Item = &'r [Point]>,
     bounds: Option<Rect>,

@@ -34,8 +34,8 @@ const FREEDOM: f64 = 0.03;
 /// And no node further in all, px.
 const REACH_PX: f64 = 2.0;
 
-/// The paths moved to where their blurred fill is most like the picture; each stays as it was if none of its steps makes
-/// it more like.
+/// The paths moved to where their blurred fill is most like the picture; each stays as it was if none of its steps
+/// makes it more like.
 pub(super) fn settled(residual: &Residual<'_>, paths: &[BezPath]) -> Vec<BezPath> {
     let mut now = each(paths, |path| {
         let mut chain = Chain::from_path(path, SMOOTH);

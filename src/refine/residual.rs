@@ -20,8 +20,9 @@ const MIN_SPREAD_PX: f64 = 0.6;
 const AVERAGE: f64 = 5.0;
 /// Mean of the squares of a normal number by their median.
 const MEDIAN_OF_SQUARES: f64 = 2.198;
-/// Mean square that an edge off by the lens' own deviation leaves where it is neither ink nor paper is 0.1, by the squared
-/// slope of its profile. Half of it keeps the steps of two levels from being followed; more leaves bends unmended.
+/// Mean square that an edge off by the lens' own deviation leaves where it is neither ink nor paper is 0.1, by the
+/// squared slope of its profile. Half of it keeps the steps of two levels from being followed; more leaves bends
+/// unmended.
 const ACROSS: f64 = 0.05;
 
 /// A patch of ink before the lens: how much, px², where, and its variances along a direction and across it, px².
@@ -143,8 +144,8 @@ impl Residual<'_> {
         residual
     }
 
-    /// The levels of ink and paper once more, from the pixels that the rings as they are now leave to one of them. Pixels
-    /// along the lines `open` tell nothing.
+    /// The levels of ink and paper once more, from the pixels that the rings as they are now leave to one of them.
+    /// Pixels along the lines `open` tell nothing.
     pub(super) fn level(&mut self, open: impl Iterator<Item = Line>) {
         /// Half the width of those lines, px.
         const OPEN_PX: f64 = 2.0;
@@ -196,8 +197,8 @@ impl Residual<'_> {
         &self.seen
     }
 
-    /// The same against rings that have changed within `changed`, px, y up; each with its bounds and as a line that comes back
-    /// to its start. By how much the sum of squared differences grows.
+    /// The same against rings that have changed within `changed`, px, y up; each with its bounds and as a line that
+    /// comes back to its start. By how much the sum of squared differences grows.
     pub(super) fn redraw<'r>(
         &mut self,
         changed: Rect,

@@ -212,7 +212,8 @@ impl Inks {
         (own, other)
     }
 
-    /// Whether most pixels of a piece are of one of these inks: two hues beside each other can have a third in the mean.
+    /// Whether most pixels of a piece are of one of these inks: two hues beside each other can have a third in the
+    /// mean.
     fn cover(&self, c: &Component, colours: &Colours, paper: [f64; 3]) -> bool {
         let own = pixels(c).filter(|&(x, y)| self.nearest(more(colours.at(x, y), paper)).is_some());
         2 * own.count() > c.area

@@ -74,8 +74,8 @@ const SIGN_WITHIN: &str = "كک";
 
 /// Letters that hang below the baseline.
 const TAILED: &str = "gjpqyрф";
-/// Letters with most of their ink on the left, the right, above and below the middle. The bows of B, D and R weigh more than their
-/// stems in slanted styles.
+/// Letters with most of their ink on the left, the right, above and below the middle. The bows of B, D and R weigh
+/// more than their stems in slanted styles.
 const LEFT: &str = "EFKLPbhkpГЕБКРЬ";
 const RIGHT: &str = "Jdq";
 const TOP: &str = "FPTVYpqy79ТРГУр";

@@ -1,7 +1,7 @@
 //! The light that falls on a page: how dark its paper looks, all over it.
 //!
-//! It is the paper's level of each block, opened by a window wider than strokes. Strokes that are wider stay dark in it; they
-//! are told from shadows by being as dark as ink and not reaching the picture's edge.
+//! It is the paper's level of each block, opened by a window wider than strokes. Strokes that are wider stay dark in
+//! it; they are told from shadows by being as dark as ink and not reaching the picture's edge.
 
 use super::paper::{Paper, beside, regions};
 use super::whole::{floor, ratio};
@@ -67,7 +67,8 @@ impl Field {
         Paper::find(&self.values, self.columns, self.block)
     }
 
-    /// Ink that is wider than the opening's window gets the level of the paper on its four sides, the nearer the more.
+    /// Ink that is wider than the opening's window gets the level of the paper on its four sides, the nearer the
+    /// more.
     fn leave_ink_out(&mut self) {
         let reached = self.reached();
         let dark = |i: usize| self.values[i] > reached[i] + DARKER;
@@ -193,8 +194,8 @@ impl Field {
 mod tests {
     use super::*;
 
-    /// A picture of 420 × 240 px whose light falls off to the right, and of it a square of 180 px with a counter of 40 px in
-    /// it that sends back `left` of the light.
+    /// A picture of 420 × 240 px whose light falls off to the right, and of it a square of 180 px with a counter of
+    /// 40 px in it that sends back `left` of the light.
     fn square(left: f32) -> Gray {
         let sample = |i: usize| {
             let (x, y) = (i % 420, i / 420);

@@ -1,8 +1,9 @@
 //! The tilt at which a page was seen: its rows and columns meet far away.
 //!
 //! Rows of letters stand on common lines of one pencil, y − t x = Y (1 + g x) from the picture's middle; of all
-//! pencils the true one piles the ink's edges up highest, as the true angle does where g is 0. Columns are
-//! x − s y = X (1 + k y): in a grid letters stand in them, printed boxes pile up their sides, and on a bare page the edges of the paper are two of them. Both pencils together are the view.
+//! pencils the true one piles the ink's edges up highest, as the true angle does where g is 0. Columns are x − s y =
+//! X (1 + k y): in a grid letters stand in them, printed boxes pile up their sides, and on a bare page the edges of
+//! the paper are two of them. Both pencils together are the view.
 
 use super::components::Component;
 use super::deskew::{Edges, energy_of};
@@ -28,7 +29,8 @@ const ROUNDS: i32 = 6;
 const POINTS: (usize, usize) = (3_000, 20_000);
 /// Rows that converge by less lie level, for a cutter and for the eye.
 const LEVEL: f64 = 0.008;
-/// Rows that converge so little are straightened in grids and boxes only: rows of a free hand may fan out by themselves.
+/// Rows that converge so little are straightened in grids and boxes only: rows of a free hand may fan out by
+/// themselves.
 const DRIFT: f64 = 0.02;
 /// Columns that converge by less stand upright: letters are seldom set down more exactly.
 const PLUMB: f64 = 0.02;

@@ -15,8 +15,8 @@ pub fn is_all_dark(gray: &Gray) -> bool {
     (light as f64) < BEYOND * gray.samples().len() as f64
 }
 
-/// The picture with its lightest level at 0 and its darkest at 1, or the other way round where its edge is nearer to the
-/// darkest: paper lies there. `None` where all of it looks alike.
+/// The picture with its lightest level at 0 and its darkest at 1, or the other way round where its edge is nearer to
+/// the darkest: paper lies there. `None` where all of it looks alike.
 #[must_use]
 pub fn full_range(gray: &Gray) -> Option<Gray> {
     let (w, h) = (gray.width(), gray.height());

@@ -159,7 +159,8 @@ impl<'a> Separation<'a> {
         plates
     }
 
-    /// The parts of a pixel's ink, of sum 1, by the light that it swallows: one, or two where one does not explain it.
+    /// The parts of a pixel's ink, of sum 1, by the light that it swallows: one, or two where one does not explain
+    /// it.
     fn amounts(&self, light: [f64; 3]) -> Vec<(usize, f32)> {
         let solid = |i: usize| self.inks[i].swallowed;
         let miss = |parts: &[(usize, f64)]| {

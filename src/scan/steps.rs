@@ -9,19 +9,19 @@ use std::mem;
 const BETWEEN: f32 = 0.1;
 /// The least part of the steps that no sample between the levels smooths.
 const BARE: f64 = 0.9;
-/// The softening, a Gaussian's standard deviation, px, and its part of a stroke. Half a pixel leaves the steps as they
-/// are, and what is wide beside a stroke runs its two sides together; beyond the longest, ends are lost and no step is
-/// hidden any better.
+/// The softening, a Gaussian's standard deviation, px, and its part of a stroke. Half a pixel leaves the steps as
+/// they are, and what is wide beside a stroke runs its two sides together; beyond the longest, ends are lost and no
+/// step is hidden any better.
 const SOFT_PX: (f64, f64) = (0.7, 1.5);
 const OF_STROKE: f64 = 1.0 / 15.0;
 /// Runs of ink that are shorter are grain, and longer ones no stroke, px.
 const RUN_PX: (usize, usize) = (2, 512);
-/// Standard deviation of the softened edges' places, px. Half a pixel either way makes 0.29; the points of a step are off
-/// together, so that they tell less than as many others.
+/// Standard deviation of the softened edges' places, px. Half a pixel either way makes 0.29; the points of a step are
+/// off together, so that they tell less than as many others.
 const SCATTER_PX: f64 = 0.35;
 
-/// The picture softened, where it has two levels and edges that run in steps; they then have a slope along which they can
-/// be followed, and lie where those of a grey picture do, on average. `None` for any other picture.
+/// The picture softened, where it has two levels and edges that run in steps; they then have a slope along which they
+/// can be followed, and lie where those of a grey picture do, on average. `None` for any other picture.
 #[must_use]
 pub fn softened(gray: &Gray) -> Option<Gray> {
     let levels = Levels::of(gray);
@@ -55,8 +55,8 @@ impl Levels {
         v > self.least + margin && v < self.most - margin
     }
 
-    /// Whether nearly all places where an edge comes from one row or column to the next are bare of samples between the
-    /// levels: in a grey picture it comes there by way of such. Corners are no such places.
+    /// Whether nearly all places where an edge comes from one row or column to the next are bare of samples between
+    /// the levels: in a grey picture it comes there by way of such. Corners are no such places.
     fn run_in_steps(&self, gray: &Gray) -> bool {
         let rows = (0..gray.height()).into_par_iter();
         let of_row = rows.map(|y| self.steps(gray, y));

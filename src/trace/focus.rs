@@ -1,20 +1,20 @@
-//! Pictures out of focus: where a lens, a blunt scanner or an enlargement has spread an edge over many pixels, fewer pixels hold
-//! all that there is to see, and what follows looks at edges of a pixel or two.
+//! Pictures out of focus: where a lens, a blunt scanner or an enlargement has spread an edge over many pixels, fewer
+//! pixels hold all that there is to see, and what follows looks at edges of a pixel or two.
 
 use super::{Options, level, trace};
 use crate::numeric::cast::{index, single};
 use crate::types::{Contour, Gray};
 
-/// The blur that edges keep, px, its standard deviation: with half of it pixels hide where they lie, and with twice as much
-/// what is beside a corner counts as part of it.
+/// The blur that edges keep, px, its standard deviation: with half of it pixels hide where they lie, and with twice
+/// as much what is beside a corner counts as part of it.
 const LEAST_PX: f64 = 0.9;
 /// A blur that [`trace()`] measures as so much or more, px, may be larger: the band that it looks at is too narrow.
 pub const WIDE_PX: f64 = 1.55;
 /// Pixels a side that a picture keeps at least.
 const LEAST_SIDE: usize = 16;
 
-/// Standard deviation of the blur of a picture's edges, px, of which [`trace()`] measures `seen_px`: where that is wide, what it
-/// is in smaller pictures of the same.
+/// Standard deviation of the blur of a picture's edges, px, of which [`trace()`] measures `seen_px`: where that is
+/// wide, what it is in smaller pictures of the same.
 #[must_use]
 pub fn spread_px(gray: &Gray, seen_px: f64) -> f64 {
     let most = largest(gray);
@@ -28,8 +28,8 @@ pub fn spread_px(gray: &Gray, seen_px: f64) -> f64 {
     blur * side as f64
 }
 
-/// The picture in larger pixels, where its edges are blurred by more than they need, and how many of its pixels a side
-/// make one; `None` of a picture in focus. `seen_px` is the blur that [`trace()`] measured.
+/// The picture in larger pixels, where its edges are blurred by more than they need, and how many of its pixels a
+/// side make one; `None` of a picture in focus. `seen_px` is the blur that [`trace()`] measured.
 ///
 /// Both pictures have their bottom left corner in one place.
 #[must_use]

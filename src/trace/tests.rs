@@ -120,8 +120,8 @@ fn uneven_grey_becomes_coverage() {
 /// A disk of 40 px around this place.
 const DISK: Point = Point::new(45.0, 45.0);
 
-/// The disk, and a bar of `size` px around `at` turned by `degrees`: of ink beside it, or a slit in it. As a lens of 0.9 px sees it
-/// under a scan's grain.
+/// The disk, and a bar of `size` px around `at` turned by `degrees`: of ink beside it, or a slit in it. As a lens of
+/// 0.9 px sees it under a scan's grain.
 fn thin(at: Point, (length, width): (f64, f64), degrees: f64) -> Gray {
     let (sin, cos) = degrees.to_radians().sin_cos();
     let inside = |x: f64, y: f64| {

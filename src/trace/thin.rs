@@ -1,9 +1,10 @@
 //! Lines and slits too thin to reach half coverage.
 //!
-//! Under a blur of deviation σ a line of width w is nowhere darker than 2 Φ(w / 2σ) − 1: at σ = 0.95 px one of 1.2 px has no
-//! contour at half coverage, and one of 1.3 px has one in pieces. Its crest stands out all the same. Along crests that are long
-//! enough the coverage is scaled ([`lifted`]), so that the level is passed at their sides; where those really are the comparison
-//! with the picture says (`refine`). Nor do they tell what paper and ink are like ([`beside`]). All else stays as it is.
+//! Under a blur of deviation σ a line of width w is nowhere darker than 2 Φ(w / 2σ) − 1: at σ = 0.95 px one of 1.2 px
+//! has no contour at half coverage, and one of 1.3 px has one in pieces. Its crest stands out all the same. Along
+//! crests that are long enough the coverage is scaled ([`lifted`]), so that the level is passed at their sides; where
+//! those really are the comparison with the picture says (`refine`). Nor do they tell what paper and ink are like
+//! ([`beside`]). All else stays as it is.
 
 use crate::{
     numeric::{
@@ -27,7 +28,8 @@ const FAINT: f32 = 0.6;
 const LONG: usize = 6;
 /// As a multiple of the level: grain parts a contour along a crest that is no higher.
 const LOW: f32 = 1.2;
-/// For so many where it grows out of what is thick: the tip of a wedge of 5° does not, and its sides tell where it ends.
+/// For so many where it grows out of what is thick: the tip of a wedge of 5° does not, and its sides tell where it
+/// ends.
 const TAPERED: usize = 12;
 /// As a multiple of the level: what is higher is thick.
 const THICK: f32 = 1.5;
@@ -62,8 +64,8 @@ impl Thin {
 /// A pixel of a crest: its index, and its height.
 type Crest = (usize, f32);
 
-/// The picture with its thin lines and slits lifted over `level`; nothing where it has none. `blur_px` is the deviation of its
-/// edges.
+/// The picture with its thin lines and slits lifted over `level`; nothing where it has none. `blur_px` is the
+/// deviation of its edges.
 pub(super) fn lifted(gray: &Gray, level: f64, blur_px: f64) -> Option<Gray> {
     let mut samples: Option<Vec<f32>> = None;
     for thin in Thin::ALL {
@@ -77,8 +79,8 @@ pub(super) fn lifted(gray: &Gray, level: f64, blur_px: f64) -> Option<Gray> {
     samples.map(|s| gray.with_samples(s))
 }
 
-/// Which pixels lie beside crests of thin lines and slits, row by row; nothing where there are none. `levels` are those of paper
-/// and ink, which differ.
+/// Which pixels lie beside crests of thin lines and slits, row by row; nothing where there are none. `levels` are
+/// those of paper and ink, which differ.
 pub(super) fn beside(gray: &Gray, levels: [f32; 2]) -> Option<Vec<bool>> {
     let blur = Contour::PIXEL_BLUR_PX;
     let crests = Thin::ALL.map(|thin| Field::new(gray, levels, (thin, 0.5), blur).crests());
@@ -160,7 +162,8 @@ impl<'a> Field<'a> {
         self.seen(sample)
     }
 
-    /// How far a pixel stands out over what lies on both sides of it, where it is the highest of its neighbours across.
+    /// How far a pixel stands out over what lies on both sides of it, where it is the highest of its neighbours
+    /// across.
     fn relief(&self, at: (usize, usize)) -> f32 {
         let here = self.beside(at, (0, 0));
         let over = |(dx, dy): (isize, isize)| {

@@ -94,15 +94,16 @@ impl Gray {
         Self { samples, ..*self }
     }
 
-    /// The same picture, of edges that are off by a standard deviation of `scatter_px`, which its samples do not show.
+    /// The same picture, of edges that are off by a standard deviation of `scatter_px`, which its samples do not
+    /// show.
     #[must_use]
     pub const fn with_scatter(mut self, scatter_px: f64) -> Self {
         self.scatter_px = scatter_px;
         self
     }
 
-    /// How far off its edges are beyond what its samples show, a standard deviation, px: 0 of a grey picture, not of one
-    /// that had two levels.
+    /// How far off its edges are beyond what its samples show, a standard deviation, px: 0 of a grey picture, not of
+    /// one that had two levels.
     #[must_use]
     pub const fn scatter_px(&self) -> f64 {
         self.scatter_px

@@ -39,7 +39,8 @@ pub fn svg((w, h): (usize, usize), drawn: &Centerline) -> String {
     out + "</svg>\n"
 }
 
-/// A UFO of one glyph: a unit is a px, y up from the picture's lower edge. Dots are lines of no length, as wide as the dot.
+/// A UFO of one glyph: a unit is a px, y up from the picture's lower edge. Dots are lines of no length, as wide as
+/// the dot.
 ///
 /// # Errors
 /// The UFO cannot be written.

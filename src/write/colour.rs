@@ -8,7 +8,8 @@ use write_fonts::tables::colr::{BaseGlyph, Colr, Layer};
 use write_fonts::tables::cpal::{ColorRecord, Cpal};
 use write_fonts::types::GlyphId16;
 
-/// The palette entry that stands for the text's colour ([OpenType, COLR](https://learn.microsoft.com/typography/opentype/spec/colr)).
+/// The palette entry that stands for the text's colour ([OpenType,
+/// COLR](https://learn.microsoft.com/typography/opentype/spec/colr)).
 const FOREGROUND: u16 = 0xFFFF;
 
 /// Both tables, of a font with layers.

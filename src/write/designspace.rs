@@ -1,8 +1,8 @@
 //! A family's UFOs → a designspace: one axis, the weight.
 //!
 //! Where all glyphs of all masters have the same contours, with the same kinds of points, the axis is continuous, and
-//! fontmake and fontc build a variable font. Drawings seldom agree so: then the axis is discrete (designspace 5), each
-//! master is a style of its own, and fontmake builds them as one family.
+//! fontmake and fontc build a variable font. Drawings seldom agree so: then the axis is discrete (designspace 5),
+//! each master is a style of its own, and fontmake builds them as one family.
 
 use super::WriteError;
 use super::ufo::files::load;

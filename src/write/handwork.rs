@@ -1,10 +1,10 @@
 //! A UFO built again keeps what was done to it by hand.
 //!
-//! Every build notes in the UFO what it wrote (`khatt.built` in the libs of the font and of each glyph). Of each thing
-//! that both a hand and a build can change — a glyph's outline, one anchor, one kerning pair, one group, a field of
-//! the font's information, the features — there are then three states: built last time, lying in the UFO, built now.
-//! What only one side has changed is taken from that side; where both did, the hand's stays and is named. What
-//! no build writes is left alone: notes, guidelines, colours, layers, images, further glyphs and lib keys.
+//! Every build notes in the UFO what it wrote (`khatt.built` in the libs of the font and of each glyph). Of each
+//! thing that both a hand and a build can change — a glyph's outline, one anchor, one kerning pair, one group, a
+//! field of the font's information, the features — there are then three states: built last time, lying in the UFO,
+//! built now. What only one side has changed is taken from that side; where both did, the hand's stays and is named.
+//! What no build writes is left alone: notes, guidelines, colours, layers, images, further glyphs and lib keys.
 
 use super::WriteError;
 use super::ufo::files::{bytes, failed, load};

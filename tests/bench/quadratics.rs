@@ -4,7 +4,8 @@
     clippy::print_stdout,
     reason = "a bench times and reports"
 )]
-//! `cargo bench --bench quadratics -- FONT.otf [all] TOLERANCE…` (font units; `all`: every glyph, else 65 Latin ones).
+//! `cargo bench --bench quadratics -- FONT.otf [all] TOLERANCE…` (font units; `all`: every glyph, else 65 Latin
+//! ones).
 
 use khatt::quadratic::rate::{Rate, Strictness, glyf_bytes, glyf_points};
 use khatt::quadratic::{Method, split::Split};

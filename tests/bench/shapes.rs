@@ -148,7 +148,8 @@ fn saved(bits: [u64; 4]) -> String {
     )
 }
 
-/// Largest and mean square distance of the cubic curves of as many segments, control points on the shape [sohel sec. IV.B].
+/// Largest and mean square distance of the cubic curves of as many segments, control points on the shape [sohel sec.
+/// IV.B].
 fn descriptor(path: &str, shape: &[Point]) {
     let name = Path::new(path).file_stem().unwrap_or_default();
     for segments in 5..=10 {

@@ -384,7 +384,8 @@ impl Work<'_> {
         Some(sign.moved(foot - near))
     }
 
-    /// Where the top left corner of a sign stands at the right of a tall letter: as high as ascenders, clear of the stem.
+    /// Where the top left corner of a sign stands at the right of a tall letter: as high as ascenders, clear of the
+    /// stem.
     fn beside(&self, base: &Draft, sign: Rect) -> Option<Point> {
         let own = base.outline.bounds()?;
         let tall = ['d', 'l', 'h', 'b', 'k'].into_iter();

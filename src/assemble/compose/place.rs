@@ -1,9 +1,9 @@
 //! Where dots stand: clear of the body by the gap, over or under its head, as near as they come.
 //!
 //! A group of dots stands over or under the middle of the head. Its height follows from the ink in the columns that
-//! it covers, a gap wider on both sides: above it and above the line of the teeth, or below it and below the baseline.
-//! Beside the stem of ط the place is taken that is lowest for the way it lies from the loop's middle, and the dot of
-//! ج stands in the bowl where there is room.
+//! it covers, a gap wider on both sides: above it and above the line of the teeth, or below it and below the
+//! baseline. Beside the stem of ط the place is taken that is lowest for the way it lies from the loop's middle, and
+//! the dot of ج stands in the bowl where there is room.
 
 use crate::assemble::marks::Place;
 use crate::assemble::profile::{crossings, edges};

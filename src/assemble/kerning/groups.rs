@@ -2,8 +2,8 @@
 
 use crate::types::{Kerning, Name};
 
-/// Kerning of one group lies together so far, em: its middle is off by half of that at most. Between 0.01 and 0.03 the
-/// mean error beside fonts' kerning stays the same.
+/// Kerning of one group lies together so far, em: its middle is off by half of that at most. Between 0.01 and 0.03
+/// the mean error beside fonts' kerning stays the same.
 const LIKE: f64 = 0.02;
 
 /// Adds the pairs of glyphs and their groups: `value` by the places of two, taken away where it is worth a pair.
@@ -49,8 +49,8 @@ impl Alike {
     }
 }
 
-/// Rows of values put together, each by its place, each into the first group in which no values lie further apart than
-/// `tolerance`.
+/// Rows of values put together, each by its place, each into the first group in which no values lie further apart
+/// than `tolerance`.
 fn alike(rows: impl Iterator<Item = Vec<f64>>, tolerance: f64) -> Vec<Alike> {
     let mut out: Vec<Alike> = Vec::new();
     for (i, row) in rows.enumerate() {

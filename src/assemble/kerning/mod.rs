@@ -1,14 +1,14 @@
-//! Kerning: pairs that stand further apart than letters do are brought together. Of letters that read from the left all
-//! are looked at but capitals after small letters, which no word has; of Arabic ones those that never join the next, with
-//! all that can follow them.
+//! Kerning: pairs that stand further apart than letters do are brought together. Of letters that read from the left
+//! all are looked at but capitals after small letters, which no word has; of Arabic ones those that never join the
+//! next, with all that can follow them.
 //!
 //! How far two Latin letters stand apart is a mean over the scan lines on which both have ink, of the power −5 of the
-//! gap: near places count for more than wide ones, yet one near place, such as a crossbar, does not hide the white beside
-//! it. Each side's scan line is held against three of the other's up and down, so that a slanting gap counts by its
-//! width. What is usual is the median over all pairs of letters. A pair beyond that by more than some slack is drawn
-//! together by a share of the rest, but no ink nearer to other ink than half of what is usual. Beside the kerning of nine
-//! fonts the mean error of the pairs that those kern falls from 44 to 24 thousandths of the em (28 by the least gap alone).
-//! Of Arabic letters the least gap tells how far they stand apart.
+//! gap: near places count for more than wide ones, yet one near place, such as a crossbar, does not hide the white
+//! beside it. Each side's scan line is held against three of the other's up and down, so that a slanting gap counts
+//! by its width. What is usual is the median over all pairs of letters. A pair beyond that by more than some slack is
+//! drawn together by a share of the rest, but no ink nearer to other ink than half of what is usual. Beside the
+//! kerning of nine fonts the mean error of the pairs that those kern falls from 44 to 24 thousandths of the em (28 by
+//! the least gap alone). Of Arabic letters the least gap tells how far they stand apart.
 //!
 //! Letters whose kerning with each side opposite lies within 0.02 em form a group, which has the middle of it.
 

@@ -12,8 +12,8 @@ use kurbo::{BezPath, Point};
 /// No corner moves further than this from where it was found, tolerances.
 const CORNER_REACH: f64 = 12.0;
 
-/// The path of a contour with corners, all nodes refined at once, and whether it keeps to the tolerance; `None` where it has
-/// no corner or the curves lose their way.
+/// The path of a contour with corners, all nodes refined at once, and whether it keeps to the tolerance; `None` where
+/// it has no corner or the curves lose their way.
 pub(super) fn welded(
     joint: &Joint,
     spans: &Spans,

@@ -39,10 +39,11 @@ impl Default for Joint {
     }
 }
 
-/// Searches with half the noise each in the spans that miss the tolerance, and without extrema at lines that lie aslant.
+/// Searches with half the noise each in the spans that miss the tolerance, and without extrema at lines that lie
+/// aslant.
 const TIGHTER: usize = 2;
-/// A contour's fit that lies so many times as far from the points as its spans' own, in the root mean square, has lost its
-/// way.
+/// A contour's fit that lies so many times as far from the points as its spans' own, in the root mean square, has
+/// lost its way.
 const DERAILED: f64 = 1.4;
 /// With so few points their own polygon is better than curves that miss the tolerance.
 const FEW: usize = 6;
@@ -150,8 +151,8 @@ impl Joint {
         })
     }
 
-    /// The path that ends where the span does, how many numbers of it were free, and how far it is off: the most refined
-    /// one that keeps to the span, for a least-squares step can throw a handle far out.
+    /// The path that ends where the span does, how many numbers of it were free, and how far it is off: the most
+    /// refined one that keeps to the span, for a least-squares step can throw a handle far out.
     fn pinned(&self, span: Span<'_>, tolerance_px: f64) -> Option<(BezPath, usize, Judgement)> {
         let s = [Samples::new(span)];
         let mut found = self.search(&s, tolerance_px, |mut drafts| drafts.pop())?;

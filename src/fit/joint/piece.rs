@@ -16,8 +16,8 @@ const TURN: f64 = 0.03;
 const TURN_END: f64 = 0.3;
 /// Steps of Gauss–Newton.
 const ROUNDS: usize = 4;
-/// A cubic whose cost is so many times what it may be, and so many nats more, once its first step is taken bends too hard
-/// for one: what further steps would find there rounds a corner.
+/// A cubic whose cost is so many times what it may be, and so many nats more, once its first step is taken bends too
+/// hard for one: what further steps would find there rounds a corner.
 const FAR: f64 = 25.0;
 /// Usual length of a handle, chords, and its spread.
 const HANDLE: (f64, f64) = (0.37, 0.4);

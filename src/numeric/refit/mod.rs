@@ -349,8 +349,8 @@ impl Refit {
         })
     }
 
-    /// Moves a foot to the nearest place near by; returns how far it is from the sample along a unit vector, and that vector:
-    /// the normal there, or beyond an end the way from the sample.
+    /// Moves a foot to the nearest place near by; returns how far it is from the sample along a unit vector, and that
+    /// vector: the normal there, or beyond an end the way from the sample.
     fn slide(&self, at: Point, foot: &mut Foot) -> (f64, Vec2) {
         let n = self.powers.len();
         foot.segment = foot.segment.min(n - 1);

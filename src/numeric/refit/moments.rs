@@ -1,8 +1,8 @@
 //! Sums over the samples of a segment, from which its block of the normal equations follows.
 //!
-//! A distance changes with control point i by Bᵢ(t) n: all rows of a segment are products of four functions of t and the two
-//! parts of the normal with numbers that are the same for all its samples. So the products' moments are summed, several
-//! samples side by side, and the numbers come in once a segment.
+//! A distance changes with control point i by Bᵢ(t) n: all rows of a segment are products of four functions of t and
+//! the two parts of the normal with numbers that are the same for all its samples. So the products' moments are
+//! summed, several samples side by side, and the numbers come in once a segment.
 
 use super::Block;
 use crate::numeric::chain::{Chain, Kind};

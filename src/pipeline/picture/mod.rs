@@ -19,7 +19,8 @@ use kurbo::{Affine, BezPath};
 /// counter-clockwise, holes clockwise. Nothing for a picture without ink. Ink that the picture's edge cuts ends
 /// there, straight.
 ///
-/// A picture out of focus is traced in larger pixels ([`trace::focused`]); lengths in the options are those of its own.
+/// A picture out of focus is traced in larger pixels ([`trace::focused`]); lengths in the options are those of its
+/// own.
 ///
 /// # Errors
 /// An option of the fitter is outside its range.
@@ -71,15 +72,16 @@ fn look_at_grey(options: &Options) -> bool {
     matches!(options.fit, fit::Method::Joint(_)) && options.trace.boundary == Boundary::Iso
 }
 
-/// The picture with its ink at one level where it is pale in many places; in grey levels, for the methods that look at
-/// them, where it has but two.
+/// The picture with its ink at one level where it is pale in many places; in grey levels, for the methods that look
+/// at them, where it has but two.
 fn legible(gray: &Gray, options: &Options) -> Option<Gray> {
     let looks = look_at_grey(options);
     let soft = looks.then(|| scan::softened(gray)).flatten();
     soft.or_else(|| scan::shaded(gray))
 }
 
-/// The picture in larger pixels, for the methods that look at grey levels, where it is out of focus; and the side of one.
+/// The picture in larger pixels, for the methods that look at grey levels, where it is out of focus; and the side of
+/// one.
 fn focused(gray: &Gray, contours: &[Contour], options: &Options) -> Option<(Gray, usize)> {
     let seen = contours.first().filter(|_| look_at_grey(options))?;
     trace::focused(gray, seen.blur_px())

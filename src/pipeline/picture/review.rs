@@ -20,8 +20,8 @@ const MOST_LOST: usize = 4;
 /// Times that a contour which was fit again is looked at once more.
 const REVISIONS: usize = 3;
 
-/// The paths of contours, those with doubtful corners fit again as far as the picture bears it out, and all nodes settled
-/// in the picture and wrong places mended.
+/// The paths of contours, those with doubtful corners fit again as far as the picture bears it out, and all nodes
+/// settled in the picture and wrong places mended.
 pub(super) fn reviewed(
     coverage: &Gray,
     found: &[Cornered],
@@ -59,8 +59,8 @@ pub(super) fn reviewed(
 /// Paths, and the places where they leave out a part of the drawing.
 type Drawn = (Vec<BezPath>, Vec<Point>);
 
-/// The contours without the corners beside which parts of the drawing are lost, and their paths: sides that a corner was
-/// found from can lie beyond a short serif, which it then cuts off. Nothing where they bring no part back.
+/// The contours without the corners beside which parts of the drawing are lost, and their paths: sides that a corner
+/// was found from can lie beyond a short serif, which it then cuts off. Nothing where they bring no part back.
 fn completed(
     coverage: &Gray,
     found: &[Cornered],

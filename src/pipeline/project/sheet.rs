@@ -34,8 +34,8 @@ pub struct SheetTable {
     /// How the picture's numbers tell light.
     #[serde(default)]
     pub tones: Tones,
-    /// Which ink the letters are drawn with, where the page has other colours too; a list of inks makes each of them a
-    /// layer of a colour font, the lowest first.
+    /// Which ink the letters are drawn with, where the page has other colours too; a list of inks makes each of them
+    /// a layer of a colour font, the lowest first.
     #[serde(default)]
     pub ink: Inks,
     /// What the cells hold, in reading order.

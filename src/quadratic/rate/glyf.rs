@@ -125,8 +125,9 @@ pub(super) fn points(path: &BezPath) -> Vec<Stored> {
     .collect()
 }
 
-/// What an outline of lines and quadratics takes in the `glyf` table, bytes without padding;
-/// contours run clockwise outside as TrueType stores them, coordinates are rounded, on-curve points half way between off-curve neighbours dropped.
+/// What an outline of lines and quadratics takes in the `glyf` table, bytes without padding; contours run clockwise
+/// outside as TrueType stores them, coordinates are rounded, on-curve points half way between off-curve neighbours
+/// dropped.
 #[must_use]
 pub fn glyf_bytes(outline: &Outline) -> u32 {
     let turned = outline.contours().iter().map(BezPath::reverse_subpaths);

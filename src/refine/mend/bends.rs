@@ -92,8 +92,8 @@ impl<'a> Way<'a> {
     }
 }
 
-/// An open chain with a corner near `p`, where its sides lead from `px` before and after that place; `None` where it ends
-/// before.
+/// An open chain with a corner near `p`, where its sides lead from `px` before and after that place; `None` where it
+/// ends before.
 pub(super) fn cornered(chain: &Chain, p: Point, px: f64) -> Option<Chain> {
     let last = chain.kinds.len();
     let off = |i: usize| (i, chain.cubic(i).nearest(p, NEAREST_PX));
@@ -145,7 +145,8 @@ pub(super) fn is_sharp(chain: &Chain, i: usize) -> bool {
     (-u.cross(v)).atan2(-u.dot(v)).abs() > SHARP && leads(&before, u) && leads(&after, v)
 }
 
-/// Where two rays meet, the second one backwards, and how far along each; halfway between their starts where they do not.
+/// Where two rays meet, the second one backwards, and how far along each; halfway between their starts where they do
+/// not.
 pub(super) fn meeting((p, u): (Point, Vec2), (q, v): (Point, Vec2)) -> (Point, f64, f64) {
     let gap = q - p;
     let cross = u.cross(v);
@@ -158,7 +159,8 @@ pub(super) fn meeting((p, u): (Point, Vec2), (q, v): (Point, Vec2)) -> (Point, f
     }
 }
 
-/// The segment and the parameter on it `px` further on than `from` on the first of some segments that follow each other.
+/// The segment and the parameter on it `px` further on than `from` on the first of some segments that follow each
+/// other.
 fn walked(
     segments: impl Iterator<Item = (usize, CubicBez)>,
     from: f64,

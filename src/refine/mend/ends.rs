@@ -13,8 +13,8 @@ use std::ops::Range;
 
 /// What of a corner's end the pixels are asked about, px along each side.
 const END_PX: f64 = 1.0;
-/// The line across an end is as long, px: a shorter one mends what a corner's model is off by. Each of its corners turns by
-/// more, radians.
+/// The line across an end is as long, px: a shorter one mends what a corner's model is off by. Each of its corners
+/// turns by more, radians.
 const LINE_PX: Range<f64> = 0.75..4.0;
 const TURN: f64 = 0.3;
 

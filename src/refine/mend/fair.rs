@@ -7,8 +7,8 @@ use kurbo::{ParamCurve, Vec2};
 /// A smooth node does not turn by more than this, radians, in such a part of both its curves.
 const HIDDEN: f64 = 1.2;
 const BESIDE: f64 = 0.3;
-/// A curve leaves its chord by no more than this, radians; each of its handles reaches no further along it than so many of
-/// the chord, and both together are no longer than so many.
+/// A curve leaves its chord by no more than this, radians; each of its handles reaches no further along it than so
+/// many of the chord, and both together are no longer than so many.
 const HOOK: f64 = 1.75;
 const PAST: f64 = 1.1;
 const LONG: f64 = 2.0;

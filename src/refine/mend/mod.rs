@@ -12,11 +12,11 @@
 //! | [`ends`] | a path's corner | whether its end may be cut off |
 //! | [`bends`] | a path | its tight bends, and the corners that may stand in their place |
 //!
-//! What is left of the picture around an edge tells where a fit is wrong, and by how much. There the few nodes near by are
-//! fit to the pixels themselves, as they stand and with a node or corner more or less; what leaves least for its nodes is kept.
-//! Between such looks the levels of ink and paper are read again: what a path did not follow had passed for a part of them.
-//! In the end bends that a lens cannot tell from corners become corners, where the pixels do not speak against it, and corners
-//! lose their ends, where the pixels ask for it; tips come last.
+//! What is left of the picture around an edge tells where a fit is wrong, and by how much. There the few nodes near
+//! by are fit to the pixels themselves, as they stand and with a node or corner more or less; what leaves least for
+//! its nodes is kept. Between such looks the levels of ink and paper are read again: what a path did not follow had
+//! passed for a part of them. In the end bends that a lens cannot tell from corners become corners, where the pixels
+//! do not speak against it, and corners lose their ends, where the pixels ask for it; tips come last.
 
 mod bends;
 mod beside;
@@ -68,17 +68,18 @@ const HINT: f64 = 0.3;
 const PASSES: usize = 4;
 /// One that was tried in vain is looked at again beside a change, or where the squares have changed by such a part.
 const NEW: f64 = 0.01;
-/// What is cut off a tip may leave so many squares more: a loop that no pixel holds leaves 0.2 at most, a lobe behind a narrow
-/// neck two and more. Where it leaves more the cut is tried so many steps nearer to the tip.
+/// What is cut off a tip may leave so many squares more: a loop that no pixel holds leaves 0.2 at most, a lobe behind
+/// a narrow neck two and more. Where it leaves more the cut is tried so many steps nearer to the tip.
 const LOBE: f64 = 0.5;
 const LESS: usize = 4;
-/// How far the nodes around move, px, and what each px of the lens' deviation adds; and times this where that mends little.
+/// How far the nodes around move, px, and what each px of the lens' deviation adds; and times this where that mends
+/// little.
 const REACH_PX: f64 = 6.0;
 const REACH_LENS: f64 = 2.0;
 const WIDE: f64 = 2.0;
 
-/// The paths, changed where a few nodes explain the picture better, and with nodes at all extrema in the end; and the places
-/// where they leave out a part of the drawing that no change of a few nodes brought back.
+/// The paths, changed where a few nodes explain the picture better, and with nodes at all extrema in the end; and the
+/// places where they leave out a part of the drawing that no change of a few nodes brought back.
 pub(super) fn mended(residual: &Residual<'_>, paths: &[BezPath]) -> (Vec<BezPath>, Vec<Point>) {
     let mut work = Work::new(residual, paths);
     work.mend();
@@ -142,8 +143,8 @@ impl Work<'_> {
         self.trim(0.0);
     }
 
-    /// The places that were tried in vain where more is left than an edge leaves that is a little off; none where the budget
-    /// is why.
+    /// The places that were tried in vain where more is left than an edge leaves that is a little off; none where the
+    /// budget is why.
     fn lost(&self) -> Vec<Point> {
         if self.work.is_spent() {
             return Vec::new();
@@ -170,8 +171,8 @@ impl Work<'_> {
         both.map(finished).collect()
     }
 
-    /// Cuts the ends off tips whose sides are no more than `one_px` apart or have crossed, where the picture does not ask for them.
-    /// Whether there were any.
+    /// Cuts the ends off tips whose sides are no more than `one_px` apart or have crossed, where the picture does not
+    /// ask for them. Whether there were any.
     fn trim(&mut self, one_px: f64) -> bool {
         let mut trimmed = false;
         for k in 0..self.chains.len() {
@@ -281,7 +282,8 @@ impl Work<'_> {
         }
     }
 
-    /// Moves tips to where the pixels have them. They are too few for a wrong place: tips of 15° were 0.4 px short on scans.
+    /// Moves tips to where the pixels have them. They are too few for a wrong place: tips of 15° were 0.4 px short on
+    /// scans.
     fn settle(&mut self) {
         for (k, at) in self.nodes(|c, i| tip(c, i).is_some()) {
             self.change(k, at, Look::Tip);
@@ -334,8 +336,8 @@ impl Work<'_> {
             .then_some(moved)
     }
 
-    /// Puts a chain in the place of ring `k`, unless the squares grow by `more`, outlines cross that did not, or it is
-    /// the same; whether it is there now.
+    /// Puts a chain in the place of ring `k`, unless the squares grow by `more`, outlines cross that did not, or it
+    /// is the same; whether it is there now.
     fn put(&mut self, k: usize, chain: Chain, more: f64) -> bool {
         let old = self.chains[k].as_ref();
         let Some(bounds) = old.and_then(|old| changed(old, &chain)) else {

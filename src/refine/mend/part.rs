@@ -49,7 +49,8 @@ pub(super) fn open_part(chain: &Chain, count: usize) -> Chain {
     part
 }
 
-/// The ring with its first `count` segments as they are in `part`, and by how much its control points stray from that, px.
+/// The ring with its first `count` segments as they are in `part`, and by how much its control points stray from
+/// that, px.
 pub(super) fn put_back(mut chain: Chain, part: Chain, count: usize) -> Option<(Chain, f64)> {
     let n = chain.kinds.len();
     let inner = (0..part.kinds.len()).map(|i| part.cubic(i));

@@ -20,14 +20,14 @@ use kurbo::{ParamCurveNearest, Point};
 /// Differences are summed up so far around a place, px, which are so many pixels.
 pub(super) const NEAR_PX: f64 = 4.0;
 const NEAR: f64 = 81.0;
-/// The part of what is wrong there, beyond grain, that nodes must mend to move at all; and beside a tip, of whose length few
-/// pixels tell.
+/// The part of what is wrong there, beyond grain, that nodes must mend to move at all; and beside a tip, of whose
+/// length few pixels tell.
 const GAIN: f64 = 0.3;
 const TIP_GAIN: f64 = 0.1;
 /// Which is never more than what so many pixels' grain would make of it.
 const TIP_GAIN_GRAIN: f64 = 6.0;
-/// A chain into which a part is put back stays if no control point moves further for it, px; with so many segments more at
-/// each side fit again, none moves further than this.
+/// A chain into which a part is put back stays if no control point moves further for it, px; with so many segments
+/// more at each side fit again, none moves further than this.
 const STAYS_PX: f64 = 0.02;
 const ALONG: usize = 2;
 const MOVES_PX: f64 = 0.1;
@@ -90,8 +90,8 @@ pub(super) struct Place<'a> {
 }
 
 impl Place<'_> {
-    /// The chain with what is better within `reach` px of the place: at a wrong one its nodes where the pixels have them, if
-    /// that explains enough more, at a bend a corner, if that explains as much.
+    /// The chain with what is better within `reach` px of the place: at a wrong one its nodes where the pixels have
+    /// them, if that explains enough more, at a bend a corner, if that explains as much.
     pub(super) fn mended(&self, look: Look, reach: f64) -> Option<Mended> {
         let (start, count) = self.run(reach)?;
         let ring = begun_at(self.chain, start);
@@ -135,8 +135,8 @@ impl Place<'_> {
         Some(Mended { chain, moved })
     }
 
-    /// A chain in whose place for `count` segments of a ring others are that took a line beside them along: what is beside
-    /// them is fit with them.
+    /// A chain in whose place for `count` segments of a ring others are that took a line beside them along: what is
+    /// beside them is fit with them.
     fn eased(
         &self,
         (ring, count): (&Chain, usize),
@@ -195,8 +195,8 @@ impl Place<'_> {
         others.map(|(_, r)| r.chords.as_slice())
     }
 
-    /// The first segment of those that may move, and how many they are: those that end in a node within `reach` px, and
-    /// what a line of them takes along.
+    /// The first segment of those that may move, and how many they are: those that end in a node within `reach` px,
+    /// and what a line of them takes along.
     fn run(&self, reach: f64) -> Option<(usize, usize)> {
         let (first, count) = self.near(reach)?;
         let chain = self.chain;
@@ -211,7 +211,8 @@ impl Place<'_> {
         Some(((first + n - before) % n, before + count + after))
     }
 
-    /// The first segment of those that end in a node within `reach` px, in a row with the nearest one, and how many they are.
+    /// The first segment of those that end in a node within `reach` px, in a row with the nearest one, and how many
+    /// they are.
     fn near(&self, reach: f64) -> Option<(usize, usize)> {
         let chain = self.chain;
         let n = chain.kinds.len();

@@ -30,7 +30,8 @@ const TIP: (f64, f64) = (0.03, 0.2);
 const ASTRAY: f64 = 1.1;
 /// A smooth node so near to an axis is an extremum, radians.
 const AXIS: f64 = 0.15;
-/// A node is at home within so many reaches of its place, a tip within as many, or so near to the path that was there, px.
+/// A node is at home within so many reaches of its place, a tip within as many, or so near to the path that was
+/// there, px.
 const HOME: f64 = 1.5;
 pub(super) const FAR: f64 = 3.0;
 const HOME_PX: f64 = 2.0;
@@ -79,7 +80,8 @@ impl Search<'_> {
         now.sound.then_some(now)
     }
 
-    /// The structure as it is, with its nodes where the pixels have them, if that is sound and both sides lead to its tip.
+    /// The structure as it is, with its nodes where the pixels have them, if that is sound and both sides lead to its
+    /// tip.
     pub(super) fn settled(&self) -> Option<Fitted> {
         let now = self.fit(self.part.clone(), f64::INFINITY);
         let tips = (1..now.chain.kinds.len()).filter(|i| tip(&now.chain, *i).is_some());
@@ -88,7 +90,8 @@ impl Search<'_> {
         (now.sound && is_sharp(&now.chain, nearest)).then_some(now)
     }
 
-    /// The structure with a corner in place of the bend there, if it is sound and leaves no more than `more` squares more.
+    /// The structure with a corner in place of the bend there, if it is sound and leaves no more than `more` squares
+    /// more.
     pub(super) fn sharpened(&self, more: f64) -> Option<Fitted> {
         let now = self.fit(self.part.clone(), f64::INFINITY);
         let left = if now.sound {
@@ -110,8 +113,8 @@ impl Search<'_> {
         found
     }
 
-    /// The structure with a line across the end of the corner there, if it is sound and leaves no more than `more` squares more,
-    /// which is negative: fewer.
+    /// The structure with a line across the end of the corner there, if it is sound and leaves no more than `more`
+    /// squares more, which is negative: fewer.
     pub(super) fn blunted(&self, more: f64) -> Option<Fitted> {
         let now = self.fit(self.part.clone(), f64::INFINITY);
         let (from, left) = if now.sound {

@@ -1,7 +1,7 @@
 //! Outlines that cross each other or themselves, and did not before they were mended.
 //!
-//! On the way to what explains a picture best they may: what crosses there is mostly cut off, or pulled apart again, and few
-//! places are mended as well without that.
+//! On the way to what explains a picture best they may: what crosses there is mostly cut off, or pulled apart again,
+//! and few places are mended as well without that.
 
 use super::{Ring, Work, read, rings};
 use crate::refine::crossings::crossings;

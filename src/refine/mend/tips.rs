@@ -1,7 +1,8 @@
 //! Tips: acute corners, and what of them no picture can hold.
 //!
-//! Where two sides run on as one, or cross before they end in a corner, there is no ink (or no paper) between them: a needle
-//! or a loop that no pixel speaks against. Such an end is cut off where its sides part. So are small loops at other corners.
+//! Where two sides run on as one, or cross before they end in a corner, there is no ink (or no paper) between them: a
+//! needle or a loop that no pixel speaks against. Such an end is cut off where its sides part. So are small loops at
+//! other corners.
 
 use super::side::{behind, reversed, unit};
 use crate::{
@@ -75,8 +76,8 @@ pub(super) fn is_needle(chain: &Chain, i: usize) -> bool {
     u.dot(v) > 0.0 && u.cross(v).abs() < NEEDLE
 }
 
-/// The ring without the end of its corner `i`, cut off where its sides are no more than `one_px` apart last or cross, among their
-/// first `steps`; and the step of that place.
+/// The ring without the end of its corner `i`, cut off where its sides are no more than `one_px` apart last or cross,
+/// among their first `steps`; and the step of that place.
 pub(super) fn trimmed(ring: &Chain, i: usize, one_px: f64, steps: usize) -> Option<(Chain, usize)> {
     let (last, ends) = parting(ring, i, one_px, steps)?;
     Some((cut(ring, i, ends), last))

@@ -119,8 +119,8 @@ fn other_kind(chain: &Chain, i: usize) -> Chain {
     out
 }
 
-/// With the end of a line at node `i` bent, from a new node `px` before it on: by a curve that leaves the line smoothly, or by
-/// another line.
+/// With the end of a line at node `i` bent, from a new node `px` before it on: by a curve that leaves the line
+/// smoothly, or by another line.
 fn bent(chain: &Chain, (line, i): (usize, usize), px: f64) -> Vec<Chain> {
     let c = chain.cubic(line);
     let part = px / c.p0.distance(c.p3);

@@ -1,7 +1,7 @@
 //! The coverage from which ink counts, one at which printed lines hold together.
 //!
-//! Thin lines of a page out of focus are pale. Where they are as pale as that level they fall to pieces, and with them
-//! what their lattice tells: the pieces pass for parts of the letters that they touch.
+//! Thin lines of a page out of focus are pale. Where they are as pale as that level they fall to pieces, and with
+//! them what their lattice tells: the pieces pass for parts of the letters that they touch.
 
 use super::sieve::{LATTICE_COVER, LINE};
 use crate::scan::components::{Component, components};

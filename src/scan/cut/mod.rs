@@ -1,6 +1,7 @@
 //! A clean page → its [`Cell`]s: ink is joined to letters, letters to cells, cells get their guides.
 //!
-//! Nothing is lost: every piece of ink above the speckle limit is in a cell or in [`Cut::rejected`]. The way of the ink:
+//! Nothing is lost: every piece of ink above the speckle limit is in a cell or in [`Cut::rejected`]. The way of the
+//! ink:
 //!
 //! | room | what happens there |
 //! |---|---|
@@ -175,7 +176,8 @@ struct Slot {
     index: usize,
     /// Row of letters that share a baseline.
     row: usize,
-    /// A height from which the baseline is equally far in all cells of a row, upright px, where rows are ruled or even.
+    /// A height from which the baseline is equally far in all cells of a row, upright px, where rows are ruled or
+    /// even.
     level: f64,
     /// Indices of its pieces of ink.
     parts: Vec<usize>,

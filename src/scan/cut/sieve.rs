@@ -137,8 +137,8 @@ pub(super) fn dot_limit(stroke: f64) -> f64 {
     (DOT * stroke).powi(2)
 }
 
-/// The page's usual stroke width, px: the median over the ink, each piece by its area. Printed lines can have more ink than
-/// all letters, so what is long for the page and hollow or thin does not count.
+/// The page's usual stroke width, px: the median over the ink, each piece by its area. Printed lines can have more
+/// ink than all letters, so what is long for the page and hollow or thin does not count.
 pub(super) fn stroke_width(all: &[Component]) -> f64 {
     let page = all.iter().map(|c| c.bounds).reduce(|a, b| a.union(b));
     let side = page.map_or(0.0, |p| p.width().max(p.height()));

@@ -1,8 +1,8 @@
 //! Whether letters stand as their names say: what tells which way up a page is, and that names have slipped.
 //!
 //! Feet on one line, capitals of one height, small letters lower, tails below, dots above or below, stems on the
-//! left. A page read on its side or head gives names to other letters, and hardly one of these holds. Nor do they where
-//! a name is missing in the list: from there on each letter has its neighbour's.
+//! left. A page read on its side or head gives names to other letters, and hardly one of these holds. Nor do they
+//! where a name is missing in the list: from there on each letter has its neighbour's.
 
 use super::{Layer, Slot, Warning};
 use crate::numeric::median::median;
@@ -23,8 +23,9 @@ const BALANCED: f64 = 0.01;
 /// What capitals are high, and small letters.
 const CAPITAL: [Head; 2] = [Head::Cap, Head::CapBow];
 const SMALL: [Head; 2] = [Head::X, Head::XBow];
-/// Things that speak against a stretch's own names, and not against those beside them, from which on it is said: 2.0 on the
-/// worst of 40 pages whose names were right but for a font of key caps, 3 or more where a name lacks in the first three quarters of one.
+/// Things that speak against a stretch's own names, and not against those beside them, from which on it is said: 2.0
+/// on the worst of 40 pages whose names were right but for a font of key caps, 3 or more where a name lacks in the
+/// first three quarters of one.
 const SHIFTED: f64 = 2.5;
 
 /// A letter's name and ink.
@@ -95,8 +96,8 @@ impl Stance {
         }
     }
 
-    /// How badly letters stand, 0 to 1: the worst of the things that their names say of enough of them; `None` where the
-    /// names say too little.
+    /// How badly letters stand, 0 to 1: the worst of the things that their names say of enough of them; `None` where
+    /// the names say too little.
     pub(super) fn misfit(&self) -> Option<f64> {
         let lists = CLAIMS.iter().map(|claim| {
             let letters = self.drawn.iter();
@@ -109,7 +110,8 @@ impl Stance {
             .reduce(f64::max)
     }
 
-    /// A remark where a stretch of cells stands far better for the names one place before or after their own, in `labels`.
+    /// A remark where a stretch of cells stands far better for the names one place before or after their own, in
+    /// `labels`.
     pub(super) fn shifted(&self, labels: &[Label]) -> Option<Warning> {
         let names = GlyphData::default();
         let shapes: Vec<Shape> = labels.iter().map(|l| Shape::of(l, &names)).collect();
@@ -135,8 +137,8 @@ impl Stance {
         })
     }
 
-    /// How much better a stretch of cells stands for `other` names than for its own, and its first and last position in
-    /// reading order: of all stretches the one that gains most.
+    /// How much better a stretch of cells stands for `other` names than for its own, and its first and last position
+    /// in reading order: of all stretches the one that gains most.
     fn stretch<'a>(&self, other: impl Fn(usize) -> Option<&'a Shape>) -> (f64, usize, usize) {
         let (mut best, mut here) = ((0.0, 0, 0), (0.0, 0));
         for d in &self.drawn {

@@ -200,8 +200,9 @@ impl Patch {
         new
     }
 
-    /// Clears what is as dark as `least` and runs from beside a cell's own ink, from which each pixel is `own` thirds of one away, to far from it:
-    /// a faint printed line is not the letter's where it passes it, either. The end of a stroke that fades out does not run on so far.
+    /// Clears what is as dark as `least` and runs from beside a cell's own ink, from which each pixel is `own` thirds
+    /// of one away, to far from it: a faint printed line is not the letter's where it passes it, either. The end of a
+    /// stroke that fades out does not run on so far.
     fn clear_passing(&mut self, own: &[u16], least: f32) {
         let width = self.width;
         let beyond = |reach: u16, x: usize, y: usize| own[y * width + x] > 3 * reach;

@@ -36,8 +36,8 @@ pub enum Grain {
     /// In blocks: enough to tell pieces of ink apart. Ink is what luma says.
     #[default]
     Blocks,
-    /// In pixels: layers are to be made of the inks. Ink is what the darkest of red, green and blue says, so that light
-    /// colours count as much as dark ones.
+    /// In pixels: layers are to be made of the inks. Ink is what the darkest of red, green and blue says, so that
+    /// light colours count as much as dark ones.
     Pixels,
 }
 
@@ -227,8 +227,8 @@ fn light(
     })
 }
 
-/// Whether a picture file says itself that its numbers are not in proportion to light, so that [`Tones::Profile`] reads
-/// it otherwise than [`Tones::Linear`]: its first page, and not of a PDF file.
+/// Whether a picture file says itself that its numbers are not in proportion to light, so that [`Tones::Profile`]
+/// reads it otherwise than [`Tones::Linear`]: its first page, and not of a PDF file.
 #[must_use]
 pub fn describes_light(bytes: &[u8]) -> bool {
     let told = |mut decoder: Box<dyn ImageDecoder + '_>| profile::of_file(bytes, &mut decoder).ok();

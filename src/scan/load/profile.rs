@@ -12,8 +12,8 @@ const RISE: f32 = 0.01;
 /// What `gAMA` writes for a gamma of 1.
 const GAMA: f64 = 100_000.0;
 
-/// The light of a picture file's numbers, in the order of PNG (third edition, sec. 4.3): what `cICP` says, an ICC profile,
-/// `sRGB`, `gAMA`, and then Exif.
+/// The light of a picture file's numbers, in the order of PNG (third edition, sec. 4.3): what `cICP` says, an ICC
+/// profile, `sRGB`, `gAMA`, and then Exif.
 pub(super) fn of_file(bytes: &[u8], decoder: &mut dyn ImageDecoder) -> Result<Light, String> {
     let chunk = |kind| header::png_chunk(bytes, kind);
     if let Some(points) = chunk(b"cICP") {

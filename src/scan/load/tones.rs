@@ -6,8 +6,9 @@ use std::sync::Arc;
 
 /// How a picture's numbers tell how much light came from a place.
 ///
-/// Where an edge runs through a pixel, lens and sensor add up the light of both its sides. Edges lie where half of the light is
-/// there, so that numbers which are no measure of it put them elsewhere: sRGB's half is a fifth of the light.
+/// Where an edge runs through a pixel, lens and sensor add up the light of both its sides. Edges lie where half of
+/// the light is there, so that numbers which are no measure of it put them elsewhere: sRGB's half is a fifth of the
+/// light.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Tones {
@@ -16,8 +17,8 @@ pub enum Tones {
     Linear,
     /// As IEC 61966-2-1 has it: what cameras write, and scanners unless they are told otherwise.
     Srgb,
-    /// As the file itself says: by its ICC profile, by `cICP`, `sRGB` or `gAMA` of a PNG, by the colour space of Exif where
-    /// that is sRGB, or by the colour space of a scan in a PDF.
+    /// As the file itself says: by its ICC profile, by `cICP`, `sRGB` or `gAMA` of a PNG, by the colour space of Exif
+    /// where that is sRGB, or by the colour space of a scan in a PDF.
     Profile,
 }
 

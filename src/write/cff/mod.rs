@@ -38,8 +38,8 @@ const NOMINAL_WIDTH: u16 = 21;
 /// Glyph count up to which the predefined charset can serve: its last string is number 228.
 const ISO_ADOBE_LAST: usize = 228;
 
-/// The table: `shapes` and `advances` in glyph-id order, `bounds` around all of them; `post` says of the underline and
-/// the pitch what this table says again.
+/// The table: `shapes` and `advances` in glyph-id order, `bounds` around all of them; `post` says of the underline
+/// and the pitch what this table says again.
 pub(super) fn table(
     font: &Font,
     post: &Post,

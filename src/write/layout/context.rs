@@ -8,8 +8,8 @@ use write_fonts::read::tables::layout::{ChainedSequenceContext, SequenceContext}
 use write_fonts::read::{FontData, FontRead};
 
 /// The longest run of glyphs, from the first that changes to the last that is looked at, in these tables; what cannot
-/// be read counts nothing. Marks and cursive joins count nothing either, as in other compilers: the specification names
-/// pairs, ligatures and contexts.
+/// be read counts nothing. Marks and cursive joins count nothing either, as in other compilers: the specification
+/// names pairs, ligatures and contexts.
 pub(in crate::write) fn longest(gsub: &[u8], gpos: &[u8]) -> u16 {
     let substitutions = || {
         let table = Gsub::read(FontData::new(gsub)).ok()?;

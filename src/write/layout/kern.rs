@@ -10,8 +10,8 @@ use std::collections::BTreeSet;
 use unicode_bidi::{BidiClass, bidi_class};
 use write_fonts::dump_table;
 
-/// Pairs of glyphs first, then a glyph and a group, a group and a glyph, and groups: the first rule that fits counts, and so
-/// UFO ranks them.
+/// Pairs of glyphs first, then a glyph and a group, a group and a glyph, and groups: the first rule that fits counts,
+/// and so UFO ranks them.
 pub(super) fn feature(font: &Font) -> String {
     let kerning = &font.kerning;
     let leftward = leftward(font);
@@ -95,8 +95,8 @@ fn from_right(font: &Font) -> BTreeSet<&str> {
         .collect()
 }
 
-/// GSUB of the font's own features; `None` where they have no substitution or do not compile, which the compiler of all
-/// features says.
+/// GSUB of the font's own features; `None` where they have no substitution or do not compile, which the compiler of
+/// all features says.
 fn substitutions(font: &Font) -> Option<Vec<u8>> {
     let made = compiled(font, SOURCE, &font.features).ok()?;
     dump_table(made.gsub.as_ref()?).ok()

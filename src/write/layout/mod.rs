@@ -54,8 +54,8 @@ pub fn text(font: &Font) -> String {
     out
 }
 
-/// The font's own features with those of a text that compiles by itself: one feature text, its language systems at the
-/// head.
+/// The font's own features with those of a text that compiles by itself: one feature text, its language systems at
+/// the head.
 #[must_use]
 pub fn with_features(font: &Font, text: &str) -> String {
     let read = |text: &str| {

@@ -48,8 +48,8 @@ impl Source {
         self.features.contains(tag)
     }
 
-    /// This text and another one after it, the language systems of both at the head, those of the default script first as the
-    /// syntax asks.
+    /// This text and another one after it, the language systems of both at the head, those of the default script
+    /// first as the syntax asks.
     pub(super) fn joined(&self, more: &Self) -> String {
         let mut systems: Vec<&(String, String)> =
             self.systems.iter().chain(&more.systems).collect();

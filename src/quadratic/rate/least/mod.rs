@@ -1,13 +1,13 @@
 //! How few bytes an outline can do with: a bound from below that no search enters.
 //!
-//! Every stored point takes its flag and the steps to it. Between corners, ends of lines and extrema a single
-//! control point does only where one of all the quadratics on the grid lies near the whole curve; the bytes of
-//! its steps are known but for how far the ends may move. Otherwise there are two control points at least, each
-//! a byte away from the point before; two between a level and an upright tangent stand aslant, as on both lines
-//! at once there is one point only. Where that alone leads from extremum to extremum, again and again, the joins
-//! lie half way between such points or are stored themselves. Equal flags are stored once where three follow each other, which only lines
-//! that run alike ask for: a point more takes as many bytes as it could save. Of each contour one step is not
-//! stored, but that to its first point.
+//! Every stored point takes its flag and the steps to it. Between corners, ends of lines and extrema a single control
+//! point does only where one of all the quadratics on the grid lies near the whole curve; the bytes of its steps are
+//! known but for how far the ends may move. Otherwise there are two control points at least, each a byte away from
+//! the point before; two between a level and an upright tangent stand aslant, as on both lines at once there is one
+//! point only. Where that alone leads from extremum to extremum, again and again, the joins lie half way between such
+//! points or are stored themselves. Equal flags are stored once where three follow each other, which only lines that
+//! run alike ask for: a point more takes as many bytes as it could save. Of each contour one step is not stored, but
+//! that to its first point.
 
 mod single;
 

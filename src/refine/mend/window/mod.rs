@@ -3,8 +3,8 @@
 //! Solves   min Σ (seen − blurred fill)² over the window's pixels + Σ (way of the curves from their edges beyond it)²,  over the
 //! numbers of the nodes inside. Gauss–Newton with Levenberg's damping ([`normal`]).
 //!
-//! Where an outline turns within the lens' reach no point of its contour tells where it is by itself: the picture of the
-//! whole place does.
+//! Where an outline turns within the lens' reach no point of its contour tells where it is by itself: the picture of
+//! the whole place does.
 
 mod normal;
 mod numbers;
@@ -35,7 +35,8 @@ const MOST_ANCHORS: f64 = 32.0;
 const SHIFT_PX: f64 = 1.0;
 /// Steps of the least squares.
 const STEPS: usize = 20;
-/// A step that lowers what is left beyond grain by less than this part, or the squares by less than this, is the last.
+/// A step that lowers what is left beyond grain by less than this part, or the squares by less than this, is the
+/// last.
 const PROGRESS: f64 = 0.005;
 const LITTLE: f64 = 3e-4;
 /// Steps as good as the last that a fit is trusted to take still.
@@ -80,7 +81,8 @@ pub(super) struct Drawn {
     chords: Vec<Vec<Point>>,
     /// segment and parameter nearest to each anchor
     feet: Vec<(usize, f64)>,
-    /// differences left in the pixels that count, row by row from the top, of the anchors, and of the handles, four a segment
+    /// differences left in the pixels that count, row by row from the top, of the anchors, and of the handles, four a
+    /// segment
     left: Vec<f32>,
     /// squares of all these
     sum: f64,
@@ -89,8 +91,8 @@ pub(super) struct Drawn {
 }
 
 impl Window {
-    /// The window that reaches `reach` px from `p` to each side. `moving` is an open part of a path, the `lines` of all else
-    /// need not close; `grain` is the mean square of differences that mean nothing.
+    /// The window that reaches `reach` px from `p` to each side. `moving` is an open part of a path, the `lines` of
+    /// all else need not close; `grain` is the mean square of differences that mean nothing.
     pub(super) fn new<'r>(
         residual: &Residual<'_>,
         (p, reach): (Point, f64),
@@ -294,8 +296,8 @@ impl Window {
             && (m..=self.rows.len() as f64 - m).contains(&q.y)
     }
 
-    /// Holds a chain beyond the window where the picture has the edge; near an end or another edge, where the picture tells of
-    /// more than that, where it runs.
+    /// Holds a chain beyond the window where the picture has the edge; near an end or another edge, where the picture
+    /// tells of more than that, where it runs.
     fn drop_anchors(&mut self, residual: &Residual<'_>, chain: &Chain) {
         let blur = self.lens.hypot(Contour::PIXEL_BLUR_PX);
         for i in 0..chain.kinds.len() {
@@ -341,8 +343,8 @@ impl Anchor {
     }
 }
 
-/// Segment and parameter of the place on chords that is nearest to a point; each segment's chords lie within their bounds,
-/// and the one that is looked at `first` is likely to hold it.
+/// Segment and parameter of the place on chords that is nearest to a point; each segment's chords lie within their
+/// bounds, and the one that is looked at `first` is likely to hold it.
 fn foot(at: Point, (chords, bounds): (&[Vec<Point>], &[Rect]), first: usize) -> (usize, f64) {
     let mut nearest = (f64::INFINITY, (first, 0.0));
     for i in (first..chords.len()).chain(0..first) {

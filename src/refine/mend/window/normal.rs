@@ -284,8 +284,8 @@ impl Inked {
     }
 }
 
-/// Parts of the way from `a` to `b` at which it enters another pixel of a picture or the picture itself, in order, and
-/// in the end the whole, in place of what `out` held.
+/// Parts of the way from `a` to `b` at which it enters another pixel of a picture or the picture itself, in order,
+/// and in the end the whole, in place of what `out` held.
 fn crossings(a: Point, b: Point, (width, height): (usize, usize), out: &mut Vec<f64>) {
     out.clear();
     for (from, to, size) in [(a.x, b.x, width), (a.y, b.y, height)] {
@@ -300,8 +300,8 @@ fn crossings(a: Point, b: Point, (width, height): (usize, usize), out: &mut Vec<
     out.push(1.0);
 }
 
-/// How much light two pixels share: what a lens makes of the one times what it makes of the other, over all pixels that
-/// count.
+/// How much light two pixels share: what a lens makes of the one times what it makes of the other, over all pixels
+/// that count.
 #[derive(Debug)]
 pub(super) struct Shared {
     reach: usize,

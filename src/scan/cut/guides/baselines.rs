@@ -8,9 +8,11 @@ use std::iter;
 
 /// How far bows reach past a flat edge, as a share of the letter's height.
 pub(super) const OVERSHOOT: f64 = 0.015;
-/// A row's own letters weigh against the whole page as this many letters of it do, or more where they scatter by more than rows do.
+/// A row's own letters weigh against the whole page as this many letters of it do, or more where they scatter by more
+/// than rows do.
 const SHRINK: f64 = 2.0;
-/// A standard deviation in medians of the distance, and the variance of a median in that of a mean, where values are normal ones.
+/// A standard deviation in medians of the distance, and the variance of a median in that of a mean, where values are
+/// normal ones.
 pub(super) const NORMAL: f64 = 1.4826;
 const OF_MEDIAN: f64 = 1.57;
 /// How far a foot may lie off the page's common line and still be one, as a share of the usual letter's
@@ -24,7 +26,8 @@ pub(super) struct Letter {
     pub(super) row: usize,
     pub(super) level: f64,
     pub(super) shape: Shape,
-    /// The box of the largest part of Arabic letters, and of the whole of others; below it ends where all ink but signs below does.
+    /// The box of the largest part of Arabic letters, and of the whole of others; below it ends where all ink but
+    /// signs below does.
     pub(super) body: Rect,
     /// The whole ink's box.
     pub(super) whole: Rect,
@@ -46,7 +49,8 @@ impl Letter {
     }
 }
 
-/// How far each row's baseline lies below its slots' levels, px, on a page whose rows are even or at printed `levels`.
+/// How far each row's baseline lies below its slots' levels, px, on a page whose rows are even or at printed
+/// `levels`.
 pub(super) fn ruled(letters: &[Letter], rows: usize, levels: Levels) -> Vec<f64> {
     let off = feet_on_line(letters, rows);
     drops(off, near(letters), (levels, &vec![0.0; rows]))
@@ -57,8 +61,9 @@ pub(super) fn near(letters: &[Letter]) -> f64 {
     ASTRAY * median(letters.iter().map(|l| l.body.height())).unwrap_or(0.0)
 }
 
-/// How far each row's baseline lies below the levels, px. But for their strays all rows share it, up to a drift along the page where no
-/// levels are printed; the letters of a row move their own baseline as far as their number justifies.
+/// How far each row's baseline lies below the levels, px. But for their strays all rows share it, up to a drift along
+/// the page where no levels are printed; the letters of a row move their own baseline as far as their number
+/// justifies.
 pub(super) fn drops(
     mut off: Vec<(usize, f64)>,
     near: f64,
@@ -81,8 +86,8 @@ pub(super) fn drops(
     strays.iter().enumerate().map(row).collect()
 }
 
-/// As how many letters of a row the whole page weighs: the variance of one letter's foot about its row's line, over that of the rows about
-/// theirs. `own` are the feet of each row about the page's line, px.
+/// As how many letters of a row the whole page weighs: the variance of one letter's foot about its row's line, over
+/// that of the rows about theirs. `own` are the feet of each row about the page's line, px.
 fn shrink(own: &[Vec<f64>]) -> f64 {
     let medians = own
         .iter()
@@ -98,7 +103,8 @@ fn shrink(own: &[Vec<f64>]) -> f64 {
     (letters / rows).max(SHRINK)
 }
 
-/// Row, and distance from the level, of the feet that tell where rows stand: flat ones, else bows, else all there are.
+/// Row, and distance from the level, of the feet that tell where rows stand: flat ones, else bows, else all there
+/// are.
 pub(super) fn feet_on_line(letters: &[Letter], rows: usize) -> Vec<(usize, f64)> {
     let mut off = standing(letters);
     if off.len() < rows || off.len() < 3 {
@@ -165,7 +171,8 @@ impl Line {
     }
 }
 
-/// Row, how far the lowest ink lies below the level, and height of the body, of every letter that meets the baseline so.
+/// Row, how far the lowest ink lies below the level, and height of the body, of every letter that meets the baseline
+/// so.
 fn feet(letters: &[Letter], foot: Foot, of: impl Fn(&Letter) -> bool) -> Vec<(usize, f64, f64)> {
     let such = letters.iter().filter(|l| l.shape.foot == foot && of(l));
     such.map(|l| (l.row, l.foot(), l.body.height())).collect()
@@ -210,8 +217,8 @@ fn medians(points: &[(usize, f64)]) -> Vec<(usize, f64)> {
     rows.collect()
 }
 
-/// The slopes through the medians of all pairs of rows, each as many times as the row with fewer letters has letters: one
-/// letter with a tail is no row.
+/// The slopes through the medians of all pairs of rows, each as many times as the row with fewer letters has letters:
+/// one letter with a tail is no row.
 fn pairs(points: &[(usize, f64)]) -> Vec<f64> {
     let rows = medians(points);
     let count = |row: usize| points.iter().filter(|p| p.0 == row).count();

@@ -10,7 +10,8 @@ use kurbo::Point;
 const HALF: f32 = 0.5;
 /// How far the line of half coverage may lie inside the piece's edge, px.
 const BLUR: usize = 4;
-/// Depth of the outermost ink, px, whose median is its end: a flat foot's, whatever its noise and however it is turned.
+/// Depth of the outermost ink, px, whose median is its end: a flat foot's, whatever its noise and however it is
+/// turned.
 const DEPTH: f64 = 1.0;
 
 /// The highest and the lowest ink of a piece on the upright page, px.

@@ -1,15 +1,15 @@
 //! Letters → how far capitals and figures hang: in scripts and display styles they end below the small letters' line.
 //!
-//! Only rows at even distances tell, since uneven ones of one kind each look alike: with the feet of the letters of kind `k` in row `r`
-//! at
+//! Only rows at even distances tell, since uneven ones of one kind each look alike: with the feet of the letters of
+//! kind `k` in row `r` at
 //!
 //! ```text
 //! a + b r + h(k)
 //! ```
 //!
-//! px below their levels, `b` being 0 where these are printed, least squares over the rows' medians, what is left must be far less than
-//! `h`. Of two letters one may have a swash, so that where the medians do not tell two letters say no more than that their foot lies
-//! between theirs: the nearest place there to the line counts.
+//! px below their levels, `b` being 0 where these are printed, least squares over the rows' medians, what is left
+//! must be far less than `h`. Of two letters one may have a swash, so that where the medians do not tell two letters
+//! say no more than that their foot lies between theirs: the nearest place there to the line counts.
 
 use super::baselines::{Letter, OVERSHOOT, near};
 use crate::numeric::median::median;
@@ -25,14 +25,16 @@ const ENOUGH: usize = 2;
 const HELD: f64 = 1e9;
 /// Letters of a row whose median is but the middle of two.
 const PAIR: usize = 2;
-/// Times that pairs are told from the lines, and lines from the pairs: beyond the third nothing moves by a tenth of a px.
+/// Times that pairs are told from the lines, and lines from the pairs: beyond the third nothing moves by a tenth of a
+/// px.
 const ROUNDS: usize = 4;
 /// Medians that are more than enough to tell all lines, at least.
 const SPARE: usize = 2;
-/// How far a kind hangs at least and at most that does, in times of what letters stray: more than an italic's hooks, less than half a letter.
+/// How far a kind hangs at least and at most that does, in times of what letters stray: more than an italic's hooks,
+/// less than half a letter.
 const FAR: (f64, f64) = (0.5, 5.0);
-/// What is left at most, as a share of how far letters hang: strays of uneven rows are as small by chance on 1.5 % of pages of eight rows with a
-/// kind each, and on none where three rows or more have two kinds.
+/// What is left at most, as a share of how far letters hang: strays of uneven rows are as small by chance on 1.5 % of
+/// pages of eight rows with a kind each, and on none where three rows or more have two kinds.
 const LEFT: f64 = 0.15;
 
 /// Where letters of a kind end in a row, px below their level.
@@ -45,7 +47,8 @@ struct Feet {
     letters: usize,
 }
 
-/// Tells letters of kinds that hang by how much they do; whether there are any, so that the rows are known to stand at even distances.
+/// Tells letters of kinds that hang by how much they do; whether there are any, so that the rows are known to stand
+/// at even distances.
 pub(super) fn tell(letters: &mut [Letter], rows: usize, levels: Levels) -> bool {
     let Some(depths) = depths(letters, rows, levels) else {
         return false;
@@ -73,7 +76,8 @@ fn depths(letters: &[Letter], rows: usize, levels: Levels) -> Option<[f64; KINDS
     fits.find_map(|depths| depths)
 }
 
-/// How far the letters of each kind hang, px, by a fit that leaves such a variance of one letter's foot, px²; `None` where it does not tell.
+/// How far the letters of each kind hang, px, by a fit that leaves such a variance of one letter's foot, px²; `None`
+/// where it does not tell.
 fn told(
     feet: &[Feet],
     kinds: &[usize],
@@ -97,8 +101,8 @@ fn told(
     ((left / usual).sqrt() <= LEFT * far).then_some(depths)
 }
 
-/// The slope of the rows and a line for each kind, px, and the weighed squares of what is left; `rounds` times feet of pairs go to where they
-/// fit best.
+/// The slope of the rows and a line for each kind, px, and the weighed squares of what is left; `rounds` times feet
+/// of pairs go to where they fit best.
 fn lines(
     feet: &[Feet],
     (kinds, levels): (&[usize], Levels),
@@ -192,7 +196,8 @@ mod tests {
 
     #[test]
     fn a_swash_beside_one_letter_tells_no_line() {
-        // the last capitals of a hand, before its small letters: untold, rows would be off by half of what capitals hang, 20 px
+        // the last capitals of a hand, before its small letters: untold, rows would be off by half of what capitals
+        // hang, 20 px
         let swash: &[_] = &[
             ("Y", 41.0),
             ("Z", 170.0),

@@ -6,10 +6,12 @@ use kurbo::Point;
 
 /// The outermost ink that counts as a stroke's end, in widths of the letter's stroke.
 const END: f64 = 0.5;
-/// Height of a joining stroke's end at most, in the same: what reaches higher is a stem, and leans over the stroke where letters slant.
+/// Height of a joining stroke's end at most, in the same: what reaches higher is a stem, and leans over the stroke
+/// where letters slant.
 const THICK: f64 = 1.6;
 
-/// Heights of the ends of a letter's strokes on its left and on its right where these are `joined` to others, upright px.
+/// Heights of the ends of a letter's strokes on its left and on its right where these are `joined` to others, upright
+/// px.
 pub(super) fn joins(letter: &Component, joined: [bool; 2], upright: &View) -> Vec<f64> {
     let sides = [1.0, -1.0].into_iter().zip(joined);
     let sides = sides.filter_map(|(side, joined)| joined.then_some(side));

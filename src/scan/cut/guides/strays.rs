@@ -1,14 +1,15 @@
 //! Rows of a page without lines: a hand sets them at uneven distances.
 //!
-//! Each letter votes for where its row stands (`votes`). A row stands where most of its votes are, and not without reason far from where
-//! even distances or its neighbours would have it, its homes: with `v` votes of weights `w`, homes `h`, the votes' reach `r` and the rows'
-//! usual stray `s`, at the `y` of the greatest
+//! Each letter votes for where its row stands (`votes`). A row stands where most of its votes are, and not without
+//! reason far from where even distances or its neighbours would have it, its homes: with `v` votes of weights `w`,
+//! homes `h`, the votes' reach `r` and the rows' usual stray `s`, at the `y` of the greatest
 //!
 //! ```text
 //! sum over v of w max(0, 1 - ((v - y)/r)^2)  -  min over h of ln(1 + ((y - h)/s)^2)
 //! ```
 //!
-//! On a page whose rows are even `s` is next to nothing, so that letters of an odd style move no row; nor do few votes anywhere.
+//! On a page whose rows are even `s` is next to nothing, so that letters of an odd style move no row; nor do few
+//! votes anywhere.
 
 use super::baselines::{Letter, Line, NORMAL, drops, feet_on_line, near};
 use super::votes::{MAY_STAND, Poll, Vote};
@@ -18,7 +19,8 @@ use crate::scan::cut::Levels;
 /// Weight of a row's votes from which on it tells where it stands, and rows that tell how far rows stray, at least.
 const SURE: f64 = 2.2;
 const ROWS: usize = 3;
-/// Votes count for places within so many times `near`, at least and at most, and within so many times what letters stray from their rows.
+/// Votes count for places within so many times `near`, at least and at most, and within so many times what letters
+/// stray from their rows.
 const REACH: (f64, f64) = (0.5, 1.5);
 const SCATTER: f64 = 6.0;
 /// Those that agree with a place lie within this share of that.
@@ -68,7 +70,8 @@ fn strays(letters: &[Letter], off: &[(usize, f64)], near: f64, rows: usize) -> V
     strays
 }
 
-/// Where a row stands, px: in the middle of the votes for the likeliest place, or where it may be expected if these are too few.
+/// Where a row stands, px: in the middle of the votes for the likeliest place, or where it may be expected if these
+/// are too few.
 fn stand(votes: &[Vote], homes: &[f64], usual: f64, reach: f64) -> f64 {
     let at = likeliest(votes, homes, usual, reach);
     let heard = |at: &&f64| agreement(votes, **at, reach);
@@ -156,7 +159,8 @@ mod tests {
     use super::*;
     use crate::scan::letters::{Foot, Shape};
 
-    /// The strays of rows of letters, 100 px high, whose line is at `lines` and which end so far below it; and where these rows stand.
+    /// The strays of rows of letters, 100 px high, whose line is at `lines` and which end so far below it; and where
+    /// these rows stand.
     fn of(lines: &[f64], rows: &[&[(&str, f64)]]) -> [Vec<f64>; 2] {
         of_joined(lines, rows, |_, _| Vec::new())
     }

@@ -1,14 +1,16 @@
 //! Letters of a page without lines → where each says that its row stands.
 //!
-//! By its foot: most say those that stand flat or on a bow, and Arabic letters of whose body other rows tell the depth; less those of which
-//! nobody knows. And by its joining strokes, which on a page all end at one height: what hangs is joined where the rest is.
+//! By its foot: most say those that stand flat or on a bow, and Arabic letters of whose body other rows tell the
+//! depth; less those of which nobody knows. And by its joining strokes, which on a page all end at one height: what
+//! hangs is joined where the rest is.
 
 use super::baselines::{Letter, Line, OVERSHOOT};
 use crate::numeric::median::median;
 use crate::scan::letters::{Foot, Kind};
 use std::collections::BTreeMap;
 
-/// How much the vote of a letter counts of which nobody knows whether it stands, and of an Arabic one that often hangs.
+/// How much the vote of a letter counts of which nobody knows whether it stands, and of an Arabic one that often
+/// hangs.
 pub(super) const MAY_STAND: f64 = 0.5;
 const MAY_HANG: f64 = 0.2;
 /// How much the ends of a letter's joining strokes count.
@@ -112,7 +114,8 @@ impl<'a> Poll<'a> {
         Vote { at, weight }
     }
 
-    /// The votes of a row's letters by where their joining strokes end: all do at one height, which the other rows tell.
+    /// The votes of a row's letters by where their joining strokes end: all do at one height, which the other rows
+    /// tell.
     fn by_joins(&self, row: usize, told: &[Option<f64>]) -> Vec<Vote> {
         let others = self.rows.iter().zip(told).enumerate();
         let others = others.filter_map(|(r, (o, level))| Some((o, level.filter(|_| r != row)?)));

@@ -25,7 +25,8 @@ const PAPER: f64 = 0.55;
 const ALIKE: f64 = 0.25;
 /// Share of a box's side along its line in which ink that reaches the line is taken for line.
 const RIM: f64 = 0.07;
-/// Least ink that boxes hold, as a share of what lies outside them: more can be printed beside boxes than is written in them.
+/// Least ink that boxes hold, as a share of what lies outside them: more can be printed beside boxes than is written
+/// in them.
 const HELD: f64 = 0.25;
 
 /// What the page of boxes is cut by.

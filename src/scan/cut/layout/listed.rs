@@ -1,7 +1,7 @@
 //! The lines of a list of names beside the rows of a page.
 //!
-//! Where a list breaks says nothing, unless most of its lines are as long as their rows. Then each line is a row, and one with a
-//! name too many or too few has shifted all names after it.
+//! Where a list breaks says nothing, unless most of its lines are as long as their rows. Then each line is a row, and
+//! one with a name too many or too few has shifted all names after it.
 
 use crate::scan::error::ScanError;
 

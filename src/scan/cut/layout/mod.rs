@@ -1,4 +1,5 @@
-//! Pieces of ink → letters in reading order, as the layout says: cells of a grid, printed boxes, or rows of a bare page.
+//! Pieces of ink → letters in reading order, as the layout says: cells of a grid, printed boxes, or rows of a bare
+//! page.
 
 mod boxes;
 mod free;

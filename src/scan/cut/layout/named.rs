@@ -20,8 +20,8 @@ pub(super) struct Place {
     pub(super) parts: Vec<usize>,
 }
 
-/// The letters of a page of so many names, in reading order; what lies in places that are skipped, and dirt in those without a name,
-/// is rejected.
+/// The letters of a page of so many names, in reading order; what lies in places that are skipped, and dirt in those
+/// without a name, is rejected.
 ///
 /// # Errors
 /// A letter has no name.

@@ -5,8 +5,9 @@ use kurbo::Rect;
 /// Share of the lower box's height by which two neighbours of a row overlap.
 const BESIDE: f64 = 0.4;
 
-/// Two parts of a row lie less than this share of the rows' usual distance apart in height: letters that hang and letters that stand
-/// can link among themselves alone. Where letters of the one fill gaps of the other they may lie farther apart than where they do not.
+/// Two parts of a row lie less than this share of the rows' usual distance apart in height: letters that hang and
+/// letters that stand can link among themselves alone. Where letters of the one fill gaps of the other they may lie
+/// farther apart than where they do not.
 const ASUNDER: (f64, f64) = (0.7, 0.4);
 /// Share of the letters of such a part that lie over or under the other's at most: tails reach below the next letter.
 const STACKED: f64 = 0.25;
@@ -16,9 +17,9 @@ const PARTLY: f64 = 4.0;
 
 /// Indices of boxes in rows from the top, each row from the left.
 ///
-/// Each box is linked to the next one on its right that stands beside it, so that rows may drift and letters
-/// may differ in height and reach down. Links of one row that do not meet are put together where they lie far nearer to each other
-/// than rows do. What stands beside nothing joins the row that is nearest in height.
+/// Each box is linked to the next one on its right that stands beside it, so that rows may drift and letters may
+/// differ in height and reach down. Links of one row that do not meet are put together where they lie far nearer to
+/// each other than rows do. What stands beside nothing joins the row that is nearest in height.
 pub(super) fn rows(boxes: &[Rect]) -> Vec<Vec<usize>> {
     let mut row: Vec<usize> = (0..boxes.len()).collect();
     let mut linked = vec![false; boxes.len()];
@@ -165,8 +166,8 @@ fn pitch(boxes: &[Rect], rows: &[Vec<usize>]) -> Option<f64> {
     all.get(all.len() / 2).copied()
 }
 
-/// How far two parts of rows lie from each other in height, px: the median over the smaller part's boxes, each against the other's next
-/// ones on both sides.
+/// How far two parts of rows lie from each other in height, px: the median over the smaller part's boxes, each
+/// against the other's next ones on both sides.
 fn apart(boxes: &[Rect], one: &[usize], other: &[usize]) -> Option<f64> {
     let (few, many) = by_count(one, other);
     let off = |&i: &usize| Some((boxes[i].center().y - height(boxes, many, boxes[i])?).abs());
@@ -175,7 +176,8 @@ fn apart(boxes: &[Rect], one: &[usize], other: &[usize]) -> Option<f64> {
     all.get(all.len() / 2).copied()
 }
 
-/// The height of the middles of a row where a box stands, px: between its next ones on both sides, or that of the only one.
+/// The height of the middles of a row where a box stands, px: between its next ones on both sides, or that of the
+/// only one.
 fn height(boxes: &[Rect], row: &[usize], at: Rect) -> Option<f64> {
     let x = at.center().x;
     let middles = || row.iter().map(|&i| boxes[i].center());

@@ -10,7 +10,8 @@ use kurbo::Rect;
 /// Letters without their dots, of all that have some, from which on names may have slipped.
 const MANY: f64 = 0.25;
 
-/// Gives letters that have none of the signs which their names say what lies beside the grid, close over or under them.
+/// Gives letters that have none of the signs which their names say what lies beside the grid, close over or under
+/// them.
 pub(in crate::scan::cut) fn reclaim(layer: &mut Layer, all: &[Component]) {
     let names = GlyphData::default();
     for slot in &mut layer.slots {
@@ -38,8 +39,8 @@ pub(in crate::scan::cut) fn reclaim(layer: &mut Layer, all: &[Component]) {
     }
 }
 
-/// Gives letters that have none of their dots those which lie there in another letter's cell, where that one's name has none:
-/// rows may be so close that a dot is nearer to the row before.
+/// Gives letters that have none of their dots those which lie there in another letter's cell, where that one's name
+/// has none: rows may be so close that a dot is nearer to the row before.
 pub(in crate::scan::cut) fn restore(
     layer: &mut Layer,
     all: &[Component],

@@ -1,10 +1,9 @@
 //! Dots and accents that are smaller than dust may be, and dust that is as large as dots: names tell them apart.
 //!
-//! Heavy styles have dots half as wide as their strokes.
-//! Ink below the speckle limit is too much like dust to be shared out with the letters. But a letter whose name says that
-//! it has dots or an accent takes the largest such piece beside it, and those like it, unless it has larger ones already;
-//! and one that is drawn in one piece has none of them, but a thin end that is parted from its stroke. How large a dot is,
-//! the page's letters of one dot say.
+//! Heavy styles have dots half as wide as their strokes. Ink below the speckle limit is too much like dust to be
+//! shared out with the letters. But a letter whose name says that it has dots or an accent takes the largest such
+//! piece beside it, and those like it, unless it has larger ones already; and one that is drawn in one piece has none
+//! of them, but a thin end that is parted from its stroke. How large a dot is, the page's letters of one dot say.
 
 mod lost;
 mod small;
@@ -24,13 +23,13 @@ use std::ptr;
 
 /// Area of a dot beside that of the largest of the letter's dots at least: two of three may touch.
 const ALIKE: f64 = 0.3;
-/// A piece is none of its letter's dots if these are so many times as large and it lies beside the letter, by so many of its
-/// widths; further off, if they are about as large.
+/// A piece is none of its letter's dots if these are so many times as large and it lies beside the letter, by so many
+/// of its widths; further off, if they are about as large.
 const LARGER: [(f64, f64); 2] = [(1.5, 1.0), (0.8, 3.0)];
 /// A letter of one piece has none whose side is a smaller part of its height: hairlines are thinner than dust.
 const MOTE: f64 = 0.03;
-/// The longer side of a dot beside its shorter one at most, and the share of its box that it covers at least: 0.5 where it
-/// stands on its point.
+/// The longer side of a dot beside its shorter one at most, and the share of its box that it covers at least: 0.5
+/// where it stands on its point.
 const COMPACT: (f64, f64) = (2.0, 0.4);
 /// The same of dust beside a letter that has no dots: what is longer may be a short stroke of it.
 const ROUND: f64 = 1.5;
@@ -44,27 +43,30 @@ const EXTRA: f64 = 2.5;
 const FEW: f64 = 0.25;
 /// What is torn off a letter that has dots, or a sign within it, lies nearer than this share of its length.
 const NEAR: f64 = 0.5;
-/// The longer side of a stroke's piece beside its shorter one at least, and how far from it it lies at most, in strokes.
+/// The longer side of a stroke's piece beside its shorter one at least, and how far from it it lies at most, in
+/// strokes.
 const STROKE: f64 = 2.5;
 const TORN: f64 = 0.6;
 /// The same in px at least: a gap of one is blurred to three.
 const LEAST_GAP: f64 = 3.0;
-/// Compact dust beside a letter of one piece is this many times as thick as its strokes at least, as [`Component::stroke`] measures both: of a
-/// square that is two thirds of its side.
+/// Compact dust beside a letter of one piece is this many times as thick as its strokes at least, as
+/// [`Component::stroke`] measures both: of a square that is two thirds of its side.
 const BLOT: f64 = 1.3;
-/// What all letters of one body have beside it is drawn where its area differs by this factor at most: dust is not the same everywhere.
+/// What all letters of one body have beside it is drawn where its area differs by this factor at most: dust is not
+/// the same everywhere.
 const SAME: f64 = 2.0;
 /// Areas of grains of one page's dust differ by this factor at most.
 const GRAINS: f64 = 4.0;
-/// What another letter of the same body and form has beside it lies at the same place from the body's middle up to this share of its height.
+/// What another letter of the same body and form has beside it lies at the same place from the body's middle up to
+/// this share of its height.
 const PLACE: f64 = 0.1;
 /// How far the dot of a zero lies from its middle at most, as a share of its width and height.
 const MIDDLE: f64 = 0.1;
 /// How far a dot stands off its letter, as a share of the height of the letter's body.
 const REACH: f64 = 0.75;
 
-/// Takes ink smaller than a dot out of the letters that have none, and what lies where no dot does out of those that have;
-/// what a user gave to a letter stays, and so does what letters of one body have in common.
+/// Takes ink smaller than a dot out of the letters that have none, and what lies where no dot does out of those that
+/// have; what a user gave to a letter stays, and so does what letters of one body have in common.
 pub(super) fn dust(layer: &mut Layer, all: &[Component], claims: &[(usize, Vec<usize>)], dot: f64) {
     let names = GlyphData::default();
     let drawn = layer.slots.iter().map(|s| (&s.label, s.parts.as_slice()));
@@ -207,7 +209,8 @@ fn drawn_again(
     all: &[Component],
     names: &GlyphData,
 ) -> Vec<usize> {
-    // each piece beside a letter's body: which it is, how far from the body's middle in heights, and whether it seems to be dust
+    // each piece beside a letter's body: which it is, how far from the body's middle in heights, and whether it seems
+    // to be dust
     let mut bodies: BTreeMap<usize, Vec<(usize, Vec2, bool)>> = BTreeMap::new();
     for (slot, small) in slots.iter().zip(found) {
         let main = slot.parts.iter().copied().max_by_key(|&i| all[i].area);
@@ -235,8 +238,8 @@ fn drawn_again(
     again.collect()
 }
 
-/// Whether most letters that a pen draws in one piece are drawn in several that lie close together, like a stencil's or a clock's: then only
-/// what lies apart is dust.
+/// Whether most letters that a pen draws in one piece are drawn in several that lie close together, like a stencil's
+/// or a clock's: then only what lies apart is dust.
 pub(super) fn in_pieces<'a>(
     letters: impl Iterator<Item = (&'a Label, &'a [usize])>,
     all: &[Component],
@@ -310,7 +313,8 @@ fn blot(c: &Component, body: &Component) -> bool {
     is_dot(c) && c.stroke() > BLOT * body.stroke()
 }
 
-/// Whether a small compact piece lies outside a letter's body and clear of it: what a pen's lift parts from a stroke lies close to it.
+/// Whether a small compact piece lies outside a letter's body and clear of it: what a pen's lift parts from a stroke
+/// lies close to it.
 fn speck(c: &Component, body: &Component) -> bool {
     is_compact(c, ROUND) && beside(c, body) && !is_close(c, body)
 }
@@ -343,8 +347,8 @@ fn beside(c: &Component, body: &Component) -> bool {
     !body.upright.contains(c.centre) && (c.area as f64) < SMALL * body.area as f64
 }
 
-/// Whether a compact piece lies farther from all that is larger than so many times its length: what a pen's lift tears off a
-/// letter lies close to the rest, or is a stroke.
+/// Whether a compact piece lies farther from all that is larger than so many times its length: what a pen's lift
+/// tears off a letter lies close to the rest, or is a stroke.
 fn apart(c: &Component, parts: &[usize], all: &[Component], times: f64) -> bool {
     let mut others = parts.iter().map(|&i| &all[i]).filter(|o| o.area > c.area);
     is_dot(c) && !others.any(|o| c.is_near(o, times * side(c)))
@@ -368,9 +372,9 @@ fn astray(c: &Component, parts: &[usize], all: &[Component]) -> bool {
     })
 }
 
-/// Whether other pieces are rather the dots of its letter: nearer to as large as the page's dots are, and to the body. Dots that lie
-/// close together go together; if they are all that the letter has, what more lies on their side is dust, and so is what is as
-/// compact as a dot and no larger anywhere else.
+/// Whether other pieces are rather the dots of its letter: nearer to as large as the page's dots are, and to the
+/// body. Dots that lie close together go together; if they are all that the letter has, what more lies on their side
+/// is dust, and so is what is as compact as a dot and no larger anywhere else.
 fn surplus(
     c: &Component,
     shape: &Shape,
@@ -414,7 +418,8 @@ fn surplus(
         })
 }
 
-/// Whether a piece is rather the one dot of its letter than another: larger, or about as large and nearer to the body.
+/// Whether a piece is rather the one dot of its letter than another: larger, or about as large and nearer to the
+/// body.
 fn rather(one: &Component, other: &Component, body: Rect) -> bool {
     let off = |o: &Component| gap(o.upright, body);
     let times = one.area as f64 / other.area as f64;
@@ -470,8 +475,8 @@ fn is_compact(c: &Component, times: f64) -> bool {
     w.max(h) < times * w.min(h) && c.area as f64 > COMPACT.1 * w * h
 }
 
-/// Gives small pieces of ink, in no slot so far, to the letters that want them: they go to the end of `all`. Returns how many. Those
-/// below `least` px² are dots only where most letters that have dots have none else.
+/// Gives small pieces of ink, in no slot so far, to the letters that want them: they go to the end of `all`. Returns
+/// how many. Those below `least` px² are dots only where most letters that have dots have none else.
 pub(super) fn give(
     layer: &mut Layer,
     all: &mut Vec<Component>,

@@ -22,8 +22,8 @@ pub const SMALL: f64 = 0.3;
 pub const SMALL_LETTER: &str =
     "it is far smaller than the usual letter: is the rest of it missing, or is this a blot?";
 
-/// Ink that comes so near to the baseline of the row below, as a share of the rows' distance, reaches it: letters there stand on it. What
-/// touches one above passes that row's baseline.
+/// Ink that comes so near to the baseline of the row below, as a share of the rows' distance, reaches it: letters
+/// there stand on it. What touches one above passes that row's baseline.
 const REACH: f64 = 0.15;
 
 /// Whether a character is as large as most are: letters and figures; no marks, no hamza, no punctuation.
@@ -32,8 +32,8 @@ pub fn is_full(c: char) -> bool {
     c.is_alphanumeric() && c != 'ء'
 }
 
-/// What is odd about the letters of a page whose picture has these bounds. Pieces `freed` were cut off printed lines, unless they
-/// were off letters; baselines lie by `drop` below the levels of each row.
+/// What is odd about the letters of a page whose picture has these bounds. Pieces `freed` were cut off printed lines,
+/// unless they were off letters; baselines lie by `drop` below the levels of each row.
 pub(super) fn warnings(
     layer: &Layer,
     all: &[Component],
@@ -109,7 +109,8 @@ fn odd(
     out
 }
 
-/// Warns of the letters whose ink reaches the baseline of the row above or below, upright px: they may touch a letter there.
+/// Warns of the letters whose ink reaches the baseline of the row above or below, upright px: they may touch a letter
+/// there.
 fn across(slots: &[&Slot], all: &[Component], baseline: impl Fn(&Slot) -> f64) -> Vec<Warning> {
     let row = |r: usize| median(slots.iter().filter(|s| s.row == r).map(|s| baseline(s)));
     let rows = slots.iter().map(|s| s.row + 1).max().unwrap_or(0);

@@ -1,7 +1,8 @@
-//! Letters whose dots are fewer or more than their names have, and Arabic ones without their hamza or madda: these may lie in another
-//! cell, or the letter be another.
+//! Letters whose dots are fewer or more than their names have, and Arabic ones without their hamza or madda: these
+//! may lie in another cell, or the letter be another.
 //!
-//! What a hand's dots are like, its own letters tell: where two or three are drawn as one dash, no dash may be missing.
+//! What a hand's dots are like, its own letters tell: where two or three are drawn as one dash, no dash may be
+//! missing.
 
 use crate::numeric::median::median;
 use crate::scan::components::Component;
@@ -9,7 +10,8 @@ use crate::scan::cut::{Slot, Warning};
 use crate::scan::letters::{Kind, Pieces, Shape};
 use glyphs_reader::glyphdata::GlyphData;
 
-/// So many letters of as many dots tell what a hand's dots are like, where this share of them have as many pieces beside their bodies.
+/// So many letters of as many dots tell what a hand's dots are like, where this share of them have as many pieces
+/// beside their bodies.
 const TELL: usize = 3;
 const ALIKE: f64 = 0.8;
 /// What has less than this part of a usual sign's ink is dust, and what has more than the second is no single one.

@@ -82,7 +82,8 @@ fn a_row_of_letters_that_touch_is_no_printed_line() {
     }
 }
 
-/// The arms of the seventh letter, of which the right one runs through a stem of the eighth: both have what they share.
+/// The arms of the seventh letter, of which the right one runs through a stem of the eighth: both have what they
+/// share.
 #[test]
 fn strokes_that_cross_are_in_both_letters() {
     let mut paper = grid_page(0.0);

@@ -218,7 +218,8 @@ fn a_forgotten_name_is_told() {
     );
 }
 
-/// Letters that look alike may each be the one without a name, and names of letters that look alike the one without a letter.
+/// Letters that look alike may each be the one without a name, and names of letters that look alike the one without a
+/// letter.
 #[test]
 fn all_places_where_a_name_may_be_forgotten_are_told() {
     let rows = [

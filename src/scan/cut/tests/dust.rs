@@ -2,8 +2,8 @@
 
 use super::*;
 
-/// The box of the letter in the second cell of a page of letters with a stroke of 6, one of which is called `name`: its dot lies from 58 to 64,
-/// its body from 70 to 100.
+/// The box of the letter in the second cell of a page of letters with a stroke of 6, one of which is called `name`:
+/// its dot lies from 58 to 64, its body from 70 to 100.
 fn second(name: &str, bars: &[(f64, f64, f64, f64)]) -> Rect {
     let mut paper = grid_page(0.0);
     for &(x, y, w, h) in bars {
@@ -149,8 +149,8 @@ fn a_thin_end_that_is_parted_stays_with_its_letter() {
     );
 }
 
-/// The segments of a clock's figures in four rows of five cells: most have the same ones at the same places. In some cells, a square of a
-/// side stands apart from all of them.
+/// The segments of a clock's figures in four rows of five cells: most have the same ones at the same places. In some
+/// cells, a square of a side stands apart from all of them.
 fn clock(squares: &[(usize, f64)]) -> Cut {
     let place = |i: usize| {
         let (column, row) = (i % 5, i / 5);
@@ -219,7 +219,8 @@ fn what_all_forms_of_a_letter_have_is_no_dust() {
     assert_eq!(taller(4), [true; 4]);
 }
 
-/// How wide khah is where a spot as large as a dot lies beside it, and one at the same place beside so many letters hah of the same form.
+/// How wide khah is where a spot as large as a dot lies beside it, and one at the same place beside so many letters
+/// hah of the same form.
 fn with_spots_beside(others: usize) -> f64 {
     let mut paper = grid_page(0.0);
     let mut names: Vec<&str> = NAMES.split(' ').collect();

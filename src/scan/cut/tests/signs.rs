@@ -2,7 +2,8 @@
 
 use super::*;
 
-/// Letters on a grid of one row, each with signs so wide over its body, and the cells that are warned of for their signs.
+/// Letters on a grid of one row, each with signs so wide over its body, and the cells that are warned of for their
+/// signs.
 fn warned(letters: &[(&str, &[f64])]) -> Vec<usize> {
     let n = letters.len();
     let mut paper = Paper::new(120 * n + 60, 260, 0.0);

@@ -1,4 +1,5 @@
-//! What is said of a bare page whose letters and names do not agree: how many letters each row has, and where in doubt.
+//! What is said of a bare page whose letters and names do not agree: how many letters each row has, and where in
+//! doubt.
 
 use super::reading::{Reading, Role};
 use crate::scan::cut::layout::touching::Touch;

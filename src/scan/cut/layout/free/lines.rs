@@ -72,7 +72,8 @@ impl<'a> Lines<'a> {
         }
     }
 
-    /// Parts that are in no letter, since they are parts of each other: dust is dust, and of others the heaviest must be something else.
+    /// Parts that are in no letter, since they are parts of each other: dust is dust, and of others the heaviest must
+    /// be something else.
     fn lost(&self, roles: &[Role], owners: &[Option<usize>], dirt: &[bool]) -> Vec<usize> {
         let is_lost = |i: &usize| roles[*i] == Role::Part && owners[*i].is_none();
         let lost = (0..roles.len()).filter(is_lost);
@@ -83,7 +84,8 @@ impl<'a> Lines<'a> {
         wrong
     }
 
-    /// Of each two pieces larger than signs that were taken for parts of each other the heavier one: it is no part of that.
+    /// Of each two pieces larger than signs that were taken for parts of each other the heavier one: it is no part of
+    /// that.
     fn twins(&self, roles: &[Role], bodies: &[Option<Tie>]) -> Vec<usize> {
         let rank = |i: usize| (self.pieces[i].weight(), i);
         let body = |i: usize| Some(bodies[i]?.to).filter(|_| roles[i] == Role::Part);
@@ -94,8 +96,9 @@ impl<'a> Lines<'a> {
         (0..roles.len()).filter(is_twin).collect()
     }
 
-    /// Parts of letters in other rows that stand beside the letters of their own, or are as large as letters: where a name was forgotten, a
-    /// letter under another one's tail is likelier its part than one without a name. Of 170 pages that were rightly read none had such parts.
+    /// Parts of letters in other rows that stand beside the letters of their own, or are as large as letters: where a
+    /// name was forgotten, a letter under another one's tail is likelier its part than one without a name. Of 170
+    /// pages that were rightly read none had such parts.
     fn standing(&self, roles: &[Role], bodies: &[Option<Tie>]) -> Vec<usize> {
         let is_letter = |j: usize| matches!(roles[j], Role::Letter(_) | Role::Touching(..));
         let stands = |i: usize| {
@@ -199,8 +202,8 @@ impl<'a> Lines<'a> {
         self.pieces[i].bounds.center().y < self.pieces[other].bounds.center().y
     }
 
-    /// The name of whose letter each piece is: parts go to the letter that lies best for them and whose name wants them, the most likely
-    /// first, and with the part of which they are parts.
+    /// The name of whose letter each piece is: parts go to the letter that lies best for them and whose name wants
+    /// them, the most likely first, and with the part of which they are parts.
     fn share(&self, roles: &[Role], names: &[Option<Shape>]) -> Vec<Option<usize>> {
         let letter = |role: &Role| match role {
             Role::Letter(k) | Role::Touching(k, _) => Some(*k),

@@ -1,7 +1,7 @@
 //! Letters in rows on a bare page.
 //!
-//! Ink that is surely one makes a piece (`pieces`), pieces are read in rows, and one choice for the whole page says which of them
-//! are letters, parts of letters or dirt, so that letters and names agree (`reading`).
+//! Ink that is surely one makes a piece (`pieces`), pieces are read in rows, and one choice for the whole page says
+//! which of them are letters, parts of letters or dirt, so that letters and names agree (`reading`).
 
 mod doubts;
 mod lines;
@@ -47,8 +47,9 @@ const THIN: f64 = 0.4;
 const MANY: f64 = 0.5;
 /// Where pieces had to be joined, labels are so many that without them the joined ones are fewer by this factor.
 const FEWER: usize = 2;
-/// Letters in pieces are not rightly read where more than this share of the ink is in none of them: 0.01 at most on pages that are, 0.09 on one of
-/// stripes that is not. Lines of more letters' sizes than the second are rules, not stripes of a letter.
+/// Letters in pieces are not rightly read where more than this share of the ink is in none of them: 0.01 at most on
+/// pages that are, 0.09 on one of stripes that is not. Lines of more letters' sizes than the second are rules, not
+/// stripes of a letter.
 const LEFT_OUT: f64 = 0.03;
 const LONG: f64 = 2.0;
 /// Pieces of less ink than this share of a usual letter's may be dirt.
@@ -67,8 +68,8 @@ pub(super) struct Plan<'a> {
     pub(super) source: &'a str,
 }
 
-/// Gathers the ink of a bare page into letters and names them. Letters that touch are cut apart in `all`, and those that touch a printed
-/// lattice are cut free of it.
+/// Gathers the ink of a bare page into letters and names them. Letters that touch are cut apart in `all`, and those
+/// that touch a printed lattice are cut free of it.
 pub(super) fn place(
     all: &mut Vec<Component>,
     labels: &[Label],
@@ -162,7 +163,8 @@ fn read(
     }
 }
 
-/// Reads a page, and again as long as there are letters of one row that touch and can be cut apart. `parted` is what was cut apart before.
+/// Reads a page, and again as long as there are letters of one row that touch and can be cut apart. `parted` is what
+/// was cut apart before.
 fn read_beside(
     all: &mut Vec<Component>,
     mut parted: Vec<usize>,
@@ -187,7 +189,8 @@ fn read_beside(
 /// The letters of a row, each the number of its name and its ink.
 type Row = Vec<(usize, Vec<usize>)>;
 
-/// Puts a letter whose place a user says into a row: that of the names before and after it, or the nearest in height, or its own.
+/// Puts a letter whose place a user says into a row: that of the names before and after it, or the nearest in height,
+/// or its own.
 fn seat(all: &[Component], rows: &mut Vec<Row>, letter: &(usize, Vec<usize>)) {
     let holds = |row: &Row| {
         let beyond = |of: fn(&usize, &usize) -> bool| row.iter().any(|l| of(&l.0, &letter.0));
@@ -263,7 +266,8 @@ struct Read {
 }
 
 impl Read {
-    /// Whether it is likelier than another one, or of far fewer pieces: labels that were joined to letters look like letters in pieces.
+    /// Whether it is likelier than another one, or of far fewer pieces: labels that were joined to letters look like
+    /// letters in pieces.
     fn is_better(&self, other: &Self) -> bool {
         self.cost < other.cost || other.scattered > 0 && other.scattered >= FEWER * self.scattered
     }
@@ -300,7 +304,8 @@ impl<'a> Bare<'a> {
         }
     }
 
-    /// Gathers by count alone where most names say nothing of their letters, and reads where that fails or names tell.
+    /// Gathers by count alone where most names say nothing of their letters, and reads where that fails or names
+    /// tell.
     fn letters(&self, names: &[Option<Shape>]) -> Result<Read, Unread> {
         let known = names.iter().flatten();
         let silent = known.filter(|s| s.pieces == Pieces::Unknown && !s.full);
@@ -334,8 +339,8 @@ impl<'a> Bare<'a> {
         (out + short) as f64 / (ink + short).max(1) as f64
     }
 
-    /// Takes all ink, or leaves out what is drawn with a far thinner pen where that is so much that it must be labels and guides, and the
-    /// letters come out likelier or in far fewer pieces.
+    /// Takes all ink, or leaves out what is drawn with a far thinner pen where that is so much that it must be labels
+    /// and guides, and the letters come out likelier or in far fewer pieces.
     fn choose<E>(
         &self,
         names: &[Option<Shape>],

@@ -1,5 +1,5 @@
-//! Ink of a bare page → letters where names say nothing of them: pieces are joined from the most to the least obvious pair until there
-//! are as many letters as names.
+//! Ink of a bare page → letters where names say nothing of them: pieces are joined from the most to the least obvious
+//! pair until there are as many letters as names.
 
 use crate::scan::components::Component;
 use crate::scan::cut::Reason;

@@ -6,7 +6,8 @@ use crate::scan::cut::layout::rows::rows;
 use kurbo::Rect;
 use std::ops::Range;
 
-/// A piece as large as a letter that is so near to a heavier one, in usual sizes, is taken for a part of that while rows are looked for.
+/// A piece as large as a letter that is so near to a heavier one, in usual sizes, is taken for a part of that while
+/// rows are looked for.
 const CLOSE: f64 = 0.2;
 /// A piece that has no heavier one beside it is a letter if it is so much of a full one.
 const LIKELY: f64 = 0.5;
@@ -15,8 +16,8 @@ const REACH: f64 = 0.75;
 
 /// Indices of pieces in rows from the top, each row from the left.
 ///
-/// Letters make the rows. What is smaller or touches one is in the row that it stands in, in that of its letter, or in the nearest. What
-/// is in none of these makes rows of its own, but not what `is_dirt` says: that is in no row.
+/// Letters make the rows. What is smaller or touches one is in the row that it stands in, in that of its letter, or
+/// in the nearest. What is in none of these makes rows of its own, but not what `is_dirt` says: that is in no row.
 pub(super) fn in_rows(
     pieces: &[Piece],
     ties: &[Vec<Tie>],
@@ -52,8 +53,8 @@ pub(super) fn in_rows(
     sorted(order, pieces)
 }
 
-/// Pieces that reach from the middle of one row to that of the next, each with these, upright px: letters of both that touch. On 156 pages no
-/// single letter reached farther than two thirds of the way.
+/// Pieces that reach from the middle of one row to that of the next, each with these, upright px: letters of both
+/// that touch. On 156 pages no single letter reached farther than two thirds of the way.
 pub(super) fn across(pieces: &[Piece], usual: Usual) -> Vec<(usize, Range<f64>)> {
     let boxes: Vec<Rect> = pieces.iter().map(|p| p.bounds).collect();
     let full = (0..pieces.len()).filter(|&i| pieces[i].full(usual) >= 1.0);
@@ -99,8 +100,8 @@ impl Letters {
         i
     }
 
-    /// The boxes of pieces, px. What is no full letter makes its row together with its parts: a hamza can be more than the tooth that it
-    /// stands over.
+    /// The boxes of pieces, px. What is no full letter makes its row together with its parts: a hamza can be more
+    /// than the tooth that it stands over.
     fn boxes(&self, pieces: &[Piece], usual: Usual) -> Vec<Rect> {
         let mut boxes: Vec<Rect> = pieces.iter().map(|p| p.bounds).collect();
         for i in (0..pieces.len()).filter(|&i| !self.is_letter[i]) {

@@ -5,7 +5,8 @@ use crate::scan::cut::gap;
 use crate::scan::whole::floor;
 use kurbo::Rect;
 
-/// Two pieces one above the other are one within this many stroke widths: a pen that ran dry, a stroke parted by a cut.
+/// Two pieces one above the other are one within this many stroke widths: a pen that ran dry, a stroke parted by a
+/// cut.
 const TORN: f64 = 0.35;
 /// The same in px at least: hairlines tear where paper shines through for a pixel.
 const LEAST_TORN: f64 = 1.5;
@@ -17,27 +18,28 @@ const NO_SIGN: f64 = 0.7;
 const MOTE: f64 = 0.2;
 /// What a piece's width counts beside its height: signs over letters are wide and low.
 const WIDTH: f64 = 0.6;
-/// A part of a letter lies within this share of a usual letter's size over it, under it or in it: the highest signs of Nastaliq
-/// stand off by 0.7.
+/// A part of a letter lies within this share of a usual letter's size over it, under it or in it: the highest signs
+/// of Nastaliq stand off by 0.7.
 const REACH: f64 = 0.9;
 /// A large one beside it lies within this many stroke widths.
 const BESIDE: f64 = 2.0;
-/// A part's middle lies beside its letter by less than this share of a usual letter's size: a stem parted from its bowl, the second
-/// of two ticks. What it lies beside it counts so many times.
+/// A part's middle lies beside its letter by less than this share of a usual letter's size: a stem parted from its
+/// bowl, the second of two ticks. What it lies beside it counts so many times.
 const ASIDE: (f64, f64) = (0.5, 3.0);
-/// A letter's body weighs so many times what its parts weigh; what weighs less is so much farther off, as a share of a usual
-/// letter's size.
+/// A letter's body weighs so many times what its parts weigh; what weighs less is so much farther off, as a share of
+/// a usual letter's size.
 const LARGER: (f64, f64) = (1.5, 0.3);
 
-/// Letters that are wider than a page's wide ones, and higher than its high ones, are this share of all; letters that touch are so many times as wide at least: on
-/// 156 pages pairs were 2.1 times as wide, single letters 1.6 times but for one style with 2.2.
+/// Letters that are wider than a page's wide ones, and higher than its high ones, are this share of all; letters that
+/// touch are so many times as wide at least: on 156 pages pairs were 2.1 times as wide, single letters 1.6 times but
+/// for one style with 2.2.
 const LARGE: f64 = 0.1;
 const TOUCHING: f64 = 1.8;
 /// What is higher than a page's high letters by more than this may be letters of two rows.
 const HIGH: f64 = 1.3;
 
-/// Letters are drawn in pieces where there are so many times as many of these as their names have: on 154 pages of other letters at most as
-/// many. Such pieces are joined within a distance that grows by the second.
+/// Letters are drawn in pieces where there are so many times as many of these as their names have: on 154 pages of
+/// other letters at most as many. Such pieces are joined within a distance that grows by the second.
 const MANY: f64 = 1.5;
 const FARTHER: f64 = 1.5;
 
@@ -80,8 +82,8 @@ pub(super) struct Joined {
 pub(super) struct Tie {
     /// Its number.
     pub(super) to: usize,
-    /// How unlikely that is by their places, in usual letters' sizes: the paper between them, and how far the part's middle lies
-    /// beside the other.
+    /// How unlikely that is by their places, in usual letters' sizes: the paper between them, and how far the part's
+    /// middle lies beside the other.
     pub(super) off: f64,
 }
 
@@ -143,8 +145,8 @@ impl Piece {
         other.weight() >= LARGER.0 * self.weight()
     }
 
-    /// By what it is told which of two pieces is the letter's body, px³: dots can have as much ink as the short tooth that they stand
-    /// over, and a hamza can be as high.
+    /// By what it is told which of two pieces is the letter's body, px³: dots can have as much ink as the short tooth
+    /// that they stand over, and a hamza can be as high.
     pub(super) fn weight(&self) -> f64 {
         self.area as f64 * self.size
     }
@@ -206,8 +208,8 @@ impl Usual {
     }
 }
 
-/// Joins what is surely one, and nothing that was `parted`. Where far more is left than the `parts` that the names of so many `letters` have, each
-/// is drawn in pieces, and what lies nearest is joined until no more are left than that.
+/// Joins what is surely one, and nothing that was `parted`. Where far more is left than the `parts` that the names of
+/// so many `letters` have, each is drawn in pieces, and what lies nearest is joined until no more are left than that.
 pub(super) fn pieces(
     all: &[Component],
     (ink, parted): (&[usize], &[usize]),
@@ -300,7 +302,8 @@ fn close(boxes: &[Rect], reach: f64) -> Vec<(usize, usize)> {
     pairs
 }
 
-/// Whether two pieces are of one letter, whatever its name: one lies over the other, and less than `torn` px are between them.
+/// Whether two pieces are of one letter, whatever its name: one lies over the other, and less than `torn` px are
+/// between them.
 fn is_one(one: &Component, other: &Component, torn: f64) -> bool {
     let (a, b) = (one.upright, other.upright);
     let over = a.x1.min(b.x1) - a.x0.max(b.x0);

@@ -1,6 +1,8 @@
-//! Letters of cells side by side, or one below the other, that touch: their ink is cut apart near the border of the cells.
+//! Letters of cells side by side, or one below the other, that touch: their ink is cut apart near the border of the
+//! cells.
 //!
-//! Such ink lies in the cell of its centre; in each of the others, whose middles it reaches, there is more of it than of other ink.
+//! Such ink lies in the cell of its centre; in each of the others, whose middles it reaches, there is more of it than
+//! of other ink.
 
 use super::axis::Axis;
 use super::plan::Plan;
@@ -14,7 +16,8 @@ use std::ops::Range;
 /// The border of two letters lies within this share of a cell from that of their cells.
 const UNEQUAL: f64 = 0.3;
 
-/// Cuts apart in `all` what is of several cells' letters, shares the ink out anew, and says which pieces were cut from others. New pieces go to the end of `all` and of `letters`.
+/// Cuts apart in `all` what is of several cells' letters, shares the ink out anew, and says which pieces were cut
+/// from others. New pieces go to the end of `all` and of `letters`.
 pub(super) fn part(
     all: &mut Vec<Component>,
     letters: &mut Vec<usize>,
@@ -81,7 +84,8 @@ fn touching(
         .collect()
 }
 
-/// Where the letters of the cells around `home` may be cut apart that ink from one place to another reaches the middles of.
+/// Where the letters of the cells around `home` may be cut apart that ink from one place to another reaches the
+/// middles of.
 fn borders(
     cells: &Axis,
     home: usize,

@@ -17,8 +17,9 @@ const PITCHES: usize = 400;
 const STRAY: f64 = 0.003;
 /// How much ink outside the cells counts against a fit.
 const OUTSIDE: f64 = 2.0;
-/// Printed lines that are the cells' borders: so many at least, as far apart as the letters up to this share, and each in its place up to
-/// this share of a cell; where some are missing the first cell begins this near to one of them.
+/// Printed lines that are the cells' borders: so many at least, as far apart as the letters up to this share, and
+/// each in its place up to this share of a cell; where some are missing the first cell begins this near to one of
+/// them.
 const FEWEST: usize = 3;
 const UNLIKE: f64 = 0.1;
 const UNEVEN: f64 = 0.03;

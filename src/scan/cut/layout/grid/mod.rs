@@ -30,7 +30,8 @@ const LINE_WIDTH: f64 = 0.06;
 /// What a distance within the cell counts beside one to another cell's letter.
 const HOME: f64 = 0.6;
 
-/// Shares the ink out to the cells of a grid. Pieces that touch printed lines, or letters of other cells, are cut free and appended to `all`.
+/// Shares the ink out to the cells of a grid. Pieces that touch printed lines, or letters of other cells, are cut
+/// free and appended to `all`.
 pub(super) fn place(
     all: &mut Vec<Component>,
     labels: &[Label],

@@ -11,7 +11,8 @@ use std::ops::Range;
 
 /// Small parts this near to a border of cells, as a share of the pitch, go to the nearer letter.
 pub(super) const NEAR: f64 = 0.2;
-/// Ink from this share of a usual letter's on is not dust beside the grid, not even where letters are small and dust is large.
+/// Ink from this share of a usual letter's on is not dust beside the grid, not even where letters are small and dust
+/// is large.
 const LARGE: f64 = 0.3;
 /// A usual letter is at most so many times as large as its largest piece.
 const WHOLE: f64 = 2.0;
@@ -80,8 +81,9 @@ pub(super) fn share(
     })
 }
 
-/// Columns and rows: of the cells that have names those of all ink, unless more of these cells have a letter in those of the ink that is no
-/// dust, or no small letter; of all cells where as many have one then and about as many others do, whose names are missing.
+/// Columns and rows: of the cells that have names those of all ink, unless more of these cells have a letter in those
+/// of the ink that is no dust, or no small letter; of all cells where as many have one then and about as many others
+/// do, whose names are missing.
 fn axes(
     all: &[Component],
     letters: &[usize],
@@ -137,8 +139,8 @@ fn axes(
     Some(whole.unwrap_or(ours))
 }
 
-/// The area of a usual letter among pieces of these areas: an even share of all ink, but no more than the middle one of the largest
-/// pieces says, a piece a letter, since many letters may have no names.
+/// The area of a usual letter among pieces of these areas: an even share of all ink, but no more than the middle one
+/// of the largest pieces says, a piece a letter, since many letters may have no names.
 fn usual(mut areas: Vec<usize>, letters: usize) -> f64 {
     let even = areas.iter().sum::<usize>() as f64 / letters as f64;
     areas.sort_unstable_by(|a, b| b.cmp(a));

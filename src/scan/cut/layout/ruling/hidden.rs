@@ -1,15 +1,15 @@
 //! Edges of letters that run along within a printed line.
 //!
-//! Where a bow's edge crosses a line at a small angle, there is ink on one side of the line alone for longer than the line is
-//! thick, and what lies within it could be the letter's or the line's. The edge is seen again on both sides of that
-//! stretch: the cubic through two places on either side says where it runs in between.
+//! Where a bow's edge crosses a line at a small angle, there is ink on one side of the line alone for longer than the
+//! line is thick, and what lies within it could be the letter's or the line's. The edge is seen again on both sides
+//! of that stretch: the cubic through two places on either side says where it runs in between.
 
 use crate::scan::whole::floor;
 use std::iter;
 use std::ops::Range;
 
-/// How far beside a stretch its edge is looked at, as shares of the stretch: as far as it runs along the line, so that a pixel
-/// makes little of a slope.
+/// How far beside a stretch its edge is looked at, as shares of the stretch: as far as it runs along the line, so
+/// that a pixel makes little of a slope.
 const BESIDE: [f64; 3] = [0.5, 0.25, 0.125];
 
 /// A stretch of a line in which a letter's edge lies.
@@ -97,8 +97,8 @@ struct Line<'a, F> {
 }
 
 impl<F: Fn(f64, f64) -> bool> Line<'_, F> {
-    /// The stretch next to one. Where a stroke thinner than the line passes from its one side to the other it has ink on
-    /// neither for a while: the edge is seen again behind that.
+    /// The stretch next to one. Where a stroke thinner than the line passes from its one side to the other it has ink
+    /// on neither for a while: the edge is seen again behind that.
     fn beside<'a>(&self, run: &Run, mut next: impl Iterator<Item = &'a Run>) -> Option<&'a Run> {
         let first = next.next()?;
         let is_gap = first.ink == (false, false) && first.length() < self.after - self.before;
@@ -130,8 +130,8 @@ impl<F: Fn(f64, f64) -> bool> Line<'_, F> {
         })
     }
 
-    /// How far across the edge lies at a stretch's end, and so far beside it. Where there is ink on the other side beside the
-    /// stretch it leaves the line on that one; where there is none at all, on the near one.
+    /// How far across the edge lies at a stretch's end, and so far beside it. Where there is ink on the other side
+    /// beside the stretch it leaves the line on that one; where there is none at all, on the near one.
     fn seen(&self, run: &Run, beside: &Run, (end, out): (f64, f64)) -> Option<(f64, f64)> {
         let full = beside.ink.0 || beside.ink.1;
         let (from, step) = if run.ink.0 == full {

@@ -1,8 +1,9 @@
 //! Ink that touches the printed lines of a grid, cut free of them.
 //!
-//! Lines are straight: on the upright page the heights at which a lattice has ink for more than half of its width are its
-//! lines', and so for its columns. What lies there goes, unless it has ink on both sides of the line, straight across or aslant:
-//! there the line crosses a letter. What a letter's edge encloses that runs along within the line stays too.
+//! Lines are straight: on the upright page the heights at which a lattice has ink for more than half of its width are
+//! its lines', and so for its columns. What lies there goes, unless it has ink on both sides of the line, straight
+//! across or aslant: there the line crosses a letter. What a letter's edge encloses that runs along within the line
+//! stays too.
 
 mod hidden;
 
@@ -20,7 +21,8 @@ const THICK: f64 = 1.6;
 /// How far a line's blurred and ragged edge reaches beyond where it covers so much, px.
 const EDGE: f64 = 1.5;
 
-/// Ways across a line: how far they lead along it, as a share of how far across. A letter's edge goes between two of them.
+/// Ways across a line: how far they lead along it, as a share of how far across. A letter's edge goes between two of
+/// them.
 const WAYS: [f64; 5] = [0.0, -0.5, 0.5, -1.0, 1.0];
 
 /// How far down the page printed lines lie, upright px.
@@ -126,8 +128,8 @@ impl Stripe {
     }
 }
 
-/// Whether a letter crosses a line where it is at `v` across: whether there is `ink` on both sides of it, on one of the ways
-/// through that place.
+/// Whether a letter crosses a line where it is at `v` across: whether there is `ink` on both sides of it, on one of
+/// the ways through that place.
 fn crosses(line: &Range<f64>, v: f64, ink: impl Fn(f64, f64) -> bool) -> bool {
     let (before, after) = (line.start - 1.0, line.end + 1.0);
     let through = |way: &f64| ink(before, way * (before - v)) && ink(after, way * (after - v));

@@ -16,7 +16,8 @@ use seam::Seam;
 use std::cell::OnceCell;
 use std::ops::Range;
 
-/// Letters that touch are so unequal at most: each ends within this share of a mean width from where equal ones would.
+/// Letters that touch are so unequal at most: each ends within this share of a mean width from where equal ones
+/// would.
 const UNEQUAL: f64 = 0.25;
 
 /// Coverage of the ink's edge.
@@ -35,7 +36,8 @@ pub(super) struct Touch {
 }
 
 impl Touch {
-    /// Letters in cells so many upright px apart, of which one ends and the next one begins in each of some stretches.
+    /// Letters in cells so many upright px apart, of which one ends and the next one begins in each of some
+    /// stretches.
     pub(super) fn at(ends: Vec<Range<f64>>, (along, ink): (Along, Vec<usize>), pitch: f64) -> Self {
         Self {
             ink,
@@ -136,7 +138,8 @@ struct Border<'a> {
 }
 
 impl Border<'_> {
-    /// Where the middles of the letter before it and of the one after it are, in halves of the stretch behind its middle, if that is known.
+    /// Where the middles of the letter before it and of the one after it are, in halves of the stretch behind its
+    /// middle, if that is known.
     fn middles(&self) -> [Option<f64>; 2] {
         let off = self.cells.map(|pitch| pitch / 2.0 / self.half());
         [off.map(|v| -v), off.filter(|_| self.is_last)]

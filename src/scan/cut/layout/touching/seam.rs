@@ -1,8 +1,9 @@
 //! Ink of letters that touch and a stretch of it → the border between them.
 //!
-//! The shortest path through lanes of pixels, from the first lane to the last, where a pixel of ink is far and one of paper near: letters that
-//! lie over each other are parted along the paper between them, and ink is cut only where they touch. Two letters meet in corners that the
-//! paper between them fills, and a stroke has straight edges: a path into ink or out of it is the longer, the less ink lies around.
+//! The shortest path through lanes of pixels, from the first lane to the last, where a pixel of ink is far and one of
+//! paper near: letters that lie over each other are parted along the paper between them, and ink is cut only where
+//! they touch. Two letters meet in corners that the paper between them fills, and a stroke has straight edges: a path
+//! into ink or out of it is the longer, the less ink lies around.
 
 use crate::numeric::view::View;
 use crate::scan::components::Component;
@@ -58,7 +59,8 @@ pub(super) struct Seam {
 }
 
 impl Seam {
-    /// The border within a stretch of upright px, of such ones that are as good the nearest to its middle; `None` where there is no ink.
+    /// The border within a stretch of upright px, of such ones that are as good the nearest to its middle; `None`
+    /// where there is no ink.
     pub(super) fn within(
         stretch: &Range<f64>,
         (along, ink): (Along, &[&Component]),

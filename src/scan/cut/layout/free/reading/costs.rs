@@ -16,11 +16,12 @@ const OFF: f64 = 0.5;
 const PART: f64 = 0.5;
 /// Cost of a piece of dirt: more than that of a part of a letter.
 const DIRT: f64 = 0.8;
-/// Cost of a letter without a name, and of a name without a letter: more than that of any one letter that looks odd, so that pages whose
-/// names agree are never refused for one, and less than that of a row whose letters all have their neighbours' names.
+/// Cost of a letter without a name, and of a name without a letter: more than that of any one letter that looks odd,
+/// so that pages whose names agree are never refused for one, and less than that of a row whose letters all have
+/// their neighbours' names.
 const UNMATCHED: f64 = 2.5;
-/// Cost of a piece as wide as several letters for one name. It is less than that of a part as large as a letter: letters are not joined
-/// for being wide.
+/// Cost of a piece as wide as several letters for one name. It is less than that of a part as large as a letter:
+/// letters are not joined for being wide.
 const WIDE: f64 = 0.4;
 /// Cost of a letter within the bounds of another one.
 pub(super) const WITHIN: f64 = 1.0;

@@ -1,8 +1,8 @@
 //! Pieces in reading order + names → which pieces are letters, and of which name: one choice for the whole page.
 //!
-//! Every piece is a letter, a part of one beside it, dirt, or a letter without a name; every name has one letter, in order, or none.
-//! What a name says about its letter's size and dots makes some of these likely, and the least sum of costs is taken: the
-//! shortest path through pieces and names, as sequences are aligned. A cost of 1 is strong doubt.
+//! Every piece is a letter, a part of one beside it, dirt, or a letter without a name; every name has one letter, in
+//! order, or none. What a name says about its letter's size and dots makes some of these likely, and the least sum of
+//! costs is taken: the shortest path through pieces and names, as sequences are aligned. A cost of 1 is strong doubt.
 
 mod costs;
 mod others;
@@ -20,11 +20,11 @@ use table::{Table, rest};
 
 /// Names are in doubt where another reading costs less than this more.
 const DOUBT: f64 = 0.2;
-/// A page's letters look like their names where each costs less than this in the mean: on 150 pages that are rightly read at most 0.31, where
-/// each letter is drawn in a dozen pieces 1.0.
+/// A page's letters look like their names where each costs less than this in the mean: on 150 pages that are rightly
+/// read at most 0.31, where each letter is drawn in a dozen pieces 1.0.
 const UNLIKE: f64 = 0.6;
-/// A name is in doubt, and one too many, where a page of a name fewer would be likelier by more than this: of 174 pages that are rightly read two
-/// are by 0.9 and 1.0, and the next one by 0.6.
+/// A name is in doubt, and one too many, where a page of a name fewer would be likelier by more than this: of 174
+/// pages that are rightly read two are by 0.9 and 1.0, and the next one by 0.6.
 const SPARE: (f64, f64) = (0.7, 1.1);
 
 /// What is seen of a piece.
@@ -130,7 +130,8 @@ impl Reading {
         spare.map(|s| s.0.clone())
     }
 
-    /// The names of which it is not much likelier that each is a letter's than that this is something else, or that there is none.
+    /// The names of which it is not much likelier that each is a letter's than that this is something else, or that
+    /// there is none.
     pub(super) fn doubtful(&self) -> Vec<usize> {
         let doubtful = self.roles.iter().zip(&self.margins);
         let doubtful = doubtful.filter_map(|(role, margin)| match role {

@@ -1,4 +1,5 @@
-//! Other readings than the best: how near the best one comes in which a piece is something else, or a name or a letter is none.
+//! Other readings than the best: how near the best one comes in which a piece is something else, or a name or a
+//! letter is none.
 
 use super::costs::{Step, steps};
 use super::table::Table;

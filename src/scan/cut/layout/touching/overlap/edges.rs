@@ -69,8 +69,8 @@ pub(super) struct End {
 }
 
 impl Edges {
-    /// The edges of a picture of strokes so wide; `side` says how far behind a border a place is, in halves of its stretch of so many px.
-    /// None where there is no corner.
+    /// The edges of a picture of strokes so wide; `side` says how far behind a border a place is, in halves of its
+    /// stretch of so many px. None where there is no corner.
     pub(super) fn find(
         field: &Field,
         (stroke, half): (f64, f64),
@@ -103,7 +103,8 @@ impl Edges {
         (!new.corners.is_empty()).then_some(new)
     }
 
-    /// The corners inwards of a ring near the border: where its sides, as each is seen beside the corner, meet at an angle.
+    /// The corners inwards of a ring near the border: where its sides, as each is seen beside the corner, meet at an
+    /// angle.
     fn inward(&self, ring: usize) -> Vec<Corner> {
         let points = &self.rings[ring];
         let n = points.len();
@@ -144,8 +145,8 @@ impl Edges {
         corners.collect()
     }
 
-    /// Where the sides of corners near the border, straight on beneath the ink, come out of it beside no other corner: the edges of both
-    /// letters may lie in line there.
+    /// Where the sides of corners near the border, straight on beneath the ink, come out of it beside no other
+    /// corner: the edges of both letters may lie in line there.
     fn exits(&self) -> Vec<Corner> {
         let mut out: Vec<Corner> = Vec::new();
         let before = self.before();

@@ -64,7 +64,8 @@ impl Hidden {
     }
 }
 
-/// The curve that goes on both ways, and what it costs. A thin rod's squared bend, integrated, times its length is four times as much.
+/// The curve that goes on both ways, and what it costs. A thin rod's squared bend, integrated, times its length is
+/// four times as much.
 fn curve(from: End, to: End) -> Option<(f64, Vec<Point>)> {
     let chord = to.at - from.at;
     let (a, b) = (angle(from.way, chord), angle(chord, to.way));

@@ -1,7 +1,7 @@
 //! Ink of two letters that lie over each other → all ink of each, what they share included.
 //!
-//! Where the edge of one letter enters the ink of the other, the edge of both together has a corner inwards, and beneath that ink each
-//! letter's edge goes on as it came. The way of the data:
+//! Where the edge of one letter enters the ink of the other, the edge of both together has a corner inwards, and
+//! beneath that ink each letter's edge goes on as it came. The way of the data:
 //!
 //! | file | what happens there |
 //! |---|---|

@@ -1,9 +1,10 @@
 //! Corners inwards → whose the stretches of edge between them are.
 //!
-//! Of two letters. At a corner at which the owner changes the first one's edge goes into the ink and comes out at another such corner, and
-//! so does the other one's. All ways to share the stretches out are compared: what the hidden edges cost, how far the stretches lie on
-//! the wrong side of the border, how far the letters are from the middle of their cells, and which corners are left that no crossing
-//! explains. The prices were chosen on 190 borders of 25 fonts (docs/tried.md, "Letters that lie over each other"), each half of them tried on the other.
+//! Of two letters. At a corner at which the owner changes the first one's edge goes into the ink and comes out at
+//! another such corner, and so does the other one's. All ways to share the stretches out are compared: what the
+//! hidden edges cost, how far the stretches lie on the wrong side of the border, how far the letters are from the
+//! middle of their cells, and which corners are left that no crossing explains. The prices were chosen on 190 borders
+//! of 25 fonts (docs/tried.md, "Letters that lie over each other"), each half of them tried on the other.
 
 use super::edges::{Edges, Lie};
 use super::hidden::Hidden;
@@ -82,8 +83,8 @@ impl Split {
     }
 }
 
-/// The likeliest ways to share out edges, the likeliest first. `middles` says where both letters' middles are, in halves of the border's
-/// stretch behind it, as far as that is known.
+/// The likeliest ways to share out edges, the likeliest first. `middles` says where both letters' middles are, in
+/// halves of the border's stretch behind it, as far as that is known.
 pub(super) fn likeliest(edges: &Edges, middles: [Option<f64>; 2]) -> Vec<Split> {
     let whole: Vec<(usize, Owner, Lie)> = edges
         .whole()
@@ -159,7 +160,8 @@ impl Search<'_> {
         last.map_or(DEAREST, |s| s.0)
     }
 
-    /// Gives the next stretch each owner that it may have; where those before it lie costs so much, and their hidden edges so much at least.
+    /// Gives the next stretch each owner that it may have; where those before it lie costs so much, and their hidden
+    /// edges so much at least.
     fn go_on(&mut self, owners: &mut Vec<Owner>, (place, least): (f64, f64)) {
         let k = owners.len();
         if k == self.lies.len() {
@@ -227,7 +229,8 @@ impl Search<'_> {
         letters.zip(self.middles).map(off).sum()
     }
 
-    /// The corners between which each letter's hidden edges run at the least cost; none where there is no such edge, or too many.
+    /// The corners between which each letter's hidden edges run at the least cost; none where there is no such edge,
+    /// or too many.
     fn pairs(&self, owners: &[Owner]) -> Option<Vec<(Owner, usize, usize)>> {
         let ends = |of: Owner| {
             let ends =
