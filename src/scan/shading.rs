@@ -17,9 +17,9 @@ const FLAT: f32 = 0.85;
 /// Flat samples between these levels are pale ink, and what is darker is as dark as it should be. Of half of the
 /// ink's level and less are printed lines and the page's back.
 const PALE: (f32, f32) = (0.45, 0.8);
-/// Part of the flat ink from which on pale ink is the rule: rough paper has 0.03 at most, a pen that shades 0.4 and
-/// more.
-const UNEVEN: f64 = 0.1;
+/// Part of the flat ink that is pale where pale ink is the rule: rough paper has 0.03 at most, a photo on the page 0.12,
+/// a pen that shades 0.4 to 0.7. Where nearly all is pale, printed lines are all that is flat.
+const UNEVEN: Range<f64> = 0.25..0.9;
 /// Flat samples at least: of fewer nothing can be said, and as many are a stroke's.
 const ENOUGH: usize = 100;
 /// Standard deviation of what takes the grain out, px, before the levels are read.
@@ -94,7 +94,7 @@ fn is_uneven(gray: &Gray, [paper, ink]: [f32; 2], counts: impl Fn(usize, usize) 
             }
         }
     }
-    flat >= ENOUGH && pales as f64 >= UNEVEN * flat as f64
+    flat >= ENOUGH && UNEVEN.contains(&(pales as f64 / flat as f64))
 }
 
 /// Whether a pixel and its neighbours are alike, as far as they are darker than the paper.
