@@ -235,13 +235,18 @@ const PRINTED: [Printed; 4] = [
     ),
 ];
 
+/// Planes that are not the thesis's.
+const OTHERS: [&str; 2] = ["plane-1.png", "plane-3.png"];
+
 /// [rasheed05 tables 4.31-4.60]; the thesis's figures for its own pictures of the same names.
 fn knots(folder: &Path) {
     println!("### rasheed05: knots inserted at ε 1, 2, 3 px (median of 9 seeds / thesis)\n");
     println!(
         "| shape, points, corners | 4.1 | 4.2 | 4.3 | 4.4 | 4.5 | 4.6 | khatt at these corners | khatt's own contour: all nodes |\n|---|---|---|---|---|---|---|---|---|"
     );
-    for (name, thesis) in PRINTED {
+    let printed = PRINTED.map(|(name, thesis)| (name, Some(thesis)));
+    let others = OTHERS.map(|name| (name, None));
+    for (name, thesis) in printed.into_iter().chain(others) {
         let contours = chains(folder, name);
         if contours.is_empty() {
             continue;
@@ -271,7 +276,8 @@ fn knots(folder: &Path) {
                     })
                     .collect();
                 counts.sort_unstable();
-                line += &format!(" {} / {} |", counts[4], thesis[i][e]);
+                let printed = thesis.map_or_else(|| "–".to_owned(), |t| t[i][e].to_string());
+                line += &format!(" {} / {printed} |", counts[4]);
             }
             let (knots, nodes) = (own_knots(&contours, epsilon), own_nodes(&own, epsilon));
             println!("{line} {knots} | {nodes} |");

@@ -127,6 +127,8 @@ word("س", arabic, 200, "seen.png")
 for name, file, factor in [
     ("leaf.png", "Maple_leaf.bmp", 1.0),
     ("plane.png", "Plane4.bmp", 3.0),
+    ("plane-1.png", "Plane1.bmp", 3.0),
+    ("plane-3.png", "Plane3.bmp", 3.0),
     ("apple.png", "mpeg7/apple-1.png", 1.7),
     ("key-1.png", "mpeg7/key-1.png", 0.36),
     ("key-2.png", "mpeg7/key-2.png", 0.36),
