@@ -148,24 +148,42 @@ fn saved(bits: [u64; 4]) -> String {
     )
 }
 
-/// Largest and mean square distance of the cubic curves of as many segments, control points on the shape [sohel sec.
-/// IV.B].
+/// Segments that begin at so many places along the shape, for no place is named to begin at.
+const STARTS: usize = 24;
+
+/// Largest and mean square distance of the cubic curves of as many segments, control points on the shape: the mean of
+/// all starts, and of how many the order holds [sohel sec. IV.B, tables 1 and 2].
 fn descriptor(path: &str, shape: &[Point]) {
     let name = Path::new(path).file_stem().unwrap_or_default();
     for segments in 5..=10 {
-        print!(
-            "| {}, {} points, {segments} segments |",
+        let (mut sums, mut in_order) = ([(0.0, 0.0); 3], (0, 0));
+        for start in 0..STARTS {
+            let first = start * shape.len() / (segments * STARTS);
+            let at = |k: usize| shape[(first + k * shape.len() / (3 * segments)) % shape.len()];
+            let pieces: Vec<[Point; 4]> = (0..segments)
+                .map(|s| [at(3 * s), at(3 * s + 1), at(3 * s + 2), at(3 * s + 3)])
+                .collect();
+            let off = distances(shape, &pieces);
+            for (sum, (d_max, d_ms)) in sums.iter_mut().zip(off) {
+                sum.0 += d_max / STARTS as f64;
+                sum.1 += d_ms / STARTS as f64;
+            }
+            in_order.0 += usize::from(off.is_sorted_by(|a, b| a.0 >= b.0));
+            in_order.1 += usize::from(off.is_sorted_by(|a, b| a.1 >= b.1));
+        }
+        println!(
+            "| {}, {} points, {segments} segments | {} in order at {} and {} of {STARTS} starts |",
             name.display(),
-            shape.len()
+            shape.len(),
+            cells(sums),
+            in_order.0,
+            in_order.1
         );
-        let at = |k: usize| shape[k * shape.len() / (3 * segments) % shape.len()];
-        let pieces =
-            (0..segments).map(|s| [at(3 * s), at(3 * s + 1), at(3 * s + 2), at(3 * s + 3)]);
-        distances(shape, &pieces.collect::<Vec<_>>());
     }
 }
 
-/// The same with control points that make the Bézier curves fit, which need not lie on the shape [sohel table 3].
+/// The same with control points that make the Bézier curves fit, which need not lie on the shape [sohel table 3]: those
+/// of least squares, as the method that the paper takes them from, and of the default.
 fn fitted(path: &str, shape: &[Point]) {
     let name = Path::new(path).file_stem().unwrap_or_default();
     let contour = Contour::new(shape.to_vec()).expect("a ring");
@@ -176,34 +194,42 @@ fn fitted(path: &str, shape: &[Point]) {
         contour
     };
     let corners = corner::Method::default().detector().corners(&contour);
-    let (spans, method) = (contour.cut(&corners), fit::Method::default());
-    for tolerance in [1.0, 2.0, 4.0, 8.0] {
-        let curve = method.fitter().contour(&spans, tolerance).expect("fitted");
-        let pieces: Vec<[Point; 4]> = curve
-            .path_segments(0.1)
-            .map(|s| s.to_cubic())
-            .map(|c| [c.p0, c.p1, c.p2, c.p3])
-            .collect();
-        print!(
-            "| {}, {tolerance} px, {} pieces |",
-            name.display(),
-            pieces.len()
-        );
-        distances(shape, &pieces);
+    let spans = contour.cut(&corners);
+    for method in [
+        fit::Method::Wls(fit::wls::Wls::default()),
+        fit::Method::default(),
+    ] {
+        for tolerance in [1.0, 1.5, 2.0, 4.0] {
+            let curve = method.fitter().contour(&spans, tolerance).expect("fitted");
+            let pieces: Vec<[Point; 4]> = curve
+                .path_segments(0.1)
+                .map(|s| s.to_cubic())
+                .map(|c| [c.p0, c.p1, c.p2, c.p3])
+                .collect();
+            println!(
+                "| {}, {}, {tolerance} px, {} pieces | {}",
+                name.display(),
+                method.key(),
+                pieces.len(),
+                cells(distances(shape, &pieces))
+            );
+        }
     }
 }
 
 /// Largest and mean square distance of the boundary from the curves of each kind with these control points.
-fn distances(shape: &[Point], pieces: &[[Point; 4]]) {
-    for (_, kind) in KINDS {
-        let Kind::Spline(pull) = kind else { continue };
+fn distances(shape: &[Point], pieces: &[[Point; 4]]) -> [(f64, f64); 3] {
+    [Pull::Bezier, Pull::Qbc, Pull::QbcN].map(|pull| {
         let dots = pieces.iter().flat_map(|controls| {
             (0..=200).map(move |k| pull.eval(controls, f64::from(k) / 200.0).0)
         });
-        let (d_max, d_ms) = distortion(shape, &dots.collect::<Vec<_>>());
-        print!(" {d_max:.2}, {d_ms:.2} |");
-    }
-    println!();
+        distortion(shape, &dots.collect::<Vec<_>>())
+    })
+}
+
+fn cells(off: [(f64, f64); 3]) -> String {
+    off.map(|(d_max, d_ms)| format!("{d_max:.2}, {d_ms:.3} |"))
+        .join(" ")
 }
 
 /// Bits against mean square distortion, a colour a kind.
