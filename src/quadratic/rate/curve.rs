@@ -234,6 +234,13 @@ impl Curve {
         curve
     }
 
+    /// The samples from one place to another, in either order.
+    pub(super) fn between(&self, one: f64, other: f64) -> &[Dot] {
+        let last = self.dots.len() - 1;
+        let [from, to] = [one.min(other), one.max(other)].map(|v| whole(v.max(0.0)).min(last));
+        &self.dots[from..=to]
+    }
+
     /// Whether it closes on itself.
     pub(super) fn is_ring(&self) -> bool {
         self.dots[self.first].p == self.dots[self.last].p

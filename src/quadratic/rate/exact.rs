@@ -17,6 +17,7 @@ fn effort() -> Effort {
         grain: 1.0,
         slack: 2.1,
         lambda: 0.0,
+        beside: 1.0,
         otherwise: Otherwise::Nothing,
     }
 }

@@ -118,6 +118,7 @@ impl Rate {
                 Strictness::Extrema | Strictness::Places => SLACK,
             },
             lambda: self.lambda.max(0.0),
+            beside: 1.0,
             otherwise: Otherwise::Nothing,
         };
         let mut contours = Vec::new();

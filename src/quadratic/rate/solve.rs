@@ -1,6 +1,6 @@
 //! Course → stored points: a search for each span, a second one to close a ring.
 
-use super::curve::{Course, Curve, Gate, Node, Span, count};
+use super::curve::{Course, Curve, Dot, Gate, Node, Span, count};
 use super::glyf::{Stored, stored_bytes};
 use super::search::{Care, Effort, Join, Otherwise, Search, Start};
 use super::thin;
@@ -17,49 +17,92 @@ pub(super) fn contour(course: &Course, effort: Effort) -> Option<Vec<Stored>> {
     Some(out)
 }
 
+/// The points of spans between nodes, all lines within the limit. Where one is not, since its other end turns it,
+/// curves may lie less far beside the lines that they end along.
 fn along(spans: &[(Node, Span, Node)], effort: Effort) -> Option<Vec<Stored>> {
-    let ends_curved = matches!(spans.last(), Some((_, Span::Curve(_), _)));
-    let mut out = Vec::new();
-    // Where the curve before has ended, and where the first one began if the last one ends there.
-    let (mut met, mut begun) = (None, None);
+    /// Parts of the limit, one after the other; with none a line ends where it was drawn.
+    const BESIDE: [f64; 4] = [1.0, 0.6, 0.3, 0.0];
+    BESIDE.into_iter().find_map(|beside| {
+        let runs = runs(spans, Effort { beside, ..effort })?;
+        lines_hold(spans, &runs, effort.limit).then(|| joined(spans, &runs))
+    })
+}
+
+/// The points of each span from its start to its end; none of lines.
+fn runs(spans: &[(Node, Span, Node)], effort: Effort) -> Option<Vec<Vec<Stored>>> {
+    let mut runs: Vec<Vec<Stored>> = Vec::new();
     for (i, (from, span, to)) in spans.iter().enumerate() {
         if from.rounded > effort.limit {
             return None;
         }
-        // A curve's last point is stored with it.
-        let stores = met.is_none() && (i > 0 || !ends_curved);
         let Span::Curve(curve) = span else {
-            out.extend(stores.then_some(from.at));
-            met = None;
+            runs.push(Vec::new());
             continue;
         };
-        let last = i + 1 == spans.len();
-        // The only corner of a contour is met again before it could be known where it has moved.
-        let from = &if spans.len() == 1 {
-            from.held(from.at)
+        // Where the curve before has ended, and where the first one began if this is the last.
+        let met = runs.last().and_then(|r| r.last()).copied();
+        let begun = runs.first().filter(|_| i + 1 == spans.len());
+        let begun = begun.and_then(|r| r.first()).copied();
+        let (from, to) = if spans.len() == 1 {
+            // The only corner of a contour is met again before it could be known where it has moved.
+            (from.held(from.at), to.held(to.at))
         } else {
-            *from
+            let held = |node: &Node, at: Option<Stored>| at.map_or(*node, |at| node.held(at));
+            (held(from, met), held(to, begun))
         };
-        let to = &if spans.len() == 1 {
-            to.held(to.at)
-        } else {
-            *to
-        };
-        let from = met.map_or(*from, |m| from.held(m));
-        let to = begun.filter(|_| last).map_or(*to, |m| to.held(m));
         let (start, points) = match open(curve, effort, from, to) {
             Some(joins) => (Stored::on(joins.first()?.m), stored(&joins)),
             None => (from.at, plain(curve, effort, to.at)?),
         };
         let run = iter::once(start).chain(points).collect();
-        let run = thin::open(curve, effort, [from, to], run);
-        let (&start, points) = run.split_first()?;
-        out.extend(stores.then_some(start));
-        begun = begun.or((i == 0).then_some(start));
-        met = points.last().copied();
-        out.extend_from_slice(points);
+        runs.push(thin::open(curve, effort, [from, to], run));
     }
-    Some(out)
+    Some(runs)
+}
+
+/// Where the line of a span begins and ends: where the curves beside it do.
+fn ends(spans: &[(Node, Span, Node)], runs: &[Vec<Stored>], i: usize) -> [Stored; 2] {
+    let (from, _, to) = &spans[i];
+    let (before, after) = ((i + spans.len() - 1) % spans.len(), (i + 1) % spans.len());
+    [
+        runs[before].last().copied().unwrap_or(from.at),
+        runs[after].first().copied().unwrap_or(to.at),
+    ]
+}
+
+/// Whether each line lies within the limit of what it is drawn along of the curves beside it.
+fn lines_hold(spans: &[(Node, Span, Node)], runs: &[Vec<Stored>], limit: f64) -> bool {
+    let n = spans.len();
+    let dots = |i: usize| match &spans[i % n].1 {
+        Span::Curve(c) => &c.dots[c.first..=c.last],
+        Span::Line => &[],
+    };
+    (0..n).filter(|&i| runs[i].is_empty()).all(|i| {
+        let [a, b] = ends(spans, runs, i).map(Stored::point);
+        if a == b {
+            return true;
+        }
+        let u = (b - a).normalize();
+        let near = |o: &Dot| u.cross(o.p - a).abs() <= limit;
+        let before = dots(i + n - 1).iter().rev();
+        let after = dots(i + 1).iter();
+        let (from, _, to) = &spans[i];
+        // from a corner it is drawn along nothing
+        let begins = from.along.is_none() || before.take_while(|o| u.dot(o.p - a) > 0.0).all(near);
+        begins && (to.along.is_none() || after.take_while(|o| u.dot(o.p - b) < 0.0).all(near))
+    })
+}
+
+/// All points around, each node's once.
+fn joined(spans: &[(Node, Span, Node)], runs: &[Vec<Stored>]) -> Vec<Stored> {
+    let mut out = Vec::new();
+    for (i, run) in runs.iter().enumerate() {
+        match run.split_last() {
+            Some((_, rest)) => out.extend_from_slice(rest),
+            None => out.push(ends(spans, runs, i)[0]),
+        }
+    }
+    out
 }
 
 /// The points after the start of the cheapest path between two nodes.

@@ -224,6 +224,31 @@ fn a_line_does_not_reach_across_the_bends_behind_it() {
 }
 
 #[test]
+fn a_line_that_is_drawn_on_into_a_bend_stays_beside_it() {
+    // a leaning stem that runs into a narrow foot, which bulges between the line's end and the extremum
+    for (bulge, foot) in [(6, 28), (8, 36), (10, 28), (10, 36)] {
+        let (low, left) = (60 - foot, 20 - bulge);
+        let end = low - 8;
+        let svg = format!(
+            "M120 420L20 60C{left} {low} {left} {end} 20 {end}C28 {end} 38 {low} 60 {}L280 420Z",
+            low + 30
+        );
+        let stem = Outline::new(vec![BezPath::from_svg(&svg).unwrap()]).unwrap();
+        for keep in [Strictness::Corners, Strictness::Extrema] {
+            for tolerance in [0.8, 1.2] {
+                let rate = Rate {
+                    keep,
+                    ..Rate::default()
+                };
+                let made = rate.convert(&stem, tolerance).unwrap();
+                let far = astray(&stem, &made).max(astray(&made, &stem));
+                assert!(far <= tolerance, "{svg} {keep:?} {tolerance}: {far}");
+            }
+        }
+    }
+}
+
+#[test]
 fn less_kept_is_fewer_bytes_and_a_larger_lambda_a_smaller_error() {
     let o = ellipse(240.0, 130.0, 0.5);
     let loose = Rate {

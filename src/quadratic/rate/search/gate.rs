@@ -171,8 +171,11 @@ impl Search<'_> {
             let m = full(p + u * (k * reach));
             // The line reaches to the join: where that lies beside the curve, so does the line.
             let guess = count(i) + k * reach / self.curve.step;
-            let beside = self.curve.foot(m, guess).1.abs();
-            if beside <= BESIDE * self.effort.limit && !out.contains(&m) {
+            let (at, beside) = self.curve.foot(m, guess);
+            let most = self.effort.beside * self.effort.limit;
+            let bulges = self.curve.between(count(i), at);
+            let bulges = bulges.iter().any(|o| u.cross(o.p - m).abs() > most);
+            if beside.abs() <= BESIDE * most && !bulges && !out.contains(&m) {
                 out.push(m);
             }
         }

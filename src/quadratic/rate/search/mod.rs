@@ -44,6 +44,8 @@ pub(super) struct Effort {
     pub(super) slack: f64,
     /// Bytes that a unit of largest error, quadratic by quadratic, is worth.
     pub(super) lambda: f64,
+    /// Part of the limit that a curve may lie beside a line that is drawn on along it.
+    pub(super) beside: f64,
     pub(super) otherwise: Otherwise,
 }
 

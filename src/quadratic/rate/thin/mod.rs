@@ -74,14 +74,15 @@ fn settled(curve: &Curve, effort: Effort, chain: Chain) -> Option<Vec<Stored>> {
             fit.again(effort.limit)?;
         }
     }
-    holds(&mut fit, curve, effort.limit).then(|| fit.chain.stored())
+    holds(&mut fit, curve, effort).then(|| fit.chain.stored())
 }
 
 /// Whether a rounded chain is smooth at its ends and nowhere beyond the limit.
-fn holds(fit: &mut Fit<'_>, curve: &Curve, limit: f64) -> bool {
+fn holds(fit: &mut Fit<'_>, curve: &Curve, effort: Effort) -> bool {
     /// Part of the limit that the dense measure may use: it looks between its samples no closer.
     const SURE: f64 = 0.998;
-    let near = fit.worst() <= SURE * limit && fit.keeps_lines(SURE * limit);
+    let limit = effort.limit;
+    let near = fit.worst() <= SURE * limit && fit.keeps_lines(SURE * effort.beside * limit);
     if !(near && fit.chain.leaves_smoothly()) {
         return false;
     }
