@@ -109,7 +109,6 @@ fn compiled_fonts_come_back() {
     }
 }
 
-/// The small font with an axis along which the stem moves 60 units to the right.
 #[test]
 fn fractions_of_cff_come_back() {
     let mut font = font();
@@ -134,6 +133,7 @@ fn fractions_of_cff_come_back() {
     assert_eq!(bounds, Some(Rect::new(1234.25, 0.0, 1300.25, 63.0)));
 }
 
+/// The small font with an axis along which the stem moves 60 units to the right.
 pub(crate) fn variable() -> Vec<u8> {
     let ttf = written("ttf");
     let source = FontRef::new(&ttf).expect("a font");

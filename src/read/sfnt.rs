@@ -73,19 +73,12 @@ pub fn font(
     if place.moved() {
         place.describe(&source, &mut info);
         place.rewrite(&source, &info, &glyphs, &mut carried);
-        lost.extend(varying(&source));
     }
+    lost.extend(place.lay_out(&source, &mut carried));
     let mut font = Font::new(info, glyphs)?;
     font.carried = carried;
     lost.extend(names.lost());
     Ok(Reading { font, lost })
-}
-
-/// A line where kerning and anchors vary, too: they stay those of the default.
-fn varying(font: &FontRef<'_>) -> Option<String> {
-    let store = font.gdef().ok()?.item_var_store()?;
-    store.ok()?;
-    Some("variations of kerning and anchors (GDEF): they are the default's".to_owned())
 }
 
 fn glyphs(font: &FontRef<'_>, at: &Location, names: &mut Names) -> Result<Vec<Glyph>, ReadError> {

@@ -1,4 +1,9 @@
-//! A variable font at a place on its axes: where it is, and what the font says of itself there.
+//! A variable font at a place on its axes: where it is, what the font says of itself there, and how its text is set.
+
+mod features;
+mod positions;
+#[cfg(test)]
+mod tests;
 
 use super::{ReadError, names};
 use crate::types::{Glyph, Info};
@@ -179,6 +184,31 @@ impl Place {
             weight.map_or_else(|| format!("{tag}{value}"), |(_, name)| name.to_owned())
         };
         moved.map(word).collect::<Vec<_>>().join(" ")
+    }
+
+    /// Makes the layout tables those of this place; a line where features that vary could not be told apart there.
+    pub(super) fn lay_out(&self, font: &FontRef<'_>, all: &mut Tables) -> Option<String> {
+        let coords = self.location.coords();
+        positions::settle(font, coords, all);
+        let vary = [
+            (
+                b"GSUB",
+                font.gsub().ok().and_then(|t| t.feature_variations()),
+            ),
+            (
+                b"GPOS",
+                font.gpos().ok().and_then(|t| t.feature_variations()),
+            ),
+        ];
+        let mut lost = None;
+        for (tag, vary) in vary {
+            if let (Some(table), Some(Ok(vary))) = (all.get_mut(tag), vary)
+                && features::settle(table, &vary, coords).is_none()
+            {
+                lost = Some("features that vary along the axes: they are the default's".to_owned());
+            }
+        }
+        lost
     }
 
     /// Makes the tables those of the style at this place.
