@@ -8,8 +8,8 @@ const DEEP: usize = 8;
 /// Bytes of the head of `GSUB` and `GPOS` without feature variations.
 const HEAD: usize = 10;
 
-/// Makes `GSUB` or `GPOS` one whose features are those of a place, and vary no more. None, and the table as it was but for
-/// that, where its parts would lie too far apart.
+/// Makes `GSUB` or `GPOS` one whose features are those of a place, and vary no more. None, and the features as they
+/// were, where the table's parts would lie too far apart.
 pub(super) fn settle(
     table: &mut Vec<u8>,
     vary: &FeatureVariations<'_>,
@@ -75,8 +75,8 @@ fn holds(condition: &Condition<'_>, at: &[F2Dot14], deep: usize) -> bool {
     }
 }
 
-/// The table with other lookups in some features: a new list of features behind the head, which points to the old list's
-/// features where they stay.
+/// The table with other lookups in some features: a new list of features behind the head, which points to the old
+/// list's features where they stay.
 fn with(table: &[u8], lookups: &[(usize, Vec<u8>)]) -> Option<Vec<u8>> {
     let [scripts, features, list] = [4, 6, 8].map(|at| word(table, at));
     let (scripts, features, list) = (scripts?, features?, list?);

@@ -55,8 +55,8 @@ impl Table<'_> {
         Some(usize::from(u16::from_be_bytes([high, low])))
     }
 
-    /// The place of a part, by the offset that stands at `at` and counts from `base`; none where there is none, or where
-    /// it was settled.
+    /// The place of a part, by the offset that stands at `at` and counts from `base`; none where there is none, or
+    /// where it was settled.
     fn part(&mut self, base: usize, at: usize) -> Option<usize> {
         let offset = self.word(at).filter(|v| *v > 0)?;
         self.seen.insert(base + offset).then_some(base + offset)
