@@ -5,7 +5,6 @@
 //! counts alike, so that little is left that varies; the level at which such an average lies where the plain one has
 //! its half is measured along the edges.
 
-use super::cut::Warning;
 use super::paper::Paper;
 use super::shading::levels;
 use super::steps::{Levels, blurred};
@@ -28,21 +27,6 @@ pub enum InkGrain {
 impl InkGrain {
     /// How they are named on the command line and in project files.
     pub const ALL: [(&str, Self); 2] = [("soften", Self::Soften), ("keep", Self::Keep)];
-}
-
-impl Warning {
-    /// What is to be said of a page whose ink was averaged over so many px.
-    #[must_use]
-    pub fn of_averaged(px: f64) -> Self {
-        Self {
-            index: None,
-            label: None,
-            message: format!(
-                "the ink is grain, as of a pencil or a dry brush: it was averaged over {px:.1} px; grain = \"keep\" under \
-                 [[sheet]] has it followed instead, which takes long"
-            ),
-        }
-    }
 }
 
 /// A pixel and its eight neighbours differ by more than this part of the ink's level where ink is rough.

@@ -15,6 +15,21 @@ const ROUGH: f32 = 0.25;
 /// those of a ballpoint that is pale in places 0.08 to 0.1, those of pencil 0.2 and more.
 const MOST: f32 = 0.12;
 
+impl Warning {
+    /// What is to be said of a page whose ink was averaged over so many px.
+    #[must_use]
+    pub fn of_averaged(px: f64) -> Self {
+        Self {
+            index: None,
+            label: None,
+            message: format!(
+                "the ink is grain, as of a pencil or a dry brush: it was averaged over {px:.1} px; grain = \"keep\" \
+                 under [[sheet]] has it followed instead, which takes long"
+            ),
+        }
+    }
+}
+
 /// A remark on a page whose ink is grain that is finer than its strokes: that it was averaged, or is followed.
 pub(super) fn warning(page: &Page) -> Option<Warning> {
     if page.averaged_px > 0.0 {
