@@ -33,9 +33,9 @@ impl InkGrain {
 const ROUGH: f32 = 0.25;
 /// Part of the ink within strokes that is rough where ink is grain: on even ink 0.14 at most, on a pencil's 0.52 to 1.
 const MOST: f64 = 0.5;
-/// How far slopes within strokes may go one way, of 1 for all of them: grain has 0.23 to 0.42, hatching and the edges
+/// How far slopes within strokes may go one way, of 1 for all of them: grain has 0.22 to 0.44, hatching and the edges
 /// of thin or pale lines 0.46 and more.
-const ONE_WAY: f64 = 0.44;
+const ONE_WAY: f64 = 0.45;
 /// Slopes are compared within so many pixels to each side: more than a grain.
 const AROUND: usize = 4;
 /// What lies within strokes is told by an average over this part of their width, a Gaussian's standard deviation,
