@@ -489,7 +489,11 @@ impl Drawing {
 
     fn cut(&self, names: &[&str], options: &Options) -> scan::Cut {
         let sheets = scan::load(&self.png(), "page", Polarity::DarkInk).expect("a picture");
-        let page = scan::clean(sheets.into_iter().next().expect("one page")).expect("ink");
+        let page = scan::clean(
+            sheets.into_iter().next().expect("one page"),
+            scan::InkGrain::default(),
+        )
+        .expect("ink");
         let labels: Vec<Label> = names.iter().map(|n| Label((*n).to_owned())).collect();
         scan::cut(&page, &labels, options).expect("cells")
     }

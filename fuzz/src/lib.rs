@@ -5,7 +5,7 @@ use khatt::pipeline::convert::{self, convert};
 use khatt::pipeline::picture::{Options, trace_picture};
 use khatt::pipeline::{Nothing, Project, Unwatched, World, build, outputs, reference};
 use khatt::recognise::{Alphabet, Look, Method, Pruning, Sample, Skeleton, centerline};
-use khatt::scan::{Polarity, Reading, Tones, clean, load, load_as};
+use khatt::scan::{InkGrain, Polarity, Reading, Tones, clean, load, load_as};
 use khatt::types::{Bitmap, Font, Gray};
 use khatt::{corner, fit, read, write};
 use std::path::Path;
@@ -57,7 +57,7 @@ pub fn image(data: &[u8]) {
     by_profile(data);
     for page in load(data, "fuzz", Polarity::Auto).unwrap_or_default() {
         if page.gray.samples().len() <= PIXELS {
-            let _ = clean(page);
+            let _ = clean(page, InkGrain::default());
         }
     }
 }

@@ -52,6 +52,8 @@ impl Features {
         let dark = scan::is_all_dark(&page.gray).then(|| scan::full_range(&page.gray));
         let dark = dark.flatten();
         let gray = dark.as_ref().unwrap_or(&page.gray);
+        let averaged = scan::grained(gray).map(|(gray, _)| gray);
+        let gray = averaged.as_ref().unwrap_or(gray);
         let soft = scan::softened(gray).or_else(|| scan::shaded(gray));
         let coverage = trace::level(soft.as_ref().unwrap_or(gray));
         let contours = trace(&coverage, &trace::Options::default());

@@ -121,7 +121,7 @@ fn run(args: &Khatt) -> Outcome {
         Command::Sheet(sheet) => sheet.run(&args.common),
         Command::Cut(cut) => cut.run(&args.common),
         Command::Proof(proof) => proof.run(&args.common),
-        Command::Trace(trace) => trace.run(),
+        Command::Trace(trace) => trace.run(&args.common),
         Command::Features(features) => features.run(),
         Command::Convert(convert) => convert.run(&args.common),
         Command::Designspace(family) => family.run(&args.common),

@@ -1,13 +1,13 @@
 //! `khatt trace`: one picture becomes one SVG path.
 
 use super::failure::{Failure, chain};
-use super::{Outcome, files, staged};
+use super::{Common, Outcome, files, staged};
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 use khatt::assemble::names;
 use khatt::pipeline::picture::{Options, trace_picture};
 use khatt::recognise;
-use khatt::scan::{self, Reading, Tones};
+use khatt::scan::{self, InkGrain, Reading, Tones};
 use khatt::types::{Gray, Label};
 use khatt::write::{centerline, picture};
 use khatt::{corner, fit};
@@ -42,13 +42,17 @@ pub(crate) struct Trace {
     /// file says [default: linear]
     #[arg(long, value_name = "TONES", value_parser = PossibleValuesParser::new(Tones::ALL.map(|t| t.0)))]
     tones: Option<String>,
+    /// What becomes of ink that is grain, as of a pencil: it is averaged, or followed, which takes long
+    /// [default: soften]
+    #[arg(long, value_name = "GRAIN", value_parser = PossibleValuesParser::new(InkGrain::ALL.map(|g| g.0)))]
+    grain: Option<String>,
     /// Give the middle of the lines that a pen drew, with their width, in place of their outline
     #[arg(long, conflicts_with_all = ["fit", "corners", "tolerance", "speckle"])]
     centerline: bool,
 }
 
 impl Trace {
-    pub(crate) fn run(&self) -> Outcome {
+    pub(crate) fn run(&self, common: &Common) -> Outcome {
         let kinds: &[&str] = if self.centerline {
             &["svg", "ufo"]
         } else {
@@ -78,6 +82,14 @@ impl Trace {
         let dark = scan::is_all_dark(&page.gray).then(|| scan::full_range(&page.gray));
         let dark = dark.flatten();
         let gray = dark.as_ref().unwrap_or(&page.gray);
+        let averaged = self.averaged(gray);
+        if let (Some((_, px)), false) = (&averaged, common.quiet) {
+            eprintln!(
+                "note: the ink of {name} is grain, as of a pencil or a dry brush: it was averaged over {px:.1} px; \
+                 --grain keep follows it instead, which takes long"
+            );
+        }
+        let gray = averaged.as_ref().map_or(gray, |(even, _)| even);
         if self.centerline {
             let soft = scan::softened(gray).or_else(|| scan::shaded(gray));
             return self.write_lines(soft.as_ref().unwrap_or(gray));
@@ -93,6 +105,17 @@ impl Trace {
         }
         let size = (page.gray.width(), page.gray.height());
         self.write(&picture::svg(size, &paths))
+    }
+
+    /// The picture with its ink averaged, and over how many px, where that is grain that need not be kept.
+    fn averaged(&self, gray: &Gray) -> Option<(Gray, f64)> {
+        let named = InkGrain::ALL
+            .into_iter()
+            .find(|g| self.grain.as_deref() == Some(g.0));
+        match named.unwrap_or_default().1 {
+            InkGrain::Soften => scan::grained(gray),
+            InkGrain::Keep => None,
+        }
     }
 
     /// Writes the middle of the lines: a UFO where the output is named so, else an SVG. The UFO's glyph bears the

@@ -8,10 +8,14 @@ use super::project::{Layout, Project, SheetTable};
 use super::watch::Stage;
 use super::world::World;
 use crate::assemble::names;
-use crate::scan::{self, Cut, Direction, Order, Polarity, Reading, Reason, Rejected, Warning};
+use crate::numeric::median::median;
+use crate::scan::{
+    self, Cut, Direction, InkGrain, Order, Polarity, Reading, Reason, Rejected, Warning,
+};
 use crate::template::{self, Drawing, Place, TemplateError};
 use crate::types::{Label, Sheet};
 use kurbo::Affine;
+use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -187,7 +191,11 @@ impl<'a> Printing<'a> {
             }));
         };
         let gain = template::gain(sheet, self.layout, &found);
-        let drawings = template::drawings(sheet, self.layout, &found, places, gain.as_ref());
+        let mut drawings = template::drawings(sheet, self.layout, &found, places, gain.as_ref());
+        let grain = match self.table.grain {
+            InkGrain::Soften => averaged(&mut drawings),
+            InkGrain::Keep => None,
+        };
         let beside = template::stray(sheet, self.layout, &found, places).into_iter();
         let rejected = beside.map(|(in_sheet, area)| Rejected {
             in_sheet,
@@ -199,7 +207,7 @@ impl<'a> Printing<'a> {
         let [a, b, ..] = down.as_coeffs();
         let scale = a.hypot(b);
         let cut = Cut {
-            warnings: warnings(&drawings),
+            warnings: warnings(&drawings).into_iter().chain(grain).collect(),
             specks: drawings.iter().map(|d| d.specks).sum(),
             cells: drawings
                 .into_iter()
@@ -240,6 +248,17 @@ impl<'a> Printing<'a> {
         };
         Some(Problem::from(TemplateError::Missing(text)))
     }
+}
+
+/// Averages the ink of the drawings where it is grain; what is to be said of that.
+fn averaged(drawings: &mut [Drawing]) -> Option<Warning> {
+    let average = |drawing: &mut Drawing| {
+        let (gray, px) = scan::grained(&drawing.cell.gray)?;
+        drawing.cell.gray = gray;
+        Some(px)
+    };
+    let drawn = drawings.par_iter_mut().filter_map(average);
+    median(drawn.collect::<Vec<_>>()).map(Warning::of_averaged)
 }
 
 /// Drawings that reach their field's edge, and letters far smaller than the page's others.

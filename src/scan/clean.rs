@@ -4,6 +4,7 @@
 //! divided out. One level of ink and one of noise are then measured for the whole page.
 
 use super::error::ScanError;
+use super::grain::{self, InkGrain};
 use super::light::Field;
 use super::paper::Paper;
 use super::shading;
@@ -35,6 +36,8 @@ pub struct Page {
     pub noise: f32,
     /// Contrast of the ink against the paper before it was set to 1, of black against white.
     pub contrast: f32,
+    /// Over how much ink that is grain was averaged, a Gaussian's standard deviation, px; 0 of other ink.
+    pub averaged_px: f64,
     /// Where the paper lies, in a picture that shows more than it.
     pub(super) paper: Option<Paper>,
     /// The same where it may as well be what lies outside a sharp shadow: enough to know a lid's edge by.
@@ -42,11 +45,12 @@ pub struct Page {
 }
 
 /// Evens out the light of a page, of two levels once its steps are softened ([`softened`]). Where the paper covers
-/// less than half of the picture, what lies beside it counts for nothing.
+/// less than half of the picture, what lies beside it counts for nothing. `grain` says what becomes of ink that is
+/// grain.
 ///
 /// # Errors
 /// Nothing on the page is darker than its paper.
-pub fn clean(sheet: Sheet) -> Result<Page, ScanError> {
+pub fn clean(sheet: Sheet, grain: InkGrain) -> Result<Page, ScanError> {
     let sheet = grey(sheet);
     let field = Field::measure(&sheet.gray);
     let found = field.paper();
@@ -54,7 +58,7 @@ pub fn clean(sheet: Sheet) -> Result<Page, ScanError> {
         Some(p) if is_surrounded(&p) => (Some(p), None),
         other => (None, other),
     };
-    even(sheet, &field, seen)
+    even(sheet, &field, seen, grain)
 }
 
 /// The same the other way: what [`clean`] takes for the whole picture's paper is a page with something around it,
@@ -63,7 +67,7 @@ pub fn clean(sheet: Sheet) -> Result<Page, ScanError> {
 ///
 /// # Errors
 /// Nothing on the page is darker than its paper.
-pub fn clean_otherwise(sheet: Sheet) -> Result<Option<Page>, ScanError> {
+pub fn clean_otherwise(sheet: Sheet, grain: InkGrain) -> Result<Option<Page>, ScanError> {
     let sheet = grey(sheet);
     let field = Field::measure(&sheet.gray);
     let seen = field.paper().map(|p| {
@@ -73,7 +77,8 @@ pub fn clean_otherwise(sheet: Sheet) -> Result<Option<Page>, ScanError> {
             (Some(p), None)
         }
     });
-    seen.map(|seen| even(sheet, &field, seen)).transpose()
+    seen.map(|seen| even(sheet, &field, seen, grain))
+        .transpose()
 }
 
 /// Whether a page is surely surrounded by something else.
@@ -93,6 +98,7 @@ fn even(
     sheet: Sheet,
     field: &Field,
     (paper, lit): (Option<Paper>, Option<Paper>),
+    grain: InkGrain,
 ) -> Result<Page, ScanError> {
     let Sheet {
         gray,
@@ -118,14 +124,22 @@ fn even(
             *v = ((reflected(*v, light) - levels.paper) * scale).clamp(low, high);
         }
     });
-    let gray = Gray::new(width, height, samples).map_err(|e| ScanError::Decode {
-        source_name: source.clone(),
-        why: e.to_string(),
-    })?;
-    let gray = shading::page(&gray, paper.as_ref().or(lit.as_ref())).unwrap_or(gray);
+    let gray = Gray::new(width, height, samples)
+        .map_err(|e| ScanError::Decode {
+            source_name: source.clone(),
+            why: e.to_string(),
+        })?
+        .with_scatter(scatter_px);
+    let seen = paper.as_ref().or(lit.as_ref());
+    let averaged = match grain {
+        InkGrain::Soften => grain::page(&gray, seen),
+        InkGrain::Keep => None,
+    };
+    let (gray, averaged_px) = averaged.unwrap_or((gray, 0.0));
+    let gray = shading::page(&gray, seen).unwrap_or(gray);
     Ok(Page {
         sheet: Sheet {
-            gray: gray.with_scatter(scatter_px),
+            gray,
             colours,
             dpi,
             guessed,
@@ -133,6 +147,7 @@ fn even(
         },
         noise: levels.noise * scale,
         contrast: levels.ink - levels.paper,
+        averaged_px,
         paper,
         lit,
     })

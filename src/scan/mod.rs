@@ -3,7 +3,7 @@
 //! | step | from → to | unit, axes | guaranteed |
 //! |---|---|---|---|
 //! | [`load()`] | bytes → [`Sheet`](crate::types::Sheet)s | sheet px, y down | the file's own pixels, turned as it says, 1 = ink; nothing resampled |
-//! | [`clean()`] | `Sheet` → [`Page`] | sheet px | light and shaded ink evened out: paper 0, ink 1; noise and edges as scanned, but for steps of two levels, which are softened |
+//! | [`clean()`] | `Sheet` → [`Page`] | sheet px | light and shaded ink evened out: paper 0, ink 1; noise and edges as scanned, but for steps of two levels, which are softened, and ink that is grain, which is averaged |
 //! | [`cut()`] | `Page` → [`Cell`](crate::types::Cell)s | upright px | each piece of ink in one cell or in the list of what was rejected, with a reason |
 //!
 //! Letters of a skewed page come out upright: their pixels are interpolated once, the only resampling
@@ -15,6 +15,7 @@ mod components;
 mod cut;
 mod deskew;
 mod error;
+mod grain;
 mod header;
 mod ink;
 mod letters;
@@ -33,6 +34,7 @@ pub use clean::{Page, clean, clean_otherwise};
 pub use cut::{Cut, Pin, Reason, Region, Rejected, Warning, cut, cut_with};
 pub use cut::{SMALL, SMALL_LETTER, is_full};
 pub use error::ScanError;
+pub use grain::{InkGrain, grained};
 pub use ink::{Ink, Inks};
 pub use load::{Grain, Polarity, Reading, Tones, Turn, describes_light, load, load_as};
 pub use options::{Direction, Layout, Options, Order, Scale};

@@ -56,7 +56,7 @@ pub fn shaded(gray: &Gray) -> Option<Gray> {
 }
 
 /// The levels of a drawing's paper and of its darker ink.
-fn levels(gray: &Gray) -> Option<[f32; 2]> {
+pub(super) fn levels(gray: &Gray) -> Option<[f32; 2]> {
     let (low, high) = (-Gray::OVERSHOOT, 1.0 + Gray::OVERSHOOT);
     let step = (high - low) / STEPS as f32;
     let mut counts = [0_usize; STEPS];

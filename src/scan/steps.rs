@@ -34,9 +34,9 @@ pub fn softened(gray: &Gray) -> Option<Gray> {
 }
 
 /// The least and the greatest sample.
-struct Levels {
-    least: f32,
-    most: f32,
+pub(super) struct Levels {
+    pub(super) least: f32,
+    pub(super) most: f32,
 }
 
 impl Levels {
@@ -95,7 +95,7 @@ impl Levels {
     }
 
     /// The usual length of ink along rows and columns, px.
-    fn stroke_px(&self, gray: &Gray) -> Option<f64> {
+    pub(super) fn stroke_px(&self, gray: &Gray) -> Option<f64> {
         let mut counts = vec![0_usize; RUN_PX.1 + 1];
         let mut upright = vec![0_usize; gray.width()];
         let mut end = |run: &mut usize| {
@@ -129,7 +129,7 @@ impl Levels {
 }
 
 /// The samples under a Gaussian; beyond the picture its outermost ones go on.
-fn blurred(gray: &Gray, sigma_px: f64) -> Vec<f32> {
+pub(super) fn blurred(gray: &Gray, sigma_px: f64) -> Vec<f32> {
     let margin = index((4.0 * sigma_px).ceil());
     let (width, height) = (gray.width(), gray.height());
     let wide = width + 2 * margin;

@@ -1,7 +1,7 @@
 //! `[[sheet]]`: a page and what is drawn on it.
 
 use super::check;
-use crate::scan::{self, Direction, Inks, Options, Order, Polarity, Scale, Tones, Turn};
+use crate::scan::{self, Direction, InkGrain, Inks, Options, Order, Polarity, Scale, Tones, Turn};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
@@ -34,6 +34,9 @@ pub struct SheetTable {
     /// How the picture's numbers tell light.
     #[serde(default)]
     pub tones: Tones,
+    /// What becomes of ink that is grain, as of a pencil or a dry brush.
+    #[serde(default)]
+    pub grain: InkGrain,
     /// Which ink the letters are drawn with, where the page has other colours too; a list of inks makes each of them
     /// a layer of a colour font, the lowest first.
     #[serde(default)]

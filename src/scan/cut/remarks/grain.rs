@@ -1,6 +1,7 @@
 //! Whether ink is as grainy as a pencil's.
 
 use super::Warning;
+use crate::scan::clean::Page;
 use crate::types::Gray;
 
 /// Levels of ink and those below what is surely ink, coverage.
@@ -14,17 +15,43 @@ const ROUGH: f32 = 0.25;
 /// those of a ballpoint that is pale in places 0.08 to 0.1, those of pencil 0.2 and more.
 const MOST: f32 = 0.12;
 
-/// A remark on a page, paper 0 and ink 1, whose ink is grain that is finer than its strokes.
-pub(super) fn warning(gray: &Gray) -> Option<Warning> {
-    let share = share(gray);
-    (share > MOST).then(|| Warning {
+impl Warning {
+    /// What is to be said of a page whose ink was averaged over so many px.
+    #[must_use]
+    pub fn of_averaged(px: f64) -> Self {
+        Self {
+            index: None,
+            label: None,
+            message: format!(
+                "the ink is grain, as of a pencil or a dry brush: it was averaged over {px:.1} px; grain = \"keep\" \
+                 under [[sheet]] has it followed instead, which takes long"
+            ),
+        }
+    }
+}
+
+/// A remark on a page whose ink is grain that is finer than its strokes: that it was averaged, or is followed.
+pub(super) fn warning(page: &Page) -> Option<Warning> {
+    if page.averaged_px > 0.0 {
+        return Some(Warning::of_averaged(page.averaged_px));
+    }
+    let message = followed(&page.sheet.gray)?;
+    Some(Warning {
         index: None,
         label: None,
-        message: format!(
+        message,
+    })
+}
+
+/// What is said of a page, paper 0 and ink 1, much of whose ink is grain that outlines follow.
+fn followed(gray: &Gray) -> Option<String> {
+    let share = share(gray);
+    (share > MOST).then(|| {
+        format!(
             "{:.0} % of the ink is grey grain, as of a pencil or a dry brush, and outlines follow it, which takes \
              long: soften the picture by some pixels in an image editor, or go over the letters in ink",
             100.0 * share
-        ),
+        )
     })
 }
 
@@ -77,15 +104,15 @@ mod tests {
             seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
             (seed >> 16) as f32 / 65_536.0
         };
-        let told = warning(&bars(|| if noise() < 0.4 { 0.2 } else { 1.0 })).expect("grain");
-        assert!(told.message.contains("grey grain"), "{}", told.message);
+        let told = followed(&bars(|| if noise() < 0.4 { 0.2 } else { 1.0 })).expect("grain");
+        assert!(told.contains("grey grain"), "{told}");
         assert!(
-            warning(&bars(|| 0.85 + 0.3 * noise())).is_none(),
+            followed(&bars(|| 0.85 + 0.3 * noise())).is_none(),
             "the grain of paper"
         );
         for level in [1.0, 0.6] {
-            assert!(warning(&bars(|| level)).is_none(), "{level}");
+            assert!(followed(&bars(|| level)).is_none(), "{level}");
         }
-        assert!(warning(&Gray::new(0, 0, Vec::new()).unwrap()).is_none());
+        assert!(followed(&Gray::new(0, 0, Vec::new()).unwrap()).is_none());
     }
 }

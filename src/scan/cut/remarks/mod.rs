@@ -135,7 +135,7 @@ fn across(slots: &[&Slot], all: &[Component], baseline: impl Fn(&Slot) -> f64) -
 
 /// What is odd about the picture as a whole.
 pub(super) fn of_picture(page: &Page, options: &Options) -> impl Iterator<Item = Warning> {
-    grain::warning(&page.sheet.gray)
+    grain::warning(page)
         .into_iter()
         .chain(colourless(page, options))
 }

@@ -7,6 +7,7 @@ mod small;
 mod told;
 
 use super::super::clean::{clean, clean_otherwise};
+use super::super::grain::InkGrain;
 use super::super::options::{Direction, Layout, Order, Scale};
 use super::super::whole::floor;
 use super::*;
@@ -113,7 +114,11 @@ fn options(layout: Layout) -> Options {
 }
 
 fn cut_page(paper: &Paper, names: &str, options: &Options) -> Result<Cut, ScanError> {
-    cut(&clean(paper.scan())?, &labels(names), options)
+    cut(
+        &clean(paper.scan(), InkGrain::default())?,
+        &labels(names),
+        options,
+    )
 }
 
 /// Four by five cells of 120 × 100 px; the feet stand 70 px below the cells' tops.
@@ -472,7 +477,7 @@ fn corner_pins_straighten_a_letter() {
         region: Some(region),
         rotation_deg: 0.0,
     };
-    let page = clean(paper.scan()).unwrap();
+    let page = clean(paper.scan(), InkGrain::default()).unwrap();
     let cut = |pin: Pin| cut_with(&page, &labels(NAMES), &options(Layout::Free), &[pin]).unwrap();
     let columns = |region: Region| tall_columns(&cut(pin(region)).cells[5].gray, 24);
     let straight = columns(Region::Quad(quad));
