@@ -278,6 +278,38 @@ fn faint_ink_and_dark_paper_are_traced_and_nothing_is_told() {
 }
 
 #[test]
+fn pencil_is_averaged_unless_its_grain_is_to_stay() {
+    let dir = tempfile::tempdir().expect("a folder");
+    // a bar of which the paper's teeth have taken two thirds
+    let grain = |x: u32, y: u32| {
+        let mixed = x.wrapping_mul(0x9e37_79b9) ^ y.wrapping_mul(0x85eb_ca6b);
+        mixed.wrapping_mul(0xc2b2_ae35) >> 24
+    };
+    let level = |x: u32, y: u32| {
+        let inked = (20..44).contains(&x) && (20..60).contains(&y);
+        let ink = (8 * grain(x, y) / 5).saturating_sub(102).min(255);
+        if inked {
+            u8::try_from(ink).expect("0…255")
+        } else {
+            0
+        }
+    };
+    fs::write(dir.path().join("in.png"), png(64, 80, level)).expect("a picture");
+    for (more, one, told) in [
+        (&[][..], true, true),
+        (&["--grain", "soften", "--quiet"], true, false),
+        (&["--grain", "keep"], false, false),
+    ] {
+        let args = [&["trace", "in.png", "-o", "out.svg"], more].concat();
+        let out = khatt(dir.path(), &args);
+        let svg = fs::read_to_string(dir.path().join("out.svg")).expect("an SVG");
+        assert_eq!(svg.matches('M').count() == 1, one, "{more:?}: {svg}");
+        let said = String::from_utf8_lossy(&out.stderr);
+        assert_eq!(said.contains("grain"), told, "{more:?}: {said}");
+    }
+}
+
+#[test]
 fn pictures_that_cannot_be_traced() {
     let dir = tempfile::tempdir().expect("a folder");
     fs::write(dir.path().join("text.png"), "this is no picture").expect("a file");
