@@ -1,14 +1,14 @@
-//! Corners whose ends are cut off by a short line, as some designers draw them.
+//! Corners whose ends are cut off by a short line, as some designers draw them, and those that are rounds.
 
 use super::side::unit;
 use crate::{
-    numeric::chain::{Chain, Join},
+    numeric::chain::{Chain, Join, Node},
     refine::{
         curves::{arriving, leaving},
         residual::{Blot, Residual},
     },
 };
-use kurbo::Vec2;
+use kurbo::{Point, Vec2};
 use std::ops::Range;
 
 /// What of a corner's end the pixels are asked about, px along each side.
@@ -17,6 +17,9 @@ const END_PX: f64 = 1.0;
 /// turns by more, radians.
 const LINE_PX: Range<f64> = 0.75..4.0;
 const TURN: f64 = 0.3;
+/// A corner that turns by less may be a round, radians, which leaves none so near, px.
+const GENTLE: f64 = 1.2;
+const ROUND_PX: f64 = 4.0;
 
 /// By how much squares would fall without the end of a chain's corner `i`; nothing where that is no corner, negative
 /// where there is more of it than the chain has.
@@ -44,8 +47,22 @@ pub(super) fn is_blunt(chain: &Chain, i: usize) -> bool {
         return false;
     };
     let line = b.point - a.point;
-    let turn = |u: Vec2, v: Vec2| u.cross(v).atan2(u.dot(v));
     let first = turn(arriving(&chain.cubic(before)), line);
     let last = turn(line, leaving(&chain.cubic(after)));
     LINE_PX.contains(&line.hypot()) && first * last > 0.0 && first.abs().min(last.abs()) > TURN
+}
+
+/// Whether a corner turns by so little that it may be a round.
+pub(super) fn is_gentle(corner: &Node) -> bool {
+    turn(corner.arrive, corner.leave).abs() < GENTLE
+}
+
+/// Whether a chain has no corner near `at`.
+pub(super) fn is_round(chain: &Chain, at: Point) -> bool {
+    let mut corners = chain.nodes.iter().filter(|n| n.join == Join::Corner);
+    corners.all(|n| n.point.distance(at) > ROUND_PX)
+}
+
+fn turn(u: Vec2, v: Vec2) -> f64 {
+    u.cross(v).atan2(u.dot(v))
 }

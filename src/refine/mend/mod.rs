@@ -9,14 +9,14 @@
 //! | [`beside`] | a structure | whether it crosses what is around it |
 //! | [`tangle`] | paths as they came and are | those that cross now mended once more, without that |
 //! | [`window`] | a structure | its nodes by least squares of the pixels around |
-//! | [`ends`] | a path's corner | whether its end may be cut off |
+//! | [`ends`] | a path's corner | whether its end may be cut off, or it be a round |
 //! | [`bends`] | a path | its tight bends, and the corners that may stand in their place |
 //!
 //! What is left of the picture around an edge tells where a fit is wrong, and by how much. There the few nodes near
 //! by are fit to the pixels themselves, as they stand and with a node or corner more or less; what leaves least for
 //! its nodes is kept. Between such looks the levels of ink and paper are read again: what a path did not follow had
 //! passed for a part of them. In the end bends that a lens cannot tell from corners become corners, where the pixels
-//! do not speak against it, and corners lose their ends, where the pixels ask for it; tips come last.
+//! do not speak against it, and corners lose their ends or become rounds, where the pixels ask for it; tips come last.
 
 mod bends;
 mod beside;
@@ -270,7 +270,8 @@ impl Work<'_> {
         }
     }
 
-    /// Puts lines across the ends of corners where the pixels ask for them, of pictures whose pixels tell so little.
+    /// Puts lines across the ends of corners, or rounds in their place, where the pixels ask for them, of pictures whose
+    /// pixels tell so little.
     fn blunt(&mut self) {
         if self.residual.seen().scatter_px() > 0.0 {
             return;

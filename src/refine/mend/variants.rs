@@ -14,6 +14,8 @@ use kurbo::{CubicBez, ParamCurve, ParamCurveDeriv, ParamCurveNearest, Point, Vec
 
 /// How much of each side a corner that is cut off may lose, px.
 pub(super) const CUTS_PX: [f64; 2] = [0.8, 2.0];
+/// And one that may be a round.
+pub(super) const ROUNDS_PX: [f64; 2] = [2.0, 4.0];
 /// So far from a smooth node its sides tell how sharp a corner would be, px.
 const SHARP_PX: f64 = 4.0;
 /// How much further out a tip is tried, as parts of the reach.
