@@ -2,7 +2,7 @@
 
 use super::side::unit;
 use crate::{
-    numeric::chain::{Chain, Join, Node},
+    numeric::chain::{Chain, Join},
     refine::{
         curves::{arriving, leaving},
         residual::{Blot, Residual},
@@ -17,8 +17,7 @@ const END_PX: f64 = 1.0;
 /// turns by more, radians.
 const LINE_PX: Range<f64> = 0.75..4.0;
 const TURN: f64 = 0.3;
-/// A corner that turns by less may be a round, radians, which leaves none so near, px.
-const GENTLE: f64 = 1.2;
+/// A round in place of a corner leaves none so near, px.
 const ROUND_PX: f64 = 4.0;
 
 /// By how much squares would fall without the end of a chain's corner `i`; nothing where that is no corner, negative
@@ -50,11 +49,6 @@ pub(super) fn is_blunt(chain: &Chain, i: usize) -> bool {
     let first = turn(arriving(&chain.cubic(before)), line);
     let last = turn(line, leaving(&chain.cubic(after)));
     LINE_PX.contains(&line.hypot()) && first * last > 0.0 && first.abs().min(last.abs()) > TURN
-}
-
-/// Whether a corner turns by so little that it may be a round.
-pub(super) fn is_gentle(corner: &Node) -> bool {
-    turn(corner.arrive, corner.leave).abs() < GENTLE
 }
 
 /// Whether a chain has no corner near `at`.

@@ -5,7 +5,7 @@ use super::{
     bends::{cornered, is_cornered, is_sharp},
     beside::Beside,
     budget::Budget,
-    ends::{is_blunt, is_gentle, is_round},
+    ends::{is_blunt, is_round},
     fair::is_fair,
     tips::{has_tip, tip},
     variants::{CUTS_PX, ROUNDS_PX, cut, variants},
@@ -113,8 +113,8 @@ impl Search<'_> {
         found
     }
 
-    /// The structure with a line across the end of the corner there, or with a round in its place where it turns by
-    /// little, if it is sound and leaves no more than `more` squares more, which is negative: fewer.
+    /// The structure with a line across the end of the corner there, or with a round in its place, if it is sound and
+    /// leaves no more than `more` squares more, which is negative: fewer.
     pub(super) fn blunted(&self, more: f64) -> Option<Fitted> {
         let now = self.fit(self.part.clone(), f64::INFINITY);
         let (from, left) = if now.sound {
@@ -127,9 +127,9 @@ impl Search<'_> {
         let corner = corners.min_by(|a, b| off(a).total_cmp(&off(b)))?;
         let mut most = left + more;
         let mut found = None;
-        let rounds = is_gentle(&from.nodes[corner]).then_some(ROUNDS_PX);
-        let rounds = rounds.into_iter().flatten().map(|px| (px, Kind::Cubic));
-        for (px, by) in CUTS_PX.map(|px| (px, Kind::Line)).into_iter().chain(rounds) {
+        let lines = CUTS_PX.map(|px| (px, Kind::Line));
+        let rounds = ROUNDS_PX.map(|px| (px, Kind::Cubic));
+        for (px, by) in lines.into_iter().chain(rounds) {
             let other = self.fit(cut(from, corner, px, by), most);
             let is_so = match by {
                 Kind::Line => is_blunt(&other.chain, corner),
