@@ -286,7 +286,7 @@ fn pencil_is_averaged_unless_its_grain_is_to_stay() {
         mixed.wrapping_mul(0xc2b2_ae35) >> 24
     };
     let level = |x: u32, y: u32| {
-        let inked = (20..36).contains(&x) && (20..44).contains(&y);
+        let inked = (16..28).contains(&x) && (20..38).contains(&y);
         let ink = (8 * grain(x, y) / 5).saturating_sub(102).min(255);
         if inked {
             u8::try_from(ink).expect("0…255")
@@ -294,7 +294,7 @@ fn pencil_is_averaged_unless_its_grain_is_to_stay() {
             0
         }
     };
-    fs::write(dir.path().join("in.png"), png(64, 80, level)).expect("a picture");
+    fs::write(dir.path().join("in.png"), png(44, 60, level)).expect("a picture");
     for (more, one, told) in [
         (&[][..], true, true),
         (&["--grain", "soften", "--quiet"], true, false),

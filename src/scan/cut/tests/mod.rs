@@ -114,11 +114,8 @@ fn options(layout: Layout) -> Options {
 }
 
 fn cut_page(paper: &Paper, names: &str, options: &Options) -> Result<Cut, ScanError> {
-    cut(
-        &clean(paper.scan(), InkGrain::default())?,
-        &labels(names),
-        options,
-    )
+    let page = clean(paper.scan(), InkGrain::default())?;
+    cut(&page, &labels(names), options)
 }
 
 /// Four by five cells of 120 × 100 px; the feet stand 70 px below the cells' tops.
