@@ -129,6 +129,8 @@ pub struct Refit {
     feet: Vec<Foot>,
     /// Distance of each sample to its foot, and the unit normal there.
     off: Vec<(f64, Vec2)>,
+    /// What each tells.
+    terms: Vec<Term>,
     /// Where each node came from, and one over the square of how far it may go.
     anchors: Vec<(Point, f64)>,
 }
@@ -148,8 +150,17 @@ impl Refit {
         self.drop_anchors(chain, scale);
         let mut cost = self.evaluate(chain, samples, feet, scale);
         let mut lambda = 1e-3;
+        let mut summed = false;
         for _ in 0..stop.rounds {
-            if free == 0 || !self.solve(chain, free, lambda) {
+            if free == 0 {
+                break;
+            }
+            // the last place that is reached needs no equations
+            if !summed {
+                self.sum(chain, feet);
+                summed = true;
+            }
+            if !self.solve(chain, free, lambda) {
                 break;
             }
             let mut trial = std::mem::take(&mut self.trial);
@@ -163,7 +174,7 @@ impl Refit {
             if gain > 0.0 {
                 std::mem::swap(chain, &mut trial);
                 std::mem::swap(feet, &mut slid);
-                cost = new;
+                (cost, summed) = (new, false);
                 lambda = (lambda * 0.2_f64).max(1e-6);
             } else {
                 std::mem::swap(&mut self.saved, &mut self.blocks);
@@ -251,7 +262,7 @@ impl Refit {
         })
     }
 
-    /// Slides the feet, sums the rows of each segment, and returns the cost.
+    /// Slides the feet, and returns the cost.
     fn evaluate(
         &mut self,
         chain: &Chain,
@@ -287,42 +298,46 @@ impl Refit {
         }
         let pairs = rest.iter().zip(rest_feet);
         off.extend(pairs.map(|(sample, foot)| self.slide(sample.at, foot)));
-        let mut at = 0;
+        self.terms.clear();
+        let run = feet.iter().zip(samples).zip(&off);
+        let terms = run.map(|((foot, sample), &(distance, normal))| {
+            let precision = sample.sigma.recip();
+            let u = distance.abs() * precision;
+            let (rho, pull) = if u < scale.robust {
+                (0.5 * u * u, 1.0)
+            } else {
+                (scale.robust * (u - 0.5 * scale.robust), scale.robust / u)
+            };
+            cost += sample.weight * rho;
+            Term {
+                t: foot.t,
+                normal,
+                distance,
+                weight: sample.weight * pull * precision * precision,
+            }
+        });
+        self.terms.extend(terms);
+        self.off = off;
+        cost
+    }
+
+    /// Sums the rows of each segment.
+    fn sum(&mut self, chain: &Chain, feet: &[Foot]) {
+        let mut rest = self.terms.as_slice();
         for feet in feet.chunk_by(|a, b| a.segment == b.segment) {
             let segment = feet[0].segment;
             let mut moments = Moments::new(chain.kinds[segment]);
-            let run = at..at + feet.len();
-            at = run.end;
-            let run = feet.iter().zip(&samples[run.clone()]).zip(&off[run]);
-            let mut terms = run.map(|((foot, sample), &(distance, normal))| {
-                let precision = sample.sigma.recip();
-                let u = distance.abs() * precision;
-                let (rho, pull) = if u < scale.robust {
-                    (0.5 * u * u, 1.0)
-                } else {
-                    (scale.robust * (u - 0.5 * scale.robust), scale.robust / u)
-                };
-                cost += sample.weight * rho;
-                Term {
-                    t: foot.t,
-                    normal,
-                    distance,
-                    weight: sample.weight * pull * precision * precision,
-                }
-            });
-            while let Some(first) = terms.next() {
+            let (terms, after) = rest.split_at(feet.len());
+            rest = after;
+            let (fours, last) = terms.as_chunks::<LANES>();
+            fours.iter().for_each(|terms| moments.add(terms));
+            if !last.is_empty() {
                 let mut together = [Term::default(); LANES];
-                together[0] = first;
-                together[1..]
-                    .iter_mut()
-                    .zip(&mut terms)
-                    .for_each(|(to, t)| *to = t);
+                together[..last.len()].copy_from_slice(last);
                 moments.add(&together);
             }
             moments.write(chain, segment, &mut self.blocks[segment]);
         }
-        self.off = off;
-        cost
     }
 
     /// [`Self::slide`] for several samples; for those that stay on one segment, as nearly all do, side by side.
