@@ -134,12 +134,16 @@ struct Trial<'a> {
     sigma: f64,
     /// Measurements that a point stands for.
     weight: f64,
+    /// Directions of the curve at its start and end, and of its places beside the samples.
+    along: [Vec2; 2],
+    beside: [Vec2; 2],
+    /// Of each look the normal at its foot, the distance along it, and what that weighs.
+    off: [(Vec2, f64, f64); LOOKS],
 }
 
 /// Gauss–Newton's sums over the six numbers of a [`Trial`].
 #[derive(Default)]
 struct Sums {
-    cost: f64,
     h: [[f64; 6]; 6],
     g: [f64; 6],
 }
@@ -174,15 +178,17 @@ pub(super) fn cubic_cost(
     let mut trial = Trial::new(s, sigma, a, b);
     let mut best = f64::INFINITY;
     for round in 0..=ROUNDS {
-        let mut sums = Sums::default();
-        trial.look(&mut sums);
-        trial.weigh_priors(&mut sums);
-        let gain = best - sums.cost;
-        best = best.min(sums.cost);
+        let cost = trial.look();
+        let gain = best - cost;
+        best = best.min(cost);
         // What is left is hardly more than the last gain.
         let hopeless = round > 1 && best - 2.0 * gain > enough;
         let far = round > 0 && best > FAR * (enough + 1.0);
-        if round == ROUNDS || gain < 0.5 || hopeless || far || !solve6(&mut sums.h, &mut sums.g) {
+        if round == ROUNDS || gain < 0.5 || hopeless || far {
+            break;
+        }
+        let mut sums = trial.sums();
+        if !solve6(&mut sums.h, &mut sums.g) {
             break;
         }
         trial.step(&sums.g);
@@ -225,10 +231,14 @@ impl<'a> Trial<'a> {
             count,
             sigma,
             weight: (j - i) as f64 / (count as f64 * super::cost::CORRELATION),
+            along: [a.heading, b.heading],
+            beside: [perp(a.heading), perp(b.heading)],
+            off: [(Vec2::ZERO, 0.0, 0.0); LOOKS],
         }
     }
 
-    fn look(&mut self, sums: &mut Sums) {
+    /// Where the curve is off, and what that costs.
+    fn look(&mut self) -> f64 {
         let turned = |d: Vec2, by: f64| {
             let (sin, cos) = by.sin_cos();
             Vec2::new(cos * d.x - sin * d.y, sin * d.x + cos * d.y)
@@ -238,7 +248,8 @@ impl<'a> Trial<'a> {
             turned(self.ends[0].heading, v[1]),
             turned(self.ends[1].heading, v[3]),
         );
-        let (nu, nw) = (perp(self.ends[0].heading), perp(self.ends[1].heading));
+        self.along = [u, w];
+        let [nu, nw] = self.beside;
         let (p0, p3) = (self.places[0] + v[0] * nu, self.places[1] + v[2] * nw);
         let powers = Powers::new(&CubicBez::new(p0, p0 + v[4] * u, p3 - v[5] * w, p3));
         let (fours, _) = self.looks.as_chunks_mut::<LANES>();
@@ -248,7 +259,9 @@ impl<'a> Trial<'a> {
             let t = powers.feet(at, looks.map(|(_, t, _)| t), anywhere);
             looks.iter_mut().zip(t).for_each(|(l, t)| l.1 = t);
         }
-        for (point, t, tells) in self.looks.iter().take(self.count) {
+        let mut cost = 0.0;
+        let looks = self.looks.iter().zip(&mut self.off);
+        for ((point, t, tells), off) in looks.take(self.count) {
             let (foot, along, _) = powers.at(*t);
             let offset = foot - *point;
             let n = perp(along / along.hypot().max(1e-12));
@@ -260,32 +273,45 @@ impl<'a> Trial<'a> {
                 (0.5 * r * r, 1.0)
             };
             let weight = self.weight * *tells;
-            sums.cost += weight * rho;
+            cost += weight * rho;
+            *off = (n, d, weight * pull / (self.sigma * self.sigma));
+        }
+        self.priors()
+            .fold(cost, |cost, (off, tight)| cost + 0.5 * off * off * tight)
+    }
+
+    /// The sums at the last look.
+    fn sums(&self) -> Sums {
+        let mut sums = Sums::default();
+        let (v, [u, w], [nu, nw]) = (self.v, self.along, self.beside);
+        let looks = self.looks.iter().zip(&self.off);
+        for ((_, t, _), (n, d, weight)) in looks.take(self.count) {
             let (t, o) = (*t, 1.0 - *t);
             let (b1, b2) = (3.0 * o * o * t, 3.0 * o * t * t);
             let (start, end) = (o * o * o + b1, t * t * t + b2);
             let row = [
-                start * nu.dot(n),
-                b1 * v[4] * perp(u).dot(n),
-                end * nw.dot(n),
-                -b2 * v[5] * perp(w).dot(n),
-                b1 * u.dot(n),
-                -b2 * w.dot(n),
+                start * nu.dot(*n),
+                b1 * v[4] * perp(u).dot(*n),
+                end * nw.dot(*n),
+                -b2 * v[5] * perp(w).dot(*n),
+                b1 * u.dot(*n),
+                -b2 * w.dot(*n),
             ];
-            sums.add(&row, weight * pull / (self.sigma * self.sigma), d);
+            sums.add(&row, *weight, *d);
         }
-    }
-
-    fn weigh_priors(&self, sums: &mut Sums) {
-        let handles = [(self.chord * HANDLE.0, self.chord * HANDLE.1); 2];
-        let ends = self.slacks.map(|slack| (0.0, slack));
-        for (k, (mean, spread)) in ends.into_iter().chain(handles).enumerate() {
-            let off = self.v[k] - mean;
-            let tight = 1.0 / (spread * spread).max(1e-8);
-            sums.cost += 0.5 * off * off * tight;
+        for (k, (off, tight)) in self.priors().enumerate() {
             sums.g[k] += off * tight;
             sums.h[k][k] += tight;
         }
+        sums
+    }
+
+    /// How far each number is from what is usual, and one over the square of how far it may be.
+    fn priors(&self) -> impl Iterator<Item = (f64, f64)> {
+        let handles = [(self.chord * HANDLE.0, self.chord * HANDLE.1); 2];
+        let ends = self.slacks.map(|slack| (0.0, slack));
+        let priors = self.v.into_iter().zip(ends.into_iter().chain(handles));
+        priors.map(|(v, (mean, spread))| (v - mean, 1.0 / (spread * spread).max(1e-8)))
     }
 
     fn step(&mut self, by: &[f64; 6]) {
