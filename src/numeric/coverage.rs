@@ -74,18 +74,21 @@ impl Coverage {
             return;
         }
         let slope = (b.0 - a.0) / (b.1 - a.1);
+        let x = |y: f64| a.0 + slope * (y - a.1);
+        let (mut y1, mut x1) = (top, x(top));
         for row in index(top)..=index(bottom).min(self.height - 1) {
-            let (y0, y1) = (top.max(row as f64), bottom.min((row + 1) as f64));
+            let (y0, x0) = (y1, x1);
+            y1 = bottom.min((row + 1) as f64);
             if y1 <= y0 {
                 continue;
             }
-            let x = |y: f64| a.0 + slope * (y - a.1);
-            let (low, high) = (x(y0).min(x(y1)), x(y0).max(x(y1)));
-            let inside = (low.max(0.0), high.min(right));
-            if inside == (low, high) {
-                self.run(row, inside, sign * (y1 - y0));
+            x1 = x(y1);
+            let (low, high) = if x0 < x1 { (x0, x1) } else { (x1, x0) };
+            if low >= 0.0 && high <= right {
+                self.run(row, (low, high), sign * (y1 - y0));
                 continue;
             }
+            let inside = (low.max(0.0), high.min(right));
             // left of the picture an edge covers the whole row, right of it nothing
             let wide = (high - low).max(f64::MIN_POSITIVE);
             let height = |part: f64| sign * (y1 - y0) * (part / wide).clamp(0.0, 1.0);
@@ -215,15 +218,17 @@ pub fn blur(samples: &mut Vec<f32>, width: usize, sigma_px: f64, margin: usize) 
         // what the last rows of a block hold if they are even, and how many those are
         let mut even = vec![(0.0_f32, ring); blocks];
         let mut line = vec![0.0; 2 * radius + width.max(margin + blocks * LANES)];
+        // where in `along` the rows above and below the one of the result begin
+        let mut sides = Vec::with_capacity(radius);
         for y in 0..rows + radius {
             let newest = y % ring;
             match samples.get(y * width..(y + 1) * width) {
                 Some(row) => line[radius..radius + width].copy_from_slice(row),
                 None => line.fill(0.0),
             }
-            for (block, even) in even.iter_mut().enumerate() {
+            let to = along[newest * blocks..].iter_mut();
+            for ((block, even), to) in even.iter_mut().enumerate().zip(to) {
                 let around = &line[margin + block * LANES..][..2 * radius + LANES];
-                let to = &mut along[newest * blocks + block];
                 if is_even(around) {
                     let same = around[0].to_bits() == even.0.to_bits();
                     let rows = if same { even.1 } else { 0 };
@@ -237,18 +242,19 @@ pub fn blur(samples: &mut Vec<f32>, width: usize, sigma_px: f64, margin: usize) 
             let Some(to) = y.checked_sub(radius + margin).filter(|to| *to < high) else {
                 continue;
             };
+            let row = |back: usize| (newest + ring - back) % ring * blocks;
+            sides.clear();
+            let pairs = (1..).zip(&kernel[1..]);
+            sides.extend(pairs.map(|(d, k)| (row(radius + d), row(radius - d), *k)));
+            let middle = (row(radius), kernel[0]);
             // never past what has been read
             let out = samples[to * wide..(to + 1) * wide].chunks_mut(LANES);
             for ((block, out), even) in out.enumerate().zip(&even) {
-                if even.1 >= ring {
-                    out.fill(even.0);
-                    continue;
-                }
-                let row = |back: usize| {
-                    let row = newest.checked_sub(back);
-                    &along[row.unwrap_or(newest + ring - back) * blocks + block]
+                let sum = if even.1 >= ring {
+                    [even.0; LANES]
+                } else {
+                    down(&along[block..], middle, &sides)
                 };
-                let sum = down(row, &kernel);
                 match out.first_chunk_mut() {
                     Some(out) => *out = sum,
                     None => out.copy_from_slice(&sum[..out.len()]),
@@ -262,34 +268,38 @@ pub fn blur(samples: &mut Vec<f32>, width: usize, sigma_px: f64, margin: usize) 
 /// Whether values are all the same.
 fn is_even(values: &[f32]) -> bool {
     let first = values.first().map_or(0, |v| v.to_bits());
-    let differ = |any: u32, v: &f32| any | v.to_bits() ^ first;
-    let (most, rest) = values.as_chunks::<LANES>();
-    rest.iter().fold(0, differ) == 0 && most.iter().all(|m| m.iter().fold(0, differ) == 0)
+    let is_first =
+        |some: &[f32; LANES]| some.iter().fold(0, |any, v| any | v.to_bits() ^ first) == 0;
+    // the last ones overlap others: whole blocks are quick to look at
+    let last = values.last_chunk();
+    last.is_some_and(is_first) && values.as_chunks().0.iter().all(is_first)
 }
 
 /// A block of a row weighed with what lies left and right of it; `around` holds both.
 fn across(around: &[f32], kernel: &[f32]) -> [f32; LANES] {
     let radius = kernel.len() - 1;
-    let mut sum = [0.0; LANES];
-    for (sum, v) in sum.iter_mut().zip(&around[radius..]) {
-        *sum = kernel[0] * v;
-    }
+    let middle = &around[radius..][..LANES];
+    let mut sum: [f32; LANES] = array::from_fn(|i| kernel[0] * middle[i]);
     for (d, k) in kernel.iter().enumerate().skip(1) {
-        let (left, right) = (&around[radius - d..], &around[radius + d..]);
-        let sides = left[..LANES].iter().zip(&right[..LANES]);
-        for (sum, (left, right)) in sum.iter_mut().zip(sides) {
-            *sum = *sum + k * left + k * right;
-        }
+        let (left, right) = (
+            &around[radius - d..][..LANES],
+            &around[radius + d..][..LANES],
+        );
+        sum = array::from_fn(|i| sum[i] + k * left[i] + k * right[i]);
     }
     sum
 }
 
-/// A block weighed with those above and below it, of which `row` gives the one so many rows back.
-fn down<'a>(row: impl Fn(usize) -> &'a [f32; LANES], kernel: &[f32]) -> [f32; LANES] {
-    let radius = kernel.len() - 1;
-    let mut sum = row(radius).map(|v| kernel[0] * v);
-    for (d, k) in kernel.iter().enumerate().skip(1) {
-        let (above, below) = (row(radius + d), row(radius - d));
+/// A block, the first of some, weighed with those above and below it: `middle` and `sides` say how far on they are
+/// and what they weigh.
+fn down(
+    blocks: &[[f32; LANES]],
+    (middle, weight): (usize, f32),
+    sides: &[(usize, usize, f32)],
+) -> [f32; LANES] {
+    let mut sum = blocks[middle].map(|v| weight * v);
+    for (above, below, k) in sides {
+        let (above, below) = (&blocks[*above], &blocks[*below]);
         sum = array::from_fn(|i| sum[i] + k * (above[i] + below[i]));
     }
     sum
