@@ -78,20 +78,42 @@ impl Levels {
         };
         let (row, below) = (gray.row(y), gray.row(y + 1));
         let above = y.checked_sub(1).map_or(&[][..], |y| gray.row(y));
-        let differ = |a: f32, b: f32| self.is_ink(a) != self.is_ink(b);
-        for ((before, here), after) in (above.windows(2).zip(row.windows(2))).zip(below.windows(2))
-        {
-            if differ(here[0], here[1]) {
-                let two = |pair: &[f32]| [pair[0], pair[1]];
-                look(two(before), two(here), two(after));
-            }
+        let first = row.get(1..).unwrap_or_default();
+        let inner = first
+            .len()
+            .saturating_sub(1)
+            .min(below.len().saturating_sub(2));
+        if !above.is_empty() && !below.is_empty() {
+            self.changes(row, first, |x| {
+                let two = |row: &[f32]| [row[x], row[x + 1]];
+                look(two(above), two(row), two(below));
+            });
         }
-        for (a, b) in row.windows(3).zip(below.windows(3)) {
-            if differ(a[1], b[1]) {
-                look([a[0], b[0]], [a[1], b[1]], [a[2], b[2]]);
-            }
+        if inner > 0 {
+            self.changes(&first[..inner], &below[1..], |x| {
+                let two = |x: usize| [row[x], below[x]];
+                look(two(x), two(x + 1), two(x + 2));
+            });
         }
         (steps, bare)
+    }
+
+    /// Calls `at` with the indices at which one of two rows is ink and the other paper, which are few.
+    fn changes(&self, a: &[f32], b: &[f32], mut at: impl FnMut(usize)) {
+        /// Pixels that are looked at together.
+        const TOGETHER: usize = 16;
+        let differ = |(a, b): (&f32, &f32)| self.is_ink(*a) != self.is_ink(*b);
+        let blocks = a.chunks(TOGETHER).zip(b.chunks(TOGETHER)).enumerate();
+        for (k, (a, b)) in blocks {
+            if a.iter().zip(b).fold(false, |any, pair| any | differ(pair)) {
+                let here = a
+                    .iter()
+                    .zip(b)
+                    .enumerate()
+                    .filter(|(_, pair)| differ(*pair));
+                here.for_each(|(i, _)| at(k * TOGETHER + i));
+            }
+        }
     }
 
     /// The usual length of ink along rows and columns, px.

@@ -4,6 +4,7 @@ use crate::{
     numeric::cast::index,
     types::{Contour, Gray},
 };
+use std::mem;
 
 /// Pixels this close to a contour hold its edge, px.
 const BAND_PX: f64 = 4.0;
@@ -31,10 +32,15 @@ pub(super) fn blur_px(gray: &Gray, contours: &[Contour]) -> f64 {
                 continue;
             }
             last = Some(place);
-            for (y, x) in span(y, h).flat_map(|y| span(at.x, w).map(move |x| (y, x))) {
-                if !std::mem::replace(&mut near[y * w + x], true) {
-                    let v = f64::from(gray.at(x, y));
-                    sum += v * (1.0 - v);
+            let columns = span(at.x, w);
+            for y in span(y, h) {
+                let near = near[y * w..].get_mut(columns.clone());
+                let pixels = gray.row(y).iter().skip(columns.start);
+                for (near, v) in near.into_iter().flatten().zip(pixels) {
+                    if !mem::replace(near, true) {
+                        let v = f64::from(*v);
+                        sum += v * (1.0 - v);
+                    }
                 }
             }
         }

@@ -1,7 +1,7 @@
 //! How ragged a picture's edges are.
 
 use crate::types::Contour;
-use kurbo::Vec2;
+use kurbo::{Point, Vec2};
 
 /// Points on each side of the one that a parabola is laid through.
 const REACH: usize = 6;
@@ -50,11 +50,11 @@ fn deviations(contour: &Contour) -> Vec<f64> {
     let s2 = r * (r + 1.0) * (2.0 * r + 1.0) / 3.0;
     let s4 = s2 * (3.0 * r * r + 3.0 * r - 1.0) / 5.0;
     let s0 = 2.0 * r + 1.0;
-    let of = |k: usize| {
+    let of = |around: &[Point]| {
         let (mut m0, mut m1, mut m2) = (Vec2::ZERO, Vec2::ZERO, Vec2::ZERO);
-        for i in 0..=2 * REACH {
+        for (i, p) in around.iter().enumerate() {
             let x = i as f64 - r;
-            let q = p[(k + n + i - REACH) % n] - p[k];
+            let q = *p - around[REACH];
             m0 += q;
             m1 += q * x;
             m2 += q * (x * x);
@@ -63,5 +63,6 @@ fn deviations(contour: &Contour) -> Vec<f64> {
         let along = m1 / s2;
         middle.cross(along).abs() / along.hypot().max(1e-12)
     };
-    (0..n).map(of).collect()
+    let ring = [&p[n - REACH..], p, &p[..REACH]].concat();
+    ring.windows(2 * REACH + 1).map(of).collect()
 }

@@ -164,10 +164,23 @@ impl<'a> Field<'a> {
 
     /// How far a pixel stands out over what lies on both sides of it, where it is the highest of its neighbours
     /// across.
-    fn relief(&self, at: (usize, usize)) -> f32 {
-        let here = self.beside(at, (0, 0));
+    fn relief(&self, (x, y): (usize, usize)) -> f32 {
+        let (w, h) = (self.gray.width(), self.gray.height());
+        let most = self.aside[0][1].unsigned_abs();
+        let within = |v: usize, n: usize| (most..n.saturating_sub(most)).contains(&v);
+        if !within(x, w) || !within(y, h) {
+            return self.relief_among(|step| self.beside((x, y), step));
+        }
+        let at = y * w + x;
+        let sample = |(dx, dy): (isize, isize)| at.wrapping_add_signed(dy * w.cast_signed() + dx);
+        self.relief_among(|step| self.seen(self.gray.samples()[sample(step)]))
+    }
+
+    /// The same where `beside` gives the heights around the pixel.
+    fn relief_among(&self, beside: impl Fn((isize, isize)) -> f32) -> f32 {
+        let here = beside((0, 0));
         let over = |(dx, dy): (isize, isize)| {
-            let side = |n: isize| self.beside(at, (n * dx, n * dy));
+            let side = |n: isize| beside((n * dx, n * dy));
             if here < side(1).max(side(-1)) {
                 return 0.0;
             }
@@ -249,13 +262,20 @@ impl<'a> Field<'a> {
 
     /// The pixels that stand out by `relief` and do not reach far over the level.
     fn standing_out(&self, relief: f32) -> Vec<Crest> {
+        /// Pixels that are looked at together: most are plain ink or paper.
+        const TOGETHER: usize = 16;
         let w = self.gray.width();
         let [low, high] = [relief, self.level / SIDES].map(|part| self.shown(part));
-        let heights = low.min(high)..=low.max(high);
-        let pixels = self.gray.samples().iter().enumerate();
-        let some =
-            pixels.filter(|(i, v)| heights.contains(*v) && self.relief((i % w, i / w)) >= relief);
-        some.map(|(i, v)| (i, self.seen(*v))).collect()
+        let (low, high) = (low.min(high), low.max(high));
+        let within = |v: &f32| (low <= *v) & (*v <= high);
+        let mut out = Vec::new();
+        let samples = self.gray.samples().chunks(TOGETHER).enumerate();
+        for (k, some) in samples.filter(|(_, s)| s.iter().fold(false, |any, v| any | within(v))) {
+            let pixels = (k * TOGETHER..).zip(some).filter(|(_, v)| within(v));
+            let some = pixels.filter(|(i, _)| self.relief((i % w, i / w)) >= relief);
+            out.extend(some.map(|(i, v)| (i, self.seen(*v))));
+        }
+        out
     }
 
     /// Scales what lies around crests up to where the level is passed at their sides.
