@@ -11,6 +11,18 @@ pub const fn index(at: f64) -> usize {
     at as usize
 }
 
+/// The least whole number of steps that is not less; 0 for what is negative or no number.
+#[must_use]
+pub const fn ceiling(at: f64) -> usize {
+    // without a call of the mathematical library, which `ceil` is for the oldest processors
+    let below = index(at);
+    if (below as f64) < at {
+        below.saturating_add(1)
+    } else {
+        below
+    }
+}
+
 /// The nearest `f32`.
 #[must_use]
 #[expect(

@@ -168,7 +168,9 @@ fn averaged(values: &[Option<f64>], corner: &[bool], kernel: &[f64]) -> Vec<f64>
         for step in [1, n - 1] {
             let mut j = i;
             for k in kernel.iter().skip(1) {
-                j = (j + step) % n;
+                // no division: this is done for every point and each of its neighbours
+                j += step;
+                j -= if j < n { 0 } else { n };
                 if corner[j] {
                     break;
                 }

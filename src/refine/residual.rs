@@ -2,7 +2,7 @@
 
 use crate::{
     numeric::{
-        cast::index,
+        cast::{ceiling, index},
         coverage::{Coverage, blur, kernel},
         levels::normalised,
         median::median,
@@ -255,7 +255,7 @@ impl Residual<'_> {
     fn around(&self, p: Point, reach: f64) -> ((f64, f64), [Range<usize>; 2]) {
         let (w, h) = (self.seen.width(), self.seen.height());
         let (cx, cy) = (p.x - 0.5, h as f64 - p.y - 0.5);
-        let span = |c: f64, n: usize| index((c - reach).ceil())..index(c + reach + 1.0).min(n);
+        let span = |c: f64, n: usize| ceiling(c - reach)..index(c + reach + 1.0).min(n);
         ((cx, cy), [span(cx, w), span(cy, h)])
     }
 

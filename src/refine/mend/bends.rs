@@ -40,8 +40,9 @@ pub(super) fn tight_bends(chain: &Chain, chords: &[Point]) -> Vec<Point> {
     while gone < way.length {
         let [a, b, c, d] = [-reach, -WITHIN_PX, WITHIN_PX, reach].map(|s| way.at(gone + s));
         let (u, v) = (b - a, d - c);
-        let turn = u.cross(v).atan2(u.dot(v)).abs();
-        if turn > TURN {
+        // one of less than an eighth of a round, as nearly all are, is told without an arctangent
+        let little = u.cross(v).abs() < u.dot(v);
+        if !little && u.cross(v).atan2(u.dot(v)).abs() > TURN {
             // the nearer its two sides come, the nearer is the middle of a bend
             found.push((b.distance(c), way.at(gone)));
         }
@@ -83,7 +84,14 @@ impl<'a> Way<'a> {
 
     /// The place so far along, px, counted around.
     fn at(&self, px: f64) -> Point {
-        let px = px.rem_euclid(self.length);
+        // no further than once around
+        let px = if px < 0.0 {
+            px + self.length
+        } else if px < self.length {
+            px
+        } else {
+            px - self.length
+        };
         let last = self.chords.len() - 1;
         let next = self.gone.partition_point(|g| *g <= px).clamp(1, last);
         let (a, b) = (self.gone[next - 1], self.gone[next]);

@@ -96,7 +96,8 @@ impl Place<'_> {
         let (start, count) = self.run(reach)?;
         let ring = begun_at(self.chain, start);
         let part = open_part(&ring, count);
-        let window = self.window((&ring, &part), reach);
+        let rest = rest(&ring, &part);
+        let window = self.window((&rest, &part), reach);
         let search = Search {
             window: &window,
             part: &part,
@@ -104,7 +105,7 @@ impl Place<'_> {
             reach,
             grain: self.grain,
             work: self.work,
-            beside: self.beside((&ring, &part), FAR * reach),
+            beside: self.beside((&rest, &part), FAR * reach),
         };
         let best = match look {
             Look::Wrong => search.best(),
@@ -121,7 +122,7 @@ impl Place<'_> {
         }
         // what went out of the window tells nothing in it
         let best = best.chain;
-        let window = self.window((&ring, &part), FAR * reach);
+        let window = self.window((&rest, &part), FAR * reach);
         if window.drawn(&best).squares > window.drawn(&part).squares - enough {
             return None;
         }
@@ -148,7 +149,7 @@ impl Place<'_> {
         let (ring, chain) = (back(ring), back(chain));
         let (count, now) = (count + 2 * beside, now + 2 * beside);
         let part = open_part(&ring, count);
-        let window = self.window((&ring, &part), FAR * reach);
+        let window = self.window((&rest(&ring, &part), &part), FAR * reach);
         let most = window.drawn(&part).squares - enough;
         let mut best = open_part(&chain, now);
         if window.fit(&mut best, most).squares > most || !is_fair(&best) {
@@ -168,20 +169,18 @@ impl Place<'_> {
         }
     }
 
-    /// The window in which a `part` moves, the first segments of a chain that is turned to begin with it.
-    fn window(&self, (chain, part): (&Chain, &Chain), reach: f64) -> Window {
-        let rest = rest(chain, part);
-        let lines = self.others(reach).chain([&*rest]);
+    /// The window in which a `part` of a ring moves, and the `rest` does not.
+    fn window(&self, (rest, part): (&[Point], &Chain), reach: f64) -> Window {
+        let lines = self.others(reach).chain([rest]);
         Window::new(self.residual, (self.at, reach), lines, part, self.grain)
     }
 
     /// What such a `part` may not cross, if it may not.
-    fn beside(&self, (chain, part): (&Chain, &Chain), reach: f64) -> Option<Beside> {
+    fn beside(&self, (rest, part): (&[Point], &Chain), reach: f64) -> Option<Beside> {
         if self.crossing == Crossing::OnTheWay {
             return None;
         }
-        let rest = rest(chain, part);
-        let lines = self.others(reach).chain([&*rest]);
+        let lines = self.others(reach).chain([rest]);
         let bounds = Window::bounds(self.residual, (self.at, reach));
         Some(Beside::new(lines, part, bounds))
     }

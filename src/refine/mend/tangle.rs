@@ -17,10 +17,13 @@ pub(super) enum Crossing {
 impl Work<'_> {
     /// Mends those rings once more that cross and did not in `paths`, now without crossing on the way.
     pub(super) fn untangle(&mut self, paths: &[BezPath]) {
-        let first = rings(paths);
-        let drawn = crossed(&first, None);
         let mut tangled = crossed(&self.rings, None);
         let count = tangled.len();
+        if count == 0 {
+            return;
+        }
+        let first = rings(paths);
+        let drawn = crossed(&first, None);
         tangled.retain(|pair| !drawn.contains(pair));
         let again = |k: usize| tangled.iter().flatten().any(|t| *t == k);
         if tangled.is_empty() {

@@ -10,12 +10,13 @@ use super::{
     numbers::{Number, nudge},
 };
 use crate::numeric::{
-    cast::index,
+    cast::{ceiling, index},
     chain::Chain,
     coverage::{blur, kernel},
     skyline::Skyline,
 };
 use kurbo::{Point, Vec2};
+use std::array;
 
 /// Differences that the ways of control points are taken by, px and radians.
 const DELTA: f64 = 0.01;
@@ -43,19 +44,10 @@ impl Normal {
         };
         out.matrix.reset(&vec![0; numbers.len()]);
         (0..numbers.len()).for_each(|i| out.matrix.add(i, i, STILL));
-        let moved = |number: &(usize, Number)| {
-            let mut moved = chain.clone();
-            nudge(&mut moved, *number, DELTA);
-            moved.settle();
-            moved
-        };
-        let moved: Vec<Chain> = numbers.iter().map(moved).collect();
-        let ways: Vec<Vec<Way>> = (0..chain.kinds.len())
-            .map(|segment| ways(chain, &moved, segment))
-            .collect();
+        let ways = ways(window, chain, numbers);
         out.add_pixels(window, &ways, now);
         out.add_anchors(window, &ways, now);
-        out.add_handles(window, (chain, &moved), &ways, now);
+        out.add_handles(window, &ways, now);
         out
     }
 
@@ -103,22 +95,13 @@ impl Normal {
         }
     }
 
-    fn add_handles(
-        &mut self,
-        window: &Window,
-        (chain, moved): (&Chain, &[Chain]),
-        ways: &[Vec<Way>],
-        now: &Drawn,
-    ) {
+    fn add_handles(&mut self, window: &Window, ways: &[Vec<Way>], now: &Drawn) {
         let left = &now.left[index(window.pixels()) + window.anchors.len()..];
         let mut grows = Vec::new();
-        for ((segment, ways), left) in ways.iter().enumerate().zip(left.chunks_exact(4)) {
-            let before = window.handles(chain, segment);
-            let after = |w: &Way| (w.number, window.handles(&moved[w.number], segment));
-            let after: Vec<_> = ways.iter().map(after).collect();
+        for (ways, left) in ways.iter().zip(left.chunks_exact(4)) {
             for (k, left) in left.iter().enumerate() {
                 grows.clear();
-                grows.extend(after.iter().map(|(i, a)| (*i, (a[k] - before[k]) / DELTA)));
+                grows.extend(ways.iter().map(|w| (w.number, w.handles[k])));
                 self.add_row(&grows, f64::from(*left));
             }
         }
@@ -126,7 +109,8 @@ impl Normal {
 
     /// One difference that is `left`, and how much it grows with numbers in rising order.
     fn add_row(&mut self, grows: &[(usize, f64)], left: f64) {
-        for (k, &(i, a)) in grows.iter().enumerate() {
+        let moving = grows.iter().enumerate().filter(|(_, (_, a))| *a != 0.0);
+        for (k, &(i, a)) in moving {
             self.slope[i] -= a * left;
             for &(j, b) in &grows[..=k] {
                 self.matrix.add(i, j, a * b);
@@ -135,18 +119,23 @@ impl Normal {
     }
 }
 
-/// How the control points of a segment go with a number.
+/// How the control points of a segment go with a number, and what is wrong with its handles.
 struct Way {
     number: usize,
     points: [Vec2; 4],
+    handles: [f64; 4],
 }
 
 impl Way {
     /// How far the curve goes in a direction where the control points have those weights.
     fn along(&self, direction: Vec2, basis: &[f64; 4]) -> f64 {
-        let pairs = self.points.iter().zip(basis);
-        pairs.map(|(p, b)| b * direction.dot(*p)).sum()
+        weighed(&self.points.map(|p| direction.dot(p)), basis)
     }
+}
+
+/// The sum of what control points have, by their weights.
+fn weighed(values: &[f64; 4], basis: &[f64; 4]) -> f64 {
+    values.iter().zip(basis).map(|(v, b)| b * v).sum()
 }
 
 /// Weights of a cubic's control points at `t`.
@@ -155,21 +144,37 @@ fn bernstein(t: f64) -> [f64; 4] {
     [s * s * s, 3.0 * s * s * t, 3.0 * s * t * t, t * t * t]
 }
 
-/// Ways of the numbers that move a segment.
-fn ways(chain: &Chain, moved: &[Chain], segment: usize) -> Vec<Way> {
-    let from = chain.cubic(segment);
-    let ways = moved.iter().enumerate().map(|(number, moved)| {
-        let to = moved.cubic(segment);
-        let points = [
-            to.p0 - from.p0,
-            to.p1 - from.p1,
-            to.p2 - from.p2,
-            to.p3 - from.p3,
-        ];
-        let points = points.map(|v| v / DELTA);
-        Way { number, points }
-    });
-    ways.filter(|w| w.points != [Vec2::ZERO; 4]).collect()
+/// Of each segment the ways of the numbers that move it.
+fn ways(window: &Window, chain: &Chain, numbers: &[(usize, Number)]) -> Vec<Vec<Way>> {
+    let handles = |chain: &Chain, segment: usize| window.handles(chain, segment);
+    let from: Vec<_> = (0..chain.kinds.len())
+        .map(|segment| (chain.cubic(segment), handles(chain, segment)))
+        .collect();
+    let mut ways: Vec<Vec<Way>> = from.iter().map(|_| Vec::new()).collect();
+    for (number, what) in numbers.iter().enumerate() {
+        let mut moved = chain.clone();
+        nudge(&mut moved, *what, DELTA);
+        moved.settle();
+        for (segment, ((from, before), ways)) in from.iter().zip(&mut ways).enumerate() {
+            let to = moved.cubic(segment);
+            let points = [
+                to.p0 - from.p0,
+                to.p1 - from.p1,
+                to.p2 - from.p2,
+                to.p3 - from.p3,
+            ];
+            if points == [Vec2::ZERO; 4] {
+                continue;
+            }
+            let after = handles(&moved, segment);
+            ways.push(Way {
+                number,
+                points: points.map(|v| v / DELTA),
+                handles: array::from_fn(|k| (after[k] - before[k]) / DELTA),
+            });
+        }
+    }
+    ways
 }
 
 /// The ink that numbers add to pixels.
@@ -210,9 +215,17 @@ impl Inked {
     /// The chords of a segment, evenly in its parameter.
     fn add(&mut self, ways: &[Way], chords: &[Point]) {
         let count = (chords.len() - 1) as f64;
-        let mut parts = Vec::new();
+        let (mut parts, mut along) = (Vec::new(), Vec::new());
         for (k, (a, b)) in chords.iter().zip(chords.iter().skip(1)).enumerate() {
+            if self.is_beyond(*a, *b) {
+                continue;
+            }
             let outward = Vec2::new(b.y - a.y, a.x - b.x);
+            along.clear();
+            along.extend(
+                ways.iter()
+                    .map(|w| (w.number, w.points.map(|p| outward.dot(p)))),
+            );
             crossings(*a, *b, (self.width, self.height), &mut parts);
             let mut from = 0.0;
             for &to in &parts {
@@ -221,11 +234,23 @@ impl Inked {
                 let p = a.lerp(*b, mid);
                 let Some(row) = self.row(p) else { continue };
                 let basis = bernstein((k as f64 + mid) / count);
-                for w in ways {
-                    row[w.number] += part * w.along(outward, &basis);
+                for (number, along) in &along {
+                    row[*number] += part * weighed(along, &basis);
                 }
             }
         }
+    }
+
+    /// Whether a chord lies beyond one side of the picture.
+    fn is_beyond(&self, a: Point, b: Point) -> bool {
+        /// px, so that rounding makes no difference
+        const CLEAR_PX: f64 = 1.0;
+        let axes = [(a.x, b.x, self.width), (a.y, b.y, self.height)];
+        let beyond = |(a, b, size): (f64, f64, usize)| {
+            let far = size as f64 + CLEAR_PX;
+            (a < -CLEAR_PX && b < -CLEAR_PX) || (a > far && b > far)
+        };
+        axes.into_iter().any(beyond)
     }
 
     /// What numbers add to the pixel of a place.
@@ -292,7 +317,7 @@ fn crossings(a: Point, b: Point, (width, height): (usize, usize), out: &mut Vec<
         let (low, high) = (from.min(to).max(0.0), from.max(to).min(size as f64));
         if low <= high {
             let lines =
-                (index(low.ceil())..=index(high)).map(|line| (line as f64 - from) / (to - from));
+                (ceiling(low)..index(high) + 1).map(|line| (line as f64 - from) / (to - from));
             out.extend(lines.filter(|part| (0.0..1.0).contains(part)));
         }
     }
