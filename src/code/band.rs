@@ -16,19 +16,62 @@ pub(super) struct Vertex {
 
 impl Vertex {
     pub(super) fn point(self) -> Point {
-        Point::new(f64::from(self.at.0), f64::from(self.at.1))
+        point(self.at)
+    }
+}
+
+fn point((x, y): (i32, i32)) -> Point {
+    Point::new(f64::from(x), f64::from(y))
+}
+
+/// Where a curve begins, and ends.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Begin {
+    /// On the first boundary point, with a corner.
+    Corner,
+    /// With the edge between two places, which it ends with too.
+    Edge([(i32, i32); 2]),
+}
+
+impl Begin {
+    /// The boundary from the point nearest to where the curve begins, once around, and how many of its points are
+    /// passed again by the curve's end.
+    fn unrolled(self, boundary: &[Point]) -> (Vec<Point>, usize) {
+        let Self::Edge([first, second]) = self else {
+            return (boundary.to_vec(), 1);
+        };
+        let mut around = boundary.to_vec();
+        let to = |at, around: &[Point]| {
+            let square = |i: &usize| around[*i].distance_squared(point(at));
+            let nearest = (0..around.len()).min_by(|i, j| square(i).total_cmp(&square(j)));
+            nearest.unwrap_or(0)
+        };
+        let shift = to(first, &around);
+        around.rotate_left(shift);
+        let again = to(second, &around) + 1;
+        (around, again)
+    }
+
+    /// The first vertex, on or near the first of the boundary's points.
+    fn at(self, around: &[Point]) -> (i32, i32) {
+        match self {
+            Self::Corner => (near(around[0].x), near(around[0].y)),
+            Self::Edge([first, _]) => first,
+        }
     }
 }
 
 /// Whole points near the boundary, in its order.
 #[derive(Debug)]
 pub(super) struct Band {
-    /// The boundary, its first point again at the end.
+    /// The boundary from where the curve begins, and those of its points again where the curve ends.
     pub(super) boundary: Vec<Point>,
+    /// Its points.
+    pub(super) around: usize,
     /// Square of `T_i`, px², for each of them.
     pub(super) squares: Vec<f64>,
     pub(super) tube: Tube,
-    /// The first boundary point, all others of the band, and the first again.
+    /// That which the curve begins with, all others of the band, and the first again.
     pub(super) vertices: Vec<Vertex>,
     /// Its longest step, px.
     stride: f64,
@@ -41,47 +84,22 @@ impl Band {
     /// For edges whose components are no longer than so many px.
     pub(super) fn new(
         boundary: &[Point],
+        begin: Begin,
         bounds: Bounds,
         kind: Kind,
         (width, longest): (Width, i32),
     ) -> Self {
-        let admissible = admissible(boundary, bounds);
+        let (around, again) = begin.unrolled(boundary);
+        let admissible = admissible(&around, bounds);
         // no shorter than the longest chord
-        let chord = extent(boundary).size().to_vec2().hypot();
-        let mut best: BTreeMap<(i32, i32), (f64, usize)> = BTreeMap::new();
-        for (i, &b) in boundary.iter().enumerate() {
-            let w = admissible[i]
-                + match width {
-                    Width::Tolerance => 0.0,
-                    Width::Bound => beyond(
-                        kind,
-                        [chord, f64::from(longest)],
-                        bounds.t_max,
-                        admissible[i],
-                    ),
-                };
-            let reach = near(w);
-            for dy in -reach..=reach {
-                for dx in -reach..=reach {
-                    let at = (near(b.x) + dx, near(b.y) + dy);
-                    let d = Point::new(f64::from(at.0), f64::from(at.1)).distance(b);
-                    if d <= w && best.get(&at).is_none_or(|old| d < old.0) {
-                        best.insert(at, (d, i));
-                    }
-                }
-            }
-        }
-        let start = |stage: usize| Vertex {
-            at: (near(boundary[0].x), near(boundary[0].y)),
-            stage,
+        let chord = extent(&around).size().to_vec2().hypot();
+        let edge = [chord, f64::from(longest)];
+        let reach = |&t: &f64| match width {
+            Width::Tolerance => t,
+            Width::Bound => t + beyond(kind, edge, bounds.t_max, t),
         };
-        let others = best
-            .into_iter()
-            .map(|(at, (_, stage))| Vertex { at, stage });
-        let others = others.filter(|v| v.stage > 0);
-        let mut vertices: Vec<Vertex> = std::iter::once(start(0)).chain(others).collect();
-        vertices.sort_by_key(|v| v.stage);
-        vertices.push(start(boundary.len()));
+        let reach: Vec<f64> = admissible.iter().map(reach).collect();
+        let vertices = vertices(&around, &reach, begin.at(&around));
         let least = |axis: fn(&Vertex) -> i32| vertices.iter().map(axis).min().unwrap_or(0);
         let corner = (least(|v| v.at.0), least(|v| v.at.1));
         let widest = vertices.iter().map(|v| v.at.0 - corner.0 + 1).max();
@@ -93,10 +111,10 @@ impl Band {
                 index[cell] = Some(i);
             }
         }
-        let boundary: Vec<Point> = boundary.iter().chain(boundary.first()).copied().collect();
+        let boundary: Vec<Point> = around.iter().chain(&around[..again]).copied().collect();
         let t: Vec<f64> = admissible
             .iter()
-            .chain(admissible.first())
+            .chain(&admissible[..again])
             .copied()
             .collect();
         let strides = boundary.windows(2).map(|w| w[0].distance(w[1]));
@@ -106,6 +124,7 @@ impl Band {
             squares: t.iter().map(|t| t * t + 1e-9).collect(),
             stride,
             boundary,
+            around: around.len(),
             vertices,
             corner,
             across,
@@ -131,10 +150,37 @@ impl Band {
         best.0
     }
 
-    /// The vertex at a place; the last one at the first boundary point.
+    /// The vertex at a place; the last one where the curve begins.
     pub(super) fn find(&self, at: (i32, i32)) -> Option<usize> {
         *self.index.get(place(self.corner, self.across, at)?)?
     }
+}
+
+/// All whole points that lie no farther from a boundary point than it reaches, each by the nearest of these; that which
+/// the curve begins with first, and again at the end.
+fn vertices(around: &[Point], reach: &[f64], first: (i32, i32)) -> Vec<Vertex> {
+    let mut best: BTreeMap<(i32, i32), (f64, usize)> = BTreeMap::new();
+    for (i, (b, w)) in around.iter().zip(reach).enumerate() {
+        let cells = near(*w);
+        for dy in -cells..=cells {
+            for dx in -cells..=cells {
+                let at = (near(b.x) + dx, near(b.y) + dy);
+                let d = point(at).distance(*b);
+                if d <= *w && best.get(&at).is_none_or(|old| d < old.0) {
+                    best.insert(at, (d, i));
+                }
+            }
+        }
+    }
+    let others = best
+        .into_iter()
+        .map(|(at, (_, stage))| Vertex { at, stage });
+    let others = others.filter(|v| v.stage > 0 && v.at != first);
+    let start = |stage: usize| Vertex { at: first, stage };
+    let mut vertices: Vec<Vertex> = std::iter::once(start(0)).chain(others).collect();
+    vertices.sort_by_key(|v| v.stage);
+    vertices.push(start(around.len()));
+    vertices
 }
 
 /// `W_j - T_j` [sohel sec. III.C, eq. 13-15]; a polygon's vertices lie within T.

@@ -6,10 +6,12 @@
 //! Symbols  B -> `boundary`, C -> `Band`, `T_i` -> `admissible`, `MinRate` -> label cost, `W_j - T_j` -> `beyond`
 //! Departs  the paper prints no rate: see [`Steps`]. The band holds every whole point within T or W of the boundary
 //!          ([`Width`]), each with its nearest boundary point; T falls from `t_max` to `t_min` as the local turn
-//!          grows. Distances are taken both ways, the boundary's from the curve and the curve's from it
-//! Cost     O(|C| r^2 w) for runs of r boundary points and a band w wide. Exact under this code, the band and 16 chords
-//!          a piece: edges, and groups of pairs for an edge or a group of edges, are put aside only where each of their
-//!          curves leaves the bounds
+//!          grows. Distances are taken both ways, the boundary's from the curve and the curve's from it. The paper's
+//!          curves have a corner on the first boundary point; [`Closing::Ring`] has none
+//! Cost     O(|C| r^2 w) for runs of r boundary points and a band w wide, three to four times as much for rings. Exact
+//!          under this code, the band and 16 chords a piece: edges, and groups of pairs for an edge or a group of edges,
+//!          are put aside only where each of their curves leaves the bounds. Of rings the cheapest through an edge of
+//!          one that was found before, until that is no cheaper
 //! Fails    too short or too large a boundary; bounds out of order
 
 mod band;
@@ -18,6 +20,7 @@ mod line;
 mod moat;
 mod piece;
 mod places;
+mod ring;
 mod search;
 mod tube;
 mod vertex;
@@ -75,10 +78,30 @@ pub enum Width {
     Bound,
 }
 
+/// Where the curve begins and ends. The first vertex is known to the reader and not counted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Closing {
+    /// On the first boundary point, where every curve has a corner, as Algorithm 1's.
+    Corner,
+    /// On a vertex like all others, around which the curve goes on.
+    Ring,
+}
+
+/// What vertices there are and what they cost, the same for all kinds of curve.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Code {
+    /// How far from the boundary they may lie.
+    pub width: Width,
+    /// How far apart, and the bits of that.
+    pub steps: Steps,
+    /// Where they begin.
+    pub closing: Closing,
+}
+
 /// A coded boundary.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Coded {
-    /// Vertices, first and last on the first boundary point.
+    /// Vertices, the first again at the end.
     pub vertices: Vec<Point>,
     /// Their bits under [`Steps`].
     pub bits: u64,

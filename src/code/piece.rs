@@ -1,8 +1,8 @@
 //! Pieces of curve, and whether they stay within the bounds.
 
-use super::Kind;
 use super::band::Band;
 use super::line::{LOOK, Weights};
+use super::{Closing, Kind};
 use kurbo::Point;
 use std::cell::Cell;
 
@@ -164,25 +164,28 @@ impl<'a> Piece<'a> {
         }
         far.is_none()
     }
+}
 
-    /// The whole curve, first and last vertex doubled.
-    pub(super) fn curve(&self, vertices: &[Point]) -> Vec<Point> {
-        let along = |k: usize| k as f64 / DENSE as f64;
-        let Kind::Spline(pull) = self.kind else {
-            let edge = |w: &[Point]| {
-                let dots = (0..=DENSE).map(|k| w[0].lerp(w[1], along(k)));
-                dots.collect::<Vec<_>>()
-            };
-            return vertices.windows(2).flat_map(edge).collect();
-        };
-        let (first, last) = (vertices.first(), vertices.last());
-        let all = first.into_iter().chain(vertices).chain(last);
-        let all: Vec<Point> = all.copied().collect();
-        let piece = |w: &[Point]| {
-            let legs = [w[0].midpoint(w[1]), w[1], w[1].midpoint(w[2])];
-            let dots = (0..=DENSE).map(|k| pull.eval(&legs, along(k)).0);
+/// The whole curve of vertices, the first of them again at the end.
+pub(super) fn curve(kind: Kind, vertices: &[Point], closing: Closing) -> Vec<Point> {
+    let along = |k: usize| k as f64 / DENSE as f64;
+    let Kind::Spline(pull) = kind else {
+        let edge = |w: &[Point]| {
+            let dots = (0..=DENSE).map(|k| w[0].lerp(w[1], along(k)));
             dots.collect::<Vec<_>>()
         };
-        all.windows(3).flat_map(piece).collect()
-    }
+        return vertices.windows(2).flat_map(edge).collect();
+    };
+    let (before, after) = match closing {
+        Closing::Corner => (vertices.first(), vertices.last()),
+        Closing::Ring => (vertices.iter().rev().nth(1), None),
+    };
+    let all = before.into_iter().chain(vertices).chain(after);
+    let all: Vec<Point> = all.copied().collect();
+    let piece = |w: &[Point]| {
+        let legs = [w[0].midpoint(w[1]), w[1], w[1].midpoint(w[2])];
+        let dots = (0..=DENSE).map(|k| pull.eval(&legs, along(k)).0);
+        dots.collect::<Vec<_>>()
+    };
+    all.windows(3).flat_map(piece).collect()
 }

@@ -1,15 +1,15 @@
 //! Algorithm 1: the cheapest vertices by shortest path over pairs of them.
 
-use super::band::Band;
+use super::band::{Band, Begin};
 use super::fan::{Edge, Group, Pair, Words, arrivals, departures};
-use super::piece::{Disc, Piece};
+use super::piece::{Disc, Piece, curve};
 use super::places::extent;
-use super::{Bounds, CodeError, Coded, Kind, Steps, Width, distortion};
+use super::{Bounds, Closing, Code, CodeError, Coded, Kind, Steps, Width, distortion, ring};
 use kurbo::Point;
 use std::cell::Cell;
 
 /// The vertices of least bits whose curve stays within the bounds of a closed boundary (whole px, the
-/// first point not repeated). The curve begins and ends on the first point, as Algorithm 1's does.
+/// first point not repeated).
 ///
 /// # Errors
 /// The boundary is too short, the bounds are out of order, or no vertices meet them.
@@ -17,37 +17,94 @@ pub fn encode(
     boundary: &[Point],
     kind: Kind,
     bounds: Bounds,
-    width: Width,
-    steps: Steps,
+    code: Code,
 ) -> Result<Coded, CodeError> {
     check(boundary, bounds)?;
-    let longest = steps.longest();
-    let band = Band::new(boundary, bounds, kind, (width, longest));
-    let piece = Piece::new(&band, kind, longest);
-    let (pairs, last) = (pairs(&piece, steps), band.vertices.len() - 1);
-    let nothing = Cell::new(usize::MAX);
-    let closes = |p: &&Pair| {
-        let feet = (p.foot, boundary.len());
-        piece.fits([p.before, last, last], feet, &nothing)
+    let search = Search {
+        boundary,
+        kind,
+        bounds,
+        steps: code.steps,
     };
-    let end = pairs[last].iter().filter(closes).min_by_key(|p| p.cost);
-    let end = end.ok_or(CodeError::Unreachable)?;
-    let mut vertices = vec![band.vertices[last].point()];
-    let mut pair = end;
-    while pair.step.is_some() {
-        vertices.push(band.vertices[pair.before].point());
-        pair = &pairs[pair.before][pair.prev];
-    }
-    vertices.reverse();
-    let curve = piece.curve(&vertices);
+    let found = match code.closing {
+        Closing::Corner => search.cheapest(Begin::Corner, code.width),
+        Closing::Ring => ring::cheapest(&search, code.width),
+    };
+    let (vertices, bits) = found.ok_or(CodeError::Unreachable)?;
+    let curve = curve(kind, &vertices, code.closing);
     let (d_max, d_ms) = distortion(boundary, &curve);
     Ok(Coded {
         vertices,
-        bits: end.cost,
+        bits,
         curve,
         d_max,
         d_ms,
     })
+}
+
+/// Vertices, the first again at the end, and their bits.
+pub(super) type Found = (Vec<Point>, u64);
+
+/// What is coded.
+pub(super) struct Search<'a> {
+    pub(super) boundary: &'a [Point],
+    pub(super) kind: Kind,
+    pub(super) bounds: Bounds,
+    pub(super) steps: Steps,
+}
+
+impl Search<'_> {
+    /// The cheapest of all that begin so; none within the bounds.
+    pub(super) fn cheapest(&self, begin: Begin, width: Width) -> Option<Found> {
+        let longest = self.steps.longest();
+        let band = Band::new(
+            self.boundary,
+            begin,
+            self.bounds,
+            self.kind,
+            (width, longest),
+        );
+        let piece = Piece::new(&band, self.kind, longest);
+        let last = band.vertices.len() - 1;
+        let (first, [second, foot]) = self.first(&piece, begin)?;
+        let pairs = pairs(&piece, self.steps, (first, second));
+        // the last piece ends where the first edge does, a turn later
+        let (next, foot) = match begin {
+            Begin::Corner => (last, band.around),
+            Begin::Edge(_) => (second, band.around + foot),
+        };
+        let nothing = Cell::new(usize::MAX);
+        let closes = |p: &&Pair| piece.fits([p.before, last, next], (p.foot, foot), &nothing);
+        let end = pairs[last].iter().filter(closes).min_by_key(|p| p.cost)?;
+        let mut vertices = vec![band.vertices[last].point()];
+        let mut pair = end;
+        while pair.before > 0 {
+            vertices.push(band.vertices[pair.before].point());
+            pair = &pairs[pair.before][pair.prev];
+        }
+        vertices.push(band.vertices[0].point());
+        vertices.reverse();
+        Some((vertices, end.cost))
+    }
+
+    /// The pair that all curves begin with, its second vertex, and the boundary point nearest to its middle.
+    fn first(&self, piece: &Piece<'_>, begin: Begin) -> Option<(Pair, [usize; 2])> {
+        let pair = |cost, step, foot| Pair {
+            cost,
+            before: 0,
+            prev: 0,
+            step,
+            foot,
+        };
+        let Begin::Edge([from, to]) = begin else {
+            return Some((pair(0, None, 0), [0, 0]));
+        };
+        let second = piece.band.find(to)?;
+        let step = self.steps.step((to.0 - from.0, to.1 - from.1))?;
+        let foot = piece.foot(0, second)?;
+        let cost = self.steps.cost(None, step)?;
+        Some((pair(cost, Some(step), foot), [second, foot]))
+    }
 }
 
 fn check(boundary: &[Point], bounds: Bounds) -> Result<(), CodeError> {
@@ -68,21 +125,15 @@ fn check(boundary: &[Point], bounds: Bounds) -> Result<(), CodeError> {
     Ok(())
 }
 
-/// The cheapest ways to all pairs of vertices, each kept with its second.
-fn pairs(piece: &Piece<'_>, steps: Steps) -> Vec<Vec<Pair>> {
+/// The cheapest ways from a pair to all pairs of vertices, each kept with its second.
+fn pairs(piece: &Piece<'_>, steps: Steps, (first, second): (Pair, usize)) -> Vec<Vec<Pair>> {
     let (band, words) = (piece.band, Words::new(steps));
     let last = band.vertices.len() - 1;
     let mut pairs: Vec<Vec<Pair>> = vec![Vec::new(); last + 1];
-    pairs[0].push(Pair {
-        cost: 0,
-        before: 0,
-        prev: 0,
-        step: None,
-        foot: 0,
-    });
+    pairs[second].push(first);
     // a longer way round lies farther from the step than any bound
     let ahead = usize::try_from(8 * steps.longest()).unwrap_or(usize::MAX);
-    let ahead = (4 * (band.boundary.len() - 1) / 10).min(ahead);
+    let ahead = (4 * band.around / 10).min(ahead);
     for at in 0..last {
         // All pairs that end here are known: their first vertices come earlier.
         let here = std::mem::take(&mut pairs[at]);

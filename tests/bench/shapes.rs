@@ -1,6 +1,6 @@
 //! Shape coding of silhouettes under one vertex code, and the shape descriptor [sohel sec. IV]:
 //! `cargo bench --bench shapes -- [--svg OUT.svg] [--only far-W] [--bounds 2/1] SHAPE…` (a shape is black or white on
-//! the other; `--only`: one code and band, `--bounds`: one `T_max/T_min`, all of them else).
+//! the other; `--only`: one code, `far-W` or `far-W-ring`, `--bounds`: one `T_max/T_min`, all of them else).
 #![expect(
     clippy::disallowed_methods,
     clippy::print_stdout,
@@ -9,7 +9,7 @@
 
 use image::Luma;
 use imageproc::contours::find_contours;
-use khatt::code::{Bounds, Kind, Steps, Width, distortion, encode};
+use khatt::code::{Bounds, Closing, Code, Kind, Steps, Width, distortion, encode};
 use khatt::numeric::qbc::Pull;
 use khatt::types::Contour;
 use khatt::{corner, fit};
@@ -78,31 +78,42 @@ fn main() {
     for (path, shape) in &shapes {
         fitted(path, shape);
     }
-    let widths = [("T", Width::Tolerance), ("W", Width::Bound)];
-    for (code, steps) in CODES {
-        for (band, width) in widths {
-            if only
-                .as_deref()
-                .is_some_and(|o| o != format!("{code}-{band}"))
-            {
-                continue;
-            }
-            println!("\nbits (D_max px, s): {code}, vertices within {band} of the boundary\n");
-            let curves = table(&shapes, &bounds, width, steps);
-            if let Some(path) = &svg {
-                let name = path.replace(".svg", &format!("-{code}-{band}.svg"));
-                fs::write(name, plot(&curves)).expect("written");
-            }
+    for (name, code) in codes() {
+        if only.as_ref().is_some_and(|o| *o != name) {
+            continue;
+        }
+        println!("\nbits (D_max px, s): {name}\n");
+        let curves = table(&shapes, &bounds, code);
+        if let Some(path) = &svg {
+            let name = path.replace(".svg", &format!("-{name}.svg"));
+            fs::write(name, plot(&curves)).expect("written");
         }
     }
+}
+
+/// Each code by its name: its steps, whether vertices lie within T or W of the boundary, and whether curves are rings.
+fn codes() -> impl Iterator<Item = (String, Code)> {
+    let widths = [("T", Width::Tolerance), ("W", Width::Bound)];
+    let closings = [("", Closing::Corner), ("-ring", Closing::Ring)];
+    CODES.into_iter().flat_map(move |(far, steps)| {
+        widths.into_iter().flat_map(move |(band, width)| {
+            closings.into_iter().map(move |(end, closing)| {
+                let code = Code {
+                    width,
+                    steps,
+                    closing,
+                };
+                (format!("{far}-{band}{end}"), code)
+            })
+        })
+    })
 }
 
 /// Bits of all shapes by bounds and kind; bits and mean square distance of all of them together.
 fn table(
     shapes: &[(&String, Vec<Point>)],
     bounds: &[(f64, f64)],
-    width: Width,
-    steps: Steps,
+    code: Code,
 ) -> Vec<Vec<(u64, f64)>> {
     let mut curves = vec![Vec::new(); KINDS.len()];
     println!(
@@ -116,7 +127,7 @@ fn table(
             let mut row = [0; 4];
             for (column, (_, kind)) in KINDS.into_iter().enumerate() {
                 let clock = Instant::now();
-                let coded = encode(shape, kind, Bounds { t_max, t_min }, width, steps);
+                let coded = encode(shape, kind, Bounds { t_max, t_min }, code);
                 let coded = coded.expect("vertices within the bounds");
                 let (bits, d_max) = (coded.bits, coded.d_max);
                 print!(

@@ -1,11 +1,12 @@
 //! The search against Algorithm 1 as it stands: every pair of pairs, no edge or group of them put aside, and each
 //! piece looked at whole.
 
-use super::{SPLINES, boundary};
-use crate::code::band::{Band, Vertex};
+use super::{SPLINES, boundary, code};
+use crate::code::band::{Band, Begin, Vertex, near};
 use crate::code::line::LOOK;
 use crate::code::places::to_edge;
-use crate::code::{Bounds, Kind, Steps, Width, encode};
+use crate::code::search::Search;
+use crate::code::{Bounds, Closing, Kind, Steps, Width, encode};
 use kurbo::Point;
 
 const BOUNDS: Bounds = Bounds {
@@ -59,17 +60,27 @@ impl Plain<'_> {
         line.iter().all(|&p| self.holds(p, feet)) && (feet.0..=feet.1).all(near)
     }
 
-    /// The least bits.
-    fn bits(&self, steps: Steps) -> Option<u64> {
-        let Band {
-            vertices, boundary, ..
-        } = self.band;
-        let (last, around, run) = (vertices.len() - 1, boundary.len() - 1, steps.longest());
-        let mut least = vec![vec![(0, 0, 0, None)]];
-        least.resize(last + 1, Vec::new());
+    /// The least bits of all that begin so.
+    fn bits(&self, steps: Steps, begin: Begin) -> Option<u64> {
+        let vertices = &self.band.vertices;
+        let (last, around, run) = (vertices.len() - 1, self.band.around, steps.longest());
+        let mut least = vec![Vec::new(); last + 1];
+        let (second, end, end_foot) = match begin {
+            Begin::Corner => {
+                least[0].push((0, 0, 0, None));
+                (0, vertices[last], around)
+            }
+            Begin::Edge([from, to]) => {
+                let second = self.band.find(to)?;
+                let foot = self.foot(vertices[0], vertices[second])?;
+                let step = steps.step((to.0 - from.0, to.1 - from.1))?;
+                least[second].push((steps.cost(None, step)?, 0, foot, Some(step)));
+                (second, vertices[second], around + foot)
+            }
+        };
         let places = (-run..=run).flat_map(|dy| (-run..=run).map(move |dx| (dx, dy)));
         let places: Vec<_> = places.filter_map(|d| Some((d, steps.step(d)?))).collect();
-        for at in 0..last {
+        for at in second..last {
             for &((dx, dy), step) in &places {
                 let v = vertices[at];
                 let Some(to) = self.band.find((v.at.0 + dx, v.at.1 + dy)) else {
@@ -91,9 +102,9 @@ impl Plain<'_> {
                 }
             }
         }
-        let end = vertices[last];
-        let closes =
-            |p: &&(u64, usize, usize, _)| self.fits([vertices[p.1], end, end], (p.2, around));
+        let closes = |p: &&(u64, usize, usize, _)| {
+            self.fits([vertices[p.1], vertices[last], end], (p.2, end_foot))
+        };
         least[last].iter().filter(closes).map(|p| p.0).min()
     }
 }
@@ -106,10 +117,27 @@ fn what_is_not_looked_at_would_not_be_cheaper() {
             if steps == Steps::Far && kind != SPLINES[2] {
                 continue;
             }
-            let band = Band::new(&shape, BOUNDS, kind, (Width::Bound, steps.longest()));
-            let plain = Plain { band: &band, kind };
-            let coded = encode(&shape, kind, BOUNDS, Width::Bound, steps).unwrap();
-            assert_eq!(Some(coded.bits), plain.bits(steps), "{kind:?} {steps:?}");
+            let search = Search {
+                boundary: &shape,
+                kind,
+                bounds: BOUNDS,
+                steps,
+            };
+            let mut begin = Begin::Corner;
+            for _ in 0..2 {
+                let width = (Width::Bound, steps.longest());
+                let band = Band::new(&shape, begin, BOUNDS, kind, width);
+                let plain = Plain { band: &band, kind };
+                let (vertices, bits) = search.cheapest(begin, Width::Bound).unwrap();
+                assert_eq!(
+                    Some(bits),
+                    plain.bits(steps, begin),
+                    "{kind:?} {steps:?} {begin:?}"
+                );
+                let edge = |i: usize| (near(vertices[i].x), near(vertices[i].y));
+                let half = vertices.len() / 2;
+                begin = Begin::Edge([edge(half - 1), edge(half)]);
+            }
         }
     }
 }
@@ -118,7 +146,10 @@ fn what_is_not_looked_at_would_not_be_cheaper() {
 fn the_bits_are_those_of_the_search_before_it_was_made_quicker() {
     // vertices within T and within W, on eight directions and to any place
     let shape = boundary(1.0);
-    let bits = |kind, width, steps| encode(&shape, kind, BOUNDS, width, steps).unwrap().bits;
+    let bits = |kind, width, steps| {
+        let code = code(steps, width, Closing::Corner);
+        encode(&shape, kind, BOUNDS, code).unwrap().bits
+    };
     let all = SPLINES.map(|kind| {
         [Width::Tolerance, Width::Bound]
             .map(|width| [Steps::Eight, Steps::Any].map(|steps| bits(kind, width, steps)))

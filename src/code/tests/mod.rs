@@ -1,7 +1,7 @@
 mod algorithm;
 mod words;
 
-use super::{Bounds, CodeError, Kind, Steps, Width, distortion, encode};
+use super::{Bounds, Closing, Code, CodeError, Kind, Steps, Width, distortion, encode};
 use crate::numeric::qbc::Pull;
 use kurbo::Point;
 
@@ -20,6 +20,14 @@ fn boundary(scale: f64) -> Vec<Point> {
     out
 }
 
+const fn code(steps: Steps, width: Width, closing: Closing) -> Code {
+    Code {
+        width,
+        steps,
+        closing,
+    }
+}
+
 const SPLINES: [Kind; 3] = [
     Kind::Spline(Pull::Bezier),
     Kind::Spline(Pull::Qbc),
@@ -36,8 +44,7 @@ fn curves_stay_within_the_bounds_and_need_fewer_bits_as_these_grow() {
                 &shape,
                 kind,
                 Bounds { t_max: t, t_min: t },
-                Width::Bound,
-                Steps::Eight,
+                code(Steps::Eight, Width::Bound, Closing::Corner),
             )
             .unwrap();
             assert!(coded.d_max <= t + 0.05, "{kind:?}: {} > {t}", coded.d_max);
@@ -59,9 +66,14 @@ fn with_vertices_no_farther_than_the_curve_more_pull_needs_fewer_bits() {
         },
     );
     let bits = |kind, width| {
-        encode(&shape, kind, bounds, width, Steps::Any)
-            .unwrap()
-            .bits
+        encode(
+            &shape,
+            kind,
+            bounds,
+            code(Steps::Any, width, Closing::Corner),
+        )
+        .unwrap()
+        .bits
     };
     let near = SPLINES.map(|kind| bits(kind, Width::Tolerance));
     let far = SPLINES.map(|kind| bits(kind, Width::Bound));
@@ -82,14 +94,62 @@ fn splines_need_fewer_bits_than_polygons() {
             t_min: 1.0,
         },
     );
-    let polygon = encode(&shape, Kind::Polygon, bounds, Width::Bound, Steps::Eight)
+    let polygon = encode(
+        &shape,
+        Kind::Polygon,
+        bounds,
+        code(Steps::Eight, Width::Bound, Closing::Corner),
+    )
+    .unwrap()
+    .bits;
+    for kind in SPLINES {
+        let spline = encode(
+            &shape,
+            kind,
+            bounds,
+            code(Steps::Eight, Width::Bound, Closing::Corner),
+        )
         .unwrap()
         .bits;
-    for kind in SPLINES {
-        let spline = encode(&shape, kind, bounds, Width::Bound, Steps::Eight)
-            .unwrap()
-            .bits;
         assert!(spline < polygon, "{kind:?}: {spline} and {polygon}");
+    }
+}
+
+#[test]
+fn rings_need_fewer_bits_and_have_no_corner() {
+    // all of a spline's pieces end where the next begins, along the same line
+    let (shape, bounds) = (
+        boundary(2.0),
+        Bounds {
+            t_max: 1.0,
+            t_min: 1.0,
+        },
+    );
+    for kind in [Kind::Polygon].into_iter().chain(SPLINES) {
+        let [corner, ring] = [Closing::Corner, Closing::Ring].map(|closing| {
+            let code = code(Steps::Far, Width::Bound, closing);
+            encode(&shape, kind, bounds, code).unwrap()
+        });
+        assert!(
+            ring.bits < corner.bits,
+            "{kind:?}: {} and {}",
+            ring.bits,
+            corner.bits
+        );
+        assert!(ring.d_max <= 1.05, "{kind:?}: {}", ring.d_max);
+        assert_eq!(ring.curve.first(), ring.curve.last());
+        let bits = Steps::Far.write(&ring.vertices).unwrap();
+        assert_eq!(
+            (bits.len() as u64, Steps::Far.read(ring.vertices[0], &bits)),
+            (ring.bits, Some(ring.vertices.clone()))
+        );
+        let n = ring.curve.len();
+        let [before, after] = [[n - 2, n - 1], [0, 1]].map(|[i, j]| ring.curve[j] - ring.curve[i]);
+        let turn = before.cross(after).atan2(before.dot(after)).abs();
+        assert!(
+            kind == Kind::Polygon || turn < 0.1,
+            "{kind:?}: a turn of {turn} where it begins"
+        );
     }
 }
 
@@ -125,13 +185,23 @@ fn what_cannot_be_coded_is_told() {
         t_min: 1.0,
     };
     assert_eq!(
-        encode(&[], Kind::Polygon, bounds, Width::Bound, Steps::Any),
+        encode(
+            &[],
+            Kind::Polygon,
+            bounds,
+            code(Steps::Any, Width::Bound, Closing::Ring)
+        ),
         Err(CodeError::Short(0))
     );
     for far in [f64::NAN, 5000.0] {
         let mut shape = boundary(1.0);
         shape[3].x = far;
-        let coded = encode(&shape, Kind::Polygon, bounds, Width::Bound, Steps::Any);
+        let coded = encode(
+            &shape,
+            Kind::Polygon,
+            bounds,
+            code(Steps::Any, Width::Bound, Closing::Ring),
+        );
         assert!(matches!(coded, Err(CodeError::Large(..))), "{coded:?}");
     }
     let wrong = Bounds {
@@ -143,8 +213,7 @@ fn what_cannot_be_coded_is_told() {
             &boundary(1.0),
             Kind::Polygon,
             wrong,
-            Width::Bound,
-            Steps::Any
+            code(Steps::Any, Width::Bound, Closing::Ring)
         ),
         Err(CodeError::Bounds(1.0, 2.0))
     );

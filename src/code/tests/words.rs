@@ -1,7 +1,7 @@
 //! The vertex code: its lengths, and its words there and back.
 
-use super::{SPLINES, boundary};
-use crate::code::{Bounds, Steps, Width, encode};
+use super::{SPLINES, boundary, code};
+use crate::code::{Bounds, Closing, Steps, Width, encode};
 
 const ALL: [Steps; 3] = [Steps::Eight, Steps::Any, Steps::Far];
 
@@ -91,7 +91,13 @@ fn a_coded_boundary_comes_back_from_its_bits() {
     };
     for steps in ALL {
         for kind in SPLINES {
-            let coded = encode(&boundary(0.5), kind, bounds, Width::Bound, steps).unwrap();
+            let coded = encode(
+                &boundary(0.5),
+                kind,
+                bounds,
+                code(steps, Width::Bound, Closing::Corner),
+            )
+            .unwrap();
             let bits = steps.write(&coded.vertices).unwrap();
             assert_eq!(bits.len() as u64, coded.bits, "{steps:?} {kind:?}");
             let first = coded.vertices[0];

@@ -1,0 +1,61 @@
+//! Curves without a corner where they begin.
+
+use super::band::{Begin, near};
+use super::search::{Found, Search};
+use super::{Steps, Width};
+use kurbo::Point;
+
+/// The cheapest ring through an edge of one that was found before, each time one on its other side, until it is no
+/// cheaper than the last. The first edge is of a curve whose vertices lie no farther from the boundary than the curve:
+/// half way around little is left of its corner.
+pub(super) fn cheapest(search: &Search<'_>, width: Width) -> Option<Found> {
+    let (mut ring, _) = search.cheapest(Begin::Corner, Width::Tolerance)?;
+    let mut best: Option<Found> = None;
+    loop {
+        ring = through(search, width, &ring)?;
+        let found = begun(&ring, search.steps)?;
+        if best.as_ref().is_some_and(|b| found.1 >= b.1) {
+            return best;
+        }
+        best = Some(found);
+    }
+}
+
+/// The cheapest ring that has the edge half way around another; where there is none the edge after it.
+fn through(search: &Search<'_>, width: Width, ring: &[Point]) -> Option<Vec<Point>> {
+    let edges = ring.windows(2).map(|w| [whole(w[0]), whole(w[1])]);
+    let edges: Vec<_> = edges.collect();
+    let (before, after) = edges.split_at(edges.len() / 2);
+    let mut edges = after.iter().chain(before);
+    edges.find_map(|&edge| Some(search.cheapest(Begin::Edge(edge), width)?.0))
+}
+
+/// A ring from the vertex that it takes the least bits from.
+fn begun(ring: &[Point], steps: Steps) -> Option<Found> {
+    let round = &ring[1..];
+    let from = |first: usize| {
+        let vertices = (0..=round.len()).map(|k| round[(first + k) % round.len()]);
+        let vertices: Vec<Point> = vertices.collect();
+        let bits = bits(&vertices, steps)?;
+        Some((vertices, bits))
+    };
+    (0..round.len()).filter_map(from).min_by_key(|f| f.1)
+}
+
+/// None where a step has no word after the one before.
+fn bits(vertices: &[Point], steps: Steps) -> Option<u64> {
+    let of = |w: &[Point]| {
+        let ((x0, y0), (x1, y1)) = (whole(w[0]), whole(w[1]));
+        (x1 - x0, y1 - y0)
+    };
+    let mut before = None;
+    vertices.windows(2).map(of).try_fold(0, |sum, step| {
+        let bits = steps.bits(before, step)?;
+        before = Some(step);
+        Some(sum + bits)
+    })
+}
+
+fn whole(p: Point) -> (i32, i32) {
+    (near(p.x), near(p.y))
+}
