@@ -11,14 +11,15 @@ use kurbo::Point;
 pub(super) fn cheapest(search: &Search<'_>, width: Width) -> Option<Found> {
     let (mut ring, _) = search.cheapest(Begin::Corner, Width::Tolerance)?;
     let mut best: Option<Found> = None;
-    loop {
-        ring = through(search, width, &ring)?;
-        let found = begun(&ring, search.steps)?;
+    while let Some(other) = through(search, width, &ring) {
+        let found = begun(&other, search.steps)?;
         if best.as_ref().is_some_and(|b| found.1 >= b.1) {
-            return best;
+            break;
         }
         best = Some(found);
+        ring = other;
     }
+    best
 }
 
 /// The cheapest ring that has the edge half way around another; where there is none the edge after it.
