@@ -3,7 +3,7 @@
 //! | step | from → to | unit, axes | guaranteed |
 //! |---|---|---|---|
 //! | [`load()`] | bytes → [`Sheet`](crate::types::Sheet)s | sheet px, y down | the file's own pixels, turned as it says, 1 = ink; nothing resampled |
-//! | [`clean()`] | `Sheet` → [`Page`] | sheet px | light and shaded ink evened out: paper 0, ink 1; noise and edges as scanned, but for steps of two levels, which are softened, and ink that is grain, which is averaged |
+//! | [`clean()`] | `Sheet` → [`Page`] | sheet px | light and shaded ink evened out: paper 0, ink 1; noise and edges as scanned, but for steps of two levels, which are softened, ink that is grain, which is averaged, and a pen's streaks, which are filled |
 //! | [`cut()`] | `Page` → [`Cell`](crate::types::Cell)s | upright px | each piece of ink in one cell or in the list of what was rejected, with a reason |
 //!
 //! Letters of a skewed page come out upright: their pixels are interpolated once, the only resampling
@@ -28,6 +28,7 @@ mod range;
 mod separation;
 mod shading;
 mod steps;
+mod streaks;
 mod whole;
 
 pub use clean::{Page, clean, clean_otherwise};

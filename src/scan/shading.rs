@@ -1,11 +1,12 @@
-//! Ink that is not evenly dark: the pools of a fountain pen, a pen that runs dry, a marker's overlaps; brought to
-//! one level.
+//! Ink that is not evenly dark: the pools of a fountain pen, a pen that runs dry, a marker's overlaps, the streaks of
+//! a ballpoint; brought to one level.
 //!
 //! Where ink is pale its edge lies at half of its own level, not at half of the page's. Ink shows its level where
 //! it is flat, and it changes slowly along a stroke, so that pale ink is told from a printed line, the page's back
 //! and dust by the way to ink that is surely ink: over them there is an edge.
 
 use super::paper::Paper;
+use super::streaks;
 use super::whole::floor;
 use crate::numeric::coverage::blur;
 use crate::types::Gray;
@@ -40,19 +41,25 @@ const BEYOND: f64 = 0.001;
 /// Steps in which a drawing's levels are told.
 const STEPS: usize = 2048;
 
-/// A page of paper 0 and ink 1 whose ink is pale in many places, with its ink 1 there, too. `None` of a page whose
-/// ink is even; of a picture that shows more than the page its paper tells, not a table's grain.
+/// A page of paper 0 and ink 1 whose ink is pale in many places, with its ink 1 there, too, or has streaks, with them
+/// filled. `None` of a page whose ink is even; of a picture that shows more than the page its paper tells, not a table's grain.
 pub(super) fn page(gray: &Gray, paper: Option<&Paper>) -> Option<Gray> {
     let on_paper = |x, y| paper.is_none_or(|p| p.holds(x, y));
-    is_uneven(gray, [0.0, 1.0], on_paper).then(|| evened(gray, [0.0, 1.0]))
+    even(gray, [0.0, 1.0], on_paper)
 }
 
-/// A drawing whose ink is pale in many places, with its ink as dark there as elsewhere; its paper and the level of
-/// its darker ink stay. `None` of a drawing whose ink is even.
+/// A drawing whose ink is pale in many places, with its ink as dark there as elsewhere, or has a pen's pale streaks,
+/// with them filled; its paper and the level of its darker ink stay. `None` of a drawing whose ink is even.
 #[must_use]
 pub fn shaded(gray: &Gray) -> Option<Gray> {
     let levels = levels(gray)?;
-    is_uneven(gray, levels, |_, _| true).then(|| evened(gray, levels))
+    even(gray, levels, |_, _| true)
+}
+
+/// The picture with even ink, where that of the pixels that count is not.
+fn even(gray: &Gray, levels: [f32; 2], counts: impl Fn(usize, usize) -> bool) -> Option<Gray> {
+    let one = is_uneven(gray, levels, &counts).then(|| evened(gray, levels));
+    streaks::filled(one.as_ref().unwrap_or(gray), levels, counts).or(one)
 }
 
 /// The levels of a drawing's paper and of its darker ink.

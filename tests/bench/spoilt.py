@@ -72,6 +72,15 @@ def streaks(rng, ink, dot, em):
     return scanned(rng, ink * (1 - 0.55 * pale) * (0.9 + 0.1 * np.tanh(grain(rng, ink.shape, 1.5 * dot))), dot)
 
 
+def scratches(rng, ink, dot, em):
+    """A ballpoint's that skips: light lines of all depths along the stroke, in ink that is more even."""
+    far, pale = distance_transform_edt(ink > 0.5), np.zeros(ink.shape, np.float32)
+    for aside in (0.011, 0.018, 0.027):
+        along = np.exp(-(((far - aside * em) / (0.9 * dot)) ** 2))
+        pale = np.maximum(pale, along * rises(2 * slowly(rng, ink.shape, 0.08 * em) - 1))
+    return scanned(rng, ink * (1 - 0.95 * gaussian_filter(pale, 0.7 * dot)) * (0.95 + 0.05 * np.tanh(grain(rng, ink.shape, 1.5 * dot))), dot)
+
+
 def pencil(rng, ink, dot, em):
     """Graphite on the paper's tooth."""
     tooth, coarse = grain(rng, ink.shape, 1.3 * dot), grain(rng, ink.shape, 3 * dot)
@@ -170,6 +179,7 @@ WAYS = {
         rng, ink * (0.6 + 0.4 * np.exp(-((distance_transform_edt(ink > 0.5) / (3 * dot)) ** 2))), dot
     ),
     "ballpoint": streaks,
+    "ballpoint that skips": scratches,
     "pencil": pencil,
     "blue": coloured((240, 238, 232), (35, 55, 160)),
     "red": coloured((240, 238, 232), (200, 45, 50)),
