@@ -156,8 +156,8 @@ impl Band {
     }
 }
 
-/// All whole points that lie no farther from a boundary point than it reaches, each by the nearest of these; that which
-/// the curve begins with first, and again at the end.
+/// All whole points that lie no farther from a boundary point than it reaches, each by the nearest of these; that
+/// which the curve begins with first, and again at the end.
 fn vertices(around: &[Point], reach: &[f64], first: (i32, i32)) -> Vec<Vertex> {
     let mut best: BTreeMap<(i32, i32), (f64, usize)> = BTreeMap::new();
     for (i, (b, w)) in around.iter().zip(reach).enumerate() {

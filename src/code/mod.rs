@@ -8,10 +8,10 @@
 //!          ([`Width`]), each with its nearest boundary point; T falls from `t_max` to `t_min` as the local turn
 //!          grows. Distances are taken both ways, the boundary's from the curve and the curve's from it. The paper's
 //!          curves have a corner on the first boundary point; [`Closing::Ring`] has none
-//! Cost     O(|C| r^2 w) for runs of r boundary points and a band w wide, three to four times as much for rings. Exact
-//!          under this code, the band and 16 chords a piece: edges, and groups of pairs for an edge or a group of edges,
-//!          are put aside only where each of their curves leaves the bounds. Of rings the cheapest through an edge of
-//!          one that was found before, until that is no cheaper
+//! Cost     O(|C| r^2 w) for runs of r boundary points and a band w wide, two or three times for rings. Exact under
+//!          this code, the band and 16 chords a piece: edges, and groups of pairs for an edge or a group of edges,
+//!          are put aside only where each of their curves leaves the bounds. Of rings the cheapest through an edge
+//!          of one that was found before, until that is no cheaper
 //! Fails    too short or too large a boundary; bounds out of order
 
 mod band;

@@ -6,8 +6,8 @@ use super::{Steps, Width};
 use kurbo::Point;
 
 /// The cheapest ring through an edge of one that was found before, each time one on its other side, until it is no
-/// cheaper than the last. The first edge is of a curve whose vertices lie no farther from the boundary than the curve:
-/// half way around little is left of its corner.
+/// cheaper than the last. The first edge is of a curve with a corner, whose vertices lie no farther from the boundary
+/// than the curve: half way around little is left of the corner.
 pub(super) fn cheapest(search: &Search<'_>, width: Width) -> Option<Found> {
     let (mut ring, _) = search.cheapest(Begin::Corner, Width::Tolerance)?;
     let mut best: Option<Found> = None;

@@ -42,7 +42,8 @@ const BEYOND: f64 = 0.001;
 const STEPS: usize = 2048;
 
 /// A page of paper 0 and ink 1 whose ink is pale in many places, with its ink 1 there, too, or has streaks, with them
-/// filled. `None` of a page whose ink is even; of a picture that shows more than the page its paper tells, not a table's grain.
+/// filled. `None` of a page whose ink is even; of a picture that shows more than the page its paper tells, not a
+/// table's grain.
 pub(super) fn page(gray: &Gray, paper: Option<&Paper>) -> Option<Gray> {
     let on_paper = |x, y| paper.is_none_or(|p| p.holds(x, y));
     even(gray, [0.0, 1.0], on_paper)
