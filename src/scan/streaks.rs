@@ -104,7 +104,7 @@ impl Seen<'_> {
             (1, straight),
             (w, straight),
             (w + 1, diagonal),
-            (w - 1, diagonal),
+            (w.saturating_sub(1), diagonal),
         ]
     }
 
