@@ -15,6 +15,7 @@
 //! Fails    too short or too large a boundary; bounds out of order
 
 mod band;
+mod encode;
 mod fan;
 mod line;
 mod moat;
@@ -30,7 +31,7 @@ use crate::numeric::qbc::Pull;
 use kurbo::Point;
 use thiserror::Error;
 
-pub use search::encode;
+pub use encode::encode;
 pub use vertex::Steps;
 
 /// Why a boundary is not coded.

@@ -2,45 +2,10 @@
 
 use super::band::{Band, Begin};
 use super::fan::{Edge, Group, Pair, Words, arrivals, departures};
-use super::piece::{Disc, Piece, curve};
-use super::places::extent;
-use super::{Bounds, Closing, Code, CodeError, Coded, Kind, Steps, Width, distortion, ring};
+use super::piece::{Disc, Piece};
+use super::{Bounds, Kind, Steps, Width};
 use kurbo::Point;
 use std::cell::Cell;
-
-/// The vertices of least bits whose curve stays within the bounds of a closed boundary (whole px, the
-/// first point not repeated).
-///
-/// # Errors
-/// The boundary is too short, the bounds are out of order, or no vertices meet them.
-pub fn encode(
-    boundary: &[Point],
-    kind: Kind,
-    bounds: Bounds,
-    code: Code,
-) -> Result<Coded, CodeError> {
-    check(boundary, bounds)?;
-    let search = Search {
-        boundary,
-        kind,
-        bounds,
-        steps: code.steps,
-    };
-    let found = match code.closing {
-        Closing::Corner => search.cheapest(Begin::Corner, code.width),
-        Closing::Ring => ring::cheapest(&search, code.width),
-    };
-    let (vertices, bits) = found.ok_or(CodeError::Unreachable)?;
-    let curve = curve(kind, &vertices, code.closing);
-    let (d_max, d_ms) = distortion(boundary, &curve);
-    Ok(Coded {
-        vertices,
-        bits,
-        curve,
-        d_max,
-        d_ms,
-    })
-}
 
 /// Vertices, the first again at the end, and their bits.
 pub(super) type Found = (Vec<Point>, u64);
@@ -105,24 +70,6 @@ impl Search<'_> {
         let cost = self.steps.cost(None, step)?;
         Some((pair(cost, Some(step), foot), [second, foot]))
     }
-}
-
-fn check(boundary: &[Point], bounds: Bounds) -> Result<(), CodeError> {
-    /// Fewer points enclose nothing worth a curve.
-    const FEW: usize = 8;
-    /// Larger shapes take too long, and their tubes too much memory, px.
-    const LARGE: f64 = 1024.0;
-    if boundary.len() < FEW {
-        return Err(CodeError::Short(boundary.len()));
-    }
-    if !(bounds.t_min > 0.0 && bounds.t_min <= bounds.t_max && bounds.t_max.is_finite()) {
-        return Err(CodeError::Bounds(bounds.t_max, bounds.t_min));
-    }
-    let size = extent(boundary).size();
-    if size.max_side() > LARGE || !boundary.iter().all(|p| p.is_finite()) {
-        return Err(CodeError::Large(size.width, size.height));
-    }
-    Ok(())
 }
 
 /// The cheapest ways from a pair to all pairs of vertices, each kept with its second.
