@@ -32,3 +32,18 @@ pub const fn ceiling(at: f64) -> usize {
 pub const fn single(value: f64) -> f32 {
     value as f32
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ceilings_are_the_librarys() {
+        for step in -40..400 {
+            let at = f64::from(step) / 8.0;
+            assert_eq!(ceiling(at), index(at.ceil()), "{at}");
+        }
+        assert_eq!(ceiling(f64::NAN), 0);
+        assert_eq!(ceiling(f64::INFINITY), usize::MAX);
+    }
+}
