@@ -40,7 +40,9 @@ pub(super) fn add(
         .filter_map(|d| Sides::of(d, &rhythm, em))
         .collect();
     let names: Vec<&Name> = sides.iter().map(|s| s.name).collect();
-    let bounds = (TOUCHING * em, FURTHEST * rhythm.counter());
+    // the counters of letters full of slits may be narrower than what touches
+    let touching = TOUCHING * em;
+    let bounds = (touching, touching.max(FURTHEST * rhythm.counter()));
     let gaps = |of: &dyn Fn(&Sides<'_>, &Sides<'_>) -> f64| -> Vec<Vec<f64>> {
         let row = |a| sides.iter().map(|b| of(a, b)).collect();
         sides.iter().map(row).collect()
