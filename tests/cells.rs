@@ -491,7 +491,7 @@ impl Drawing {
         let sheets = scan::load(&self.png(), "page", Polarity::DarkInk).expect("a picture");
         let page = scan::clean(
             sheets.into_iter().next().expect("one page"),
-            scan::InkGrain::default(),
+            scan::Texture::default(),
         )
         .expect("ink");
         let labels: Vec<Label> = names.iter().map(|n| Label((*n).to_owned())).collect();

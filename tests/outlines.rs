@@ -3,6 +3,7 @@
 use khatt::numeric::cast::single;
 use khatt::numeric::coverage::blur;
 use khatt::pipeline::picture::{Options, trace_picture};
+use khatt::scan::InkStreaks;
 use khatt::types::Gray;
 use khatt::write::picture::to_picture;
 use kurbo::{Affine, BezPath, ParamCurve, ParamCurveArclen, PathEl, PathSeg, Point, Shape, Vec2};
@@ -23,7 +24,8 @@ fn outlines(gray: &Gray) -> Vec<BezPath> {
 
 fn traced(gray: &Gray, options: &Options) -> Vec<BezPath> {
     let flip = to_picture(gray.height());
-    let paths = trace_picture(gray, options).expect("default options are in their ranges");
+    let traced = trace_picture(gray, InkStreaks::default(), options);
+    let paths = traced.expect("default options are in their ranges").paths;
     paths.iter().map(|p| flip * p).collect()
 }
 

@@ -4,7 +4,7 @@ use super::failure::{Failure, chain};
 use super::{Outcome, files};
 use clap::Args;
 use khatt::corner::angle::{Angle, Features as Found};
-use khatt::scan::{self, Polarity};
+use khatt::scan::{self, InkStreaks, Polarity};
 use khatt::trace::{self, trace};
 use khatt::types::Contour;
 use kurbo::{BezPath, Point, Rect, Shape};
@@ -54,8 +54,8 @@ impl Features {
         let gray = dark.as_ref().unwrap_or(&page.gray);
         let averaged = scan::grained(gray).map(|(gray, _)| gray);
         let gray = averaged.as_ref().unwrap_or(gray);
-        let soft = scan::softened(gray).or_else(|| scan::shaded(gray));
-        let coverage = trace::level(soft.as_ref().unwrap_or(gray));
+        let even = scan::legible(gray, InkStreaks::default());
+        let coverage = trace::level(even.as_ref().map_or(gray, |even| &even.gray));
         let contours = trace(&coverage, &trace::Options::default());
         if contours.is_empty() {
             return Err(Failure::new(format!("{name} has no ink to trace")));

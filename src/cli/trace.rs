@@ -7,7 +7,7 @@ use clap::builder::PossibleValuesParser;
 use khatt::assemble::names;
 use khatt::pipeline::picture::{Options, trace_picture};
 use khatt::recognise;
-use khatt::scan::{self, InkGrain, Reading, Tones};
+use khatt::scan::{self, InkGrain, InkStreaks, Reading, Tones};
 use khatt::types::{Gray, Label};
 use khatt::write::{centerline, picture};
 use khatt::{corner, fit};
@@ -46,6 +46,9 @@ pub(crate) struct Trace {
     /// [default: soften]
     #[arg(long, value_name = "GRAIN", value_parser = PossibleValuesParser::new(InkGrain::ALL.map(|g| g.0)))]
     grain: Option<String>,
+    /// What becomes of pale streaks in ink, as of a ballpoint: they are filled, or stay [default: fill]
+    #[arg(long, value_name = "STREAKS", value_parser = PossibleValuesParser::new(InkStreaks::ALL.map(|s| s.0)))]
+    streaks: Option<String>,
     /// Give the middle of the lines that a pen drew, with their width, in place of their outline
     #[arg(long, conflicts_with_all = ["fit", "corners", "tolerance", "speckle"])]
     centerline: bool,
@@ -61,11 +64,8 @@ impl Trace {
         files::ends_in(&self.output, kinds)?;
         let bytes = files::read(&self.picture)?;
         let name = files::name(&self.picture);
-        let named = Tones::ALL
-            .into_iter()
-            .find(|t| self.tones.as_deref() == Some(t.0));
         let reading = Reading {
-            tones: named.unwrap_or_default().1,
+            tones: named(Tones::ALL, self.tones.as_deref()),
             ..Reading::default()
         };
         let pages = scan::load_as(&bytes, &name, reading).map_err(|e| Failure::new(chain(&e)))?;
@@ -90,16 +90,30 @@ impl Trace {
             );
         }
         let gray = averaged.as_ref().map_or(gray, |(even, _)| even);
+        let streaks = named(InkStreaks::ALL, self.streaks.as_deref());
+        let tell = |filled: bool| {
+            if filled && !common.quiet {
+                eprintln!(
+                    "note: the ink of {name} has pale streaks, as of a ballpoint: they were filled; --streaks keep \
+                     leaves them"
+                );
+            }
+        };
         if self.centerline {
-            let soft = scan::softened(gray).or_else(|| scan::shaded(gray));
-            return self.write_lines(soft.as_ref().unwrap_or(gray));
+            let even = scan::legible(gray, streaks);
+            tell(even.as_ref().is_some_and(|even| even.filled));
+            return self.write_lines(even.as_ref().map_or(gray, |even| &even.gray));
         }
         let options = self.options();
-        let trace = |gray: &Gray| trace_picture(gray, &options).map_err(|e| Failure::at(&name, &e));
-        let mut paths = trace(gray)?;
-        if let (true, Some(gray)) = (paths.is_empty(), scan::full_range(gray)) {
-            paths = trace(&gray)?;
+        let trace = |gray: &Gray| {
+            trace_picture(gray, streaks, &options).map_err(|e| Failure::at(&name, &e))
+        };
+        let mut drawn = trace(gray)?;
+        if let (true, Some(gray)) = (drawn.paths.is_empty(), scan::full_range(gray)) {
+            drawn = trace(&gray)?;
         }
+        tell(drawn.filled);
+        let paths = drawn.paths;
         if paths.is_empty() {
             eprintln!("warning: {name} has no ink to trace: the drawing is empty");
         }
@@ -109,10 +123,7 @@ impl Trace {
 
     /// The picture with its ink averaged, and over how many px, where that is grain that need not be kept.
     fn averaged(&self, gray: &Gray) -> Option<(Gray, f64)> {
-        let named = InkGrain::ALL
-            .into_iter()
-            .find(|g| self.grain.as_deref() == Some(g.0));
-        match named.unwrap_or_default().1 {
+        match named(InkGrain::ALL, self.grain.as_deref()) {
             InkGrain::Soften => scan::grained(gray),
             InkGrain::Keep => None,
         }
@@ -164,6 +175,12 @@ impl Trace {
         }
         options
     }
+}
+
+/// The value of this name; the default where none is given.
+fn named<T: Default, const N: usize>(all: [(&str, T); N], name: Option<&str>) -> T {
+    let given = all.into_iter().find(|value| name == Some(value.0));
+    given.map_or_else(T::default, |value| value.1)
 }
 
 /// A distance between contour and curve, as in project files.

@@ -159,6 +159,7 @@ mod tests {
             picture: Png::of(&gray),
             edge: trace::trace(&gray, &trace::Options::default()),
             paths: Vec::new(),
+            filled: false,
         }
     }
 

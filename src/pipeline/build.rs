@@ -21,6 +21,7 @@ use super::watch::Stage;
 use super::world::World;
 use crate::assemble::words::Gap;
 use crate::assemble::{self, Note};
+use crate::scan::{InkStreaks, Warning};
 use crate::types::{Cell, Font, Label};
 use rayon::prelude::*;
 use std::mem;
@@ -59,7 +60,8 @@ pub fn build(project: &Project, world: World<'_>) -> Result<Built, Vec<Problem>>
     let corrections = Corrections::of(project)?;
     let draw = |sheet: &str, cell: Cell| {
         let options = corrections.trace(&cell.label, &project.trace);
-        Letter::new(sheet, cell, options, world.watch)
+        // what is drawn anew has no streaks
+        Letter::new(sheet, cell, InkStreaks::Keep, options, world.watch)
     };
     let Settled {
         mut letters,
@@ -187,12 +189,18 @@ fn trace(
     world.watch.expect(cells.len());
     let letter = |cell: Cell| {
         let options = source.trace(&cell.label, &project.trace);
-        let letter = Letter::new(sheet, cell, options, world.watch);
+        let letter = Letter::new(sheet, cell, source.table.streaks, options, world.watch);
         world.watch.done();
         letter
     };
     let letters = all(cells.into_par_iter().map(letter).collect())?;
-    page.cut.warnings.extend(focus::remark(&letters));
+    let warnings = &mut page.cut.warnings;
+    warnings.extend(focus::remark(&letters));
+    // a letter may have streaks where its page as a whole told none
+    let filled = letters.iter().any(|l| l.filled).then(Warning::of_filled);
+    if filled.as_ref().is_some_and(|told| !warnings.contains(told)) {
+        warnings.extend(filled);
+    }
     Ok((letters, page))
 }
 

@@ -1,13 +1,14 @@
 //! One cell → one drawn letter.
 
-use super::picture::{self, trace_picture};
+use super::picture::{self, Curves, trace_picture};
 use super::problem::{Place, Problem, all};
 use super::watch::{Stage, Watch};
 use crate::assemble::words::Word;
 use crate::assemble::{Drawn, names};
 use crate::finish::place;
+use crate::scan::InkStreaks;
 use crate::trace;
-use crate::types::{Cell, Contour, Font, Frame, Guides, Label, Outline, Plate, Png};
+use crate::types::{Cell, Contour, Font, Frame, Gray, Guides, Label, Outline, Plate, Png};
 use kurbo::{BezPath, Rect};
 use rayon::prelude::*;
 
@@ -32,6 +33,8 @@ pub struct Letter {
     pub paths: Vec<BezPath>,
     /// The closed curves around each ink's own part, by the ink, the lowest first; empty where inks make no layers.
     pub plates: Vec<(String, Vec<BezPath>)>,
+    /// Whether pale streaks in its ink were filled.
+    pub filled: bool,
 }
 
 impl Letter {
@@ -42,19 +45,24 @@ impl Letter {
     pub(super) fn new(
         sheet: &str,
         cell: Cell,
+        streaks: InkStreaks,
         options: &picture::Options,
         watch: &dyn Watch,
     ) -> Result<Self, Problem> {
         let _time = watch.enter(Stage::Trace);
-        let plate = |plate: &Plate| Ok((plate.ink.clone(), trace_picture(&plate.gray, options)?));
-        let traced = trace_picture(&cell.gray, options);
-        let traced = traced.and_then(|paths| {
-            let plates = cell.plates.iter().map(plate);
-            Ok((paths, plates.collect::<Result<Vec<_>, _>>()?))
+        let trace = |gray: &Gray| trace_picture(gray, streaks, options);
+        let traced = trace(&cell.gray).and_then(|Curves { paths, mut filled }| {
+            let plate = |plate: &Plate| {
+                let part = trace(&plate.gray)?;
+                filled |= part.filled;
+                Ok((plate.ink.clone(), part.paths))
+            };
+            let plates: Result<Vec<_>, _> = cell.plates.iter().map(plate).collect();
+            Ok((paths, plates?, filled))
         });
         match traced {
-            Ok((paths, _)) if paths.is_empty() => Err(Problem::Empty(Place::of(sheet, &cell))),
-            Ok((paths, plates)) => Ok(Self {
+            Ok((paths, ..)) if paths.is_empty() => Err(Problem::Empty(Place::of(sheet, &cell))),
+            Ok((paths, plates, filled)) => Ok(Self {
                 sheet: sheet.to_owned(),
                 edge: trace::trace(&cell.gray, &trace::Options::default()),
                 picture: Png::of(&cell.gray),
@@ -64,6 +72,7 @@ impl Letter {
                 guides: cell.guides,
                 paths,
                 plates,
+                filled,
             }),
             Err(source) => Err(Problem::Fit {
                 place: Place::of(sheet, &cell),

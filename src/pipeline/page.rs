@@ -113,7 +113,7 @@ fn read_turned(
     let sheet = || load(table, turn, (project, world));
     let clean = |sheet: Sheet| {
         let _time = world.watch.enter(Stage::Clean);
-        scan::clean(sheet, table.grain).map_err(Problem::from)
+        scan::clean(sheet, table.texture()).map_err(Problem::from)
     };
     // what seems to lie beside the page may be in a shadow on it, and a table may seem to be the page
     let is_whole = |(cut, _): &(Cut, _)| empty(cut, labels.iter().enumerate()).next().is_none();
@@ -121,7 +121,7 @@ fn read_turned(
     let cut = if first.as_ref().is_ok_and(is_whole) {
         first
     } else {
-        let other = sheet().and_then(|s| Ok(scan::clean_otherwise(s, table.grain)?));
+        let other = sheet().and_then(|s| Ok(scan::clean_otherwise(s, table.texture())?));
         let other = other.ok().flatten().and_then(|page| cut(page).ok());
         let better = |found: &_| first.is_err() || is_whole(found);
         other.filter(better).map_or(first, Ok)

@@ -46,6 +46,7 @@ struct LetterRecord {
     paths: Vec<Vec<Step>>,
     /// Of each ink.
     plates: Vec<(String, Vec<Vec<Step>>)>,
+    filled: bool,
 }
 
 /// An element of a path.
@@ -161,6 +162,7 @@ impl LetterRecord {
             edge: letter.edge.iter().map(ring).collect(),
             paths: letter.paths.iter().map(steps).collect(),
             plates: letter.plates.iter().map(plate).collect(),
+            filled: letter.filled,
         }
     }
 
@@ -187,6 +189,7 @@ impl LetterRecord {
             edge: self.edge.into_iter().map(ring).collect::<Option<_>>()?,
             paths: self.paths.iter().map(|p| path(p)).collect(),
             plates: self.plates.into_iter().map(drawn).collect(),
+            filled: self.filled,
         })
     }
 }

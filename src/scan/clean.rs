@@ -9,6 +9,7 @@ use super::light::Field;
 use super::paper::Paper;
 use super::shading;
 use super::steps::softened;
+use super::streaks::InkStreaks;
 use super::whole::{floor, narrow, ratio};
 use crate::types::{Gray, Sheet};
 use rayon::prelude::*;
@@ -27,6 +28,15 @@ const BINS: usize = 1280;
 /// A page that covers less than this share of its picture is surely surrounded by something else.
 const SURROUNDED: f64 = 0.5;
 
+/// What becomes of ink that is not one even tone.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Texture {
+    /// Of a pencil's grain.
+    pub grain: InkGrain,
+    /// Of a ballpoint's streaks.
+    pub streaks: InkStreaks,
+}
+
 /// A page with its light evened out.
 #[derive(Debug, Clone)]
 pub struct Page {
@@ -38,6 +48,10 @@ pub struct Page {
     pub contrast: f32,
     /// Over how much ink that is grain was averaged, a Gaussian's standard deviation, px; 0 of other ink.
     pub averaged_px: f64,
+    /// Whether pale streaks in its ink were filled.
+    pub filled: bool,
+    /// What its grain and its streaks were to become.
+    pub(super) texture: Texture,
     /// Where the paper lies, in a picture that shows more than it.
     pub(super) paper: Option<Paper>,
     /// The same where it may as well be what lies outside a sharp shadow: enough to know a lid's edge by.
@@ -45,12 +59,11 @@ pub struct Page {
 }
 
 /// Evens out the light of a page, of two levels once its steps are softened ([`softened`]). Where the paper covers
-/// less than half of the picture, what lies beside it counts for nothing. `grain` says what becomes of ink that is
-/// grain.
+/// less than half of the picture, what lies beside it counts for nothing.
 ///
 /// # Errors
 /// Nothing on the page is darker than its paper.
-pub fn clean(sheet: Sheet, grain: InkGrain) -> Result<Page, ScanError> {
+pub fn clean(sheet: Sheet, texture: Texture) -> Result<Page, ScanError> {
     let sheet = grey(sheet);
     let field = Field::measure(&sheet.gray);
     let found = field.paper();
@@ -58,7 +71,7 @@ pub fn clean(sheet: Sheet, grain: InkGrain) -> Result<Page, ScanError> {
         Some(p) if is_surrounded(&p) => (Some(p), None),
         other => (None, other),
     };
-    even(sheet, &field, seen, grain)
+    even(sheet, &field, seen, texture)
 }
 
 /// The same the other way: what [`clean`] takes for the whole picture's paper is a page with something around it,
@@ -67,7 +80,7 @@ pub fn clean(sheet: Sheet, grain: InkGrain) -> Result<Page, ScanError> {
 ///
 /// # Errors
 /// Nothing on the page is darker than its paper.
-pub fn clean_otherwise(sheet: Sheet, grain: InkGrain) -> Result<Option<Page>, ScanError> {
+pub fn clean_otherwise(sheet: Sheet, texture: Texture) -> Result<Option<Page>, ScanError> {
     let sheet = grey(sheet);
     let field = Field::measure(&sheet.gray);
     let seen = field.paper().map(|p| {
@@ -77,7 +90,7 @@ pub fn clean_otherwise(sheet: Sheet, grain: InkGrain) -> Result<Option<Page>, Sc
             (Some(p), None)
         }
     });
-    seen.map(|seen| even(sheet, &field, seen, grain))
+    seen.map(|seen| even(sheet, &field, seen, texture))
         .transpose()
 }
 
@@ -98,7 +111,7 @@ fn even(
     sheet: Sheet,
     field: &Field,
     (paper, lit): (Option<Paper>, Option<Paper>),
-    grain: InkGrain,
+    texture: Texture,
 ) -> Result<Page, ScanError> {
     let Sheet {
         gray,
@@ -131,12 +144,14 @@ fn even(
         })?
         .with_scatter(scatter_px);
     let seen = paper.as_ref().or(lit.as_ref());
-    let averaged = match grain {
+    let averaged = match texture.grain {
         InkGrain::Soften => grain::page(&gray, seen),
         InkGrain::Keep => None,
     };
     let (gray, averaged_px) = averaged.unwrap_or((gray, 0.0));
-    let gray = shading::page(&gray, seen).unwrap_or(gray);
+    let even = shading::page(&gray, seen, texture.streaks);
+    let filled = even.as_ref().is_some_and(|even| even.filled);
+    let gray = even.map_or(gray, |even| even.gray);
     Ok(Page {
         sheet: Sheet {
             gray,
@@ -148,6 +163,8 @@ fn even(
         noise: levels.noise * scale,
         contrast: levels.ink - levels.paper,
         averaged_px,
+        filled,
+        texture,
         paper,
         lit,
     })

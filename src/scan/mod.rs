@@ -31,7 +31,7 @@ mod steps;
 mod streaks;
 mod whole;
 
-pub use clean::{Page, clean, clean_otherwise};
+pub use clean::{Page, Texture, clean, clean_otherwise};
 pub use cut::{Cut, Pin, Reason, Region, Rejected, Warning, cut, cut_with};
 pub use cut::{SMALL, SMALL_LETTER, is_full};
 pub use error::ScanError;
@@ -41,5 +41,6 @@ pub use load::{Grain, Polarity, Reading, Tones, Turn, describes_light, load, loa
 pub use options::{Direction, Layout, Options, Order, Scale};
 pub use range::{full_range, is_all_dark};
 pub use separation::Colour;
-pub use shading::shaded;
+pub use shading::{Even, legible, shaded};
 pub use steps::softened;
+pub use streaks::InkStreaks;

@@ -6,7 +6,8 @@
 //! and dust by the way to ink that is surely ink: over them there is an edge.
 
 use super::paper::Paper;
-use super::streaks;
+use super::steps::softened;
+use super::streaks::{self, InkStreaks};
 use super::whole::floor;
 use crate::numeric::coverage::blur;
 use crate::types::Gray;
@@ -41,26 +42,56 @@ const BEYOND: f64 = 0.001;
 /// Steps in which a drawing's levels are told.
 const STEPS: usize = 2048;
 
+/// A picture with even ink.
+#[derive(Debug, Clone)]
+pub struct Even {
+    /// The picture.
+    pub gray: Gray,
+    /// Whether pale streaks in its ink were filled.
+    pub filled: bool,
+}
+
 /// A page of paper 0 and ink 1 whose ink is pale in many places, with its ink 1 there, too, or has streaks, with them
 /// filled. `None` of a page whose ink is even; of a picture that shows more than the page its paper tells, not a
 /// table's grain.
-pub(super) fn page(gray: &Gray, paper: Option<&Paper>) -> Option<Gray> {
+pub(super) fn page(gray: &Gray, paper: Option<&Paper>, streaks: InkStreaks) -> Option<Even> {
     let on_paper = |x, y| paper.is_none_or(|p| p.holds(x, y));
-    even(gray, [0.0, 1.0], on_paper)
+    even(gray, [0.0, 1.0], streaks, on_paper)
 }
 
 /// A drawing whose ink is pale in many places, with its ink as dark there as elsewhere, or has a pen's pale streaks,
 /// with them filled; its paper and the level of its darker ink stay. `None` of a drawing whose ink is even.
 #[must_use]
-pub fn shaded(gray: &Gray) -> Option<Gray> {
+pub fn shaded(gray: &Gray, streaks: InkStreaks) -> Option<Even> {
     let levels = levels(gray)?;
-    even(gray, levels, |_, _| true)
+    even(gray, levels, streaks, |_, _| true)
+}
+
+/// A drawing with what its edges are followed by: grey levels where it has but two ([`softened`]), else even ink
+/// ([`shaded`]). `None` of any other.
+#[must_use]
+pub fn legible(gray: &Gray, streaks: InkStreaks) -> Option<Even> {
+    let soft = softened(gray).map(|gray| Even {
+        gray,
+        filled: false,
+    });
+    soft.or_else(|| shaded(gray, streaks))
 }
 
 /// The picture with even ink, where that of the pixels that count is not.
-fn even(gray: &Gray, levels: [f32; 2], counts: impl Fn(usize, usize) -> bool) -> Option<Gray> {
+fn even(
+    gray: &Gray,
+    levels: [f32; 2],
+    streaks: InkStreaks,
+    counts: impl Fn(usize, usize) -> bool,
+) -> Option<Even> {
     let one = is_uneven(gray, levels, &counts).then(|| evened(gray, levels));
-    streaks::filled(one.as_ref().unwrap_or(gray), levels, counts).or(one)
+    let full = match streaks {
+        InkStreaks::Fill => streaks::filled(one.as_ref().unwrap_or(gray), levels, counts),
+        InkStreaks::Keep => None,
+    };
+    let filled = full.is_some();
+    full.or(one).map(|gray| Even { gray, filled })
 }
 
 /// The levels of a drawing's paper and of its darker ink.
@@ -167,6 +198,10 @@ fn flat_ink(samples: &[f32], width: usize) -> Vec<bool> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn shaded(gray: &Gray) -> Option<Gray> {
+        super::shaded(gray, InkStreaks::default()).map(|even| even.gray)
+    }
 
     const W: usize = 120;
     const H: usize = 60;

@@ -7,7 +7,24 @@
 
 use crate::numeric::{levels::dilated, median::median};
 use crate::types::Gray;
+use serde::{Deserialize, Serialize};
 use std::mem;
+
+/// What becomes of pale streaks in ink, as of a ballpoint.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum InkStreaks {
+    /// Where a picture's pale lines surely are such, they are filled.
+    #[default]
+    Fill,
+    /// They stay as pale as they are.
+    Keep,
+}
+
+impl InkStreaks {
+    /// How they are named on the command line and in project files.
+    pub const ALL: [(&str, Self); 2] = [("fill", Self::Fill), ("keep", Self::Keep)];
+}
 
 /// How far from a valley its sides are looked for, px along rows and columns, and along diagonals; and of streaks, of
 /// which two may lie side by side.
@@ -41,8 +58,8 @@ const LEAST: usize = 100;
 const WITHIN: f64 = 0.3;
 const SAMPLES: usize = 100_000;
 
-/// The picture with the streaks in its ink filled, of the levels of paper and ink given; `None` where its ink has
-/// none. Pixels that do not count tell nothing, and stay.
+/// The picture with the streaks in its ink filled, of the levels of paper and ink given; `None` where nothing is
+/// filled. Pixels that do not count tell nothing, and stay.
 pub(super) fn filled(
     gray: &Gray,
     [paper, ink]: [f32; 2],
@@ -74,7 +91,8 @@ pub(super) fn filled(
             valley.iter().for_each(|v| seen.fill(v, &mut samples));
         }
     }
-    Some(gray.with_samples(samples))
+    let full = gray.with_samples(samples);
+    (full != *gray).then_some(full)
 }
 
 /// A pixel between ink on both sides.

@@ -9,7 +9,7 @@
 )]
 
 use khatt::pipeline::picture::{Options, trace_picture};
-use khatt::scan::{Polarity, load};
+use khatt::scan::{InkStreaks, Polarity, load};
 use khatt::types::Gray;
 use std::error::Error;
 use std::io::Write as _;
@@ -31,7 +31,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         let pages = load(&fs::read(file)?, file, Polarity::Auto)?;
         for page in &pages {
             ours.push(least(|| {
-                Ok(trace_picture(&page.gray, &options).map(|_| ())?)
+                Ok(trace_picture(&page.gray, InkStreaks::default(), &options).map(|_| ())?)
             })?);
             let pbm = pbm(&page.gray);
             potraces.extend(least(|| potrace(&pbm)));

@@ -348,6 +348,7 @@ mod tests {
     use super::super::{Options, trace_picture};
     use super::*;
     use crate::numeric::coverage::{Coverage, blur};
+    use crate::scan::InkStreaks;
     use kurbo::{ParamCurve, ParamCurveNearest, Point};
 
     /// A polygon's fill under a lens, as a picture of 70 × 60 px sees it.
@@ -379,7 +380,9 @@ mod tests {
         ];
         let frame = corners.iter().zip(corners.iter().cycle().skip(1));
         lines.extend(frame.map(|(a, b)| kurbo::Line::new(*a, *b)));
-        let paths = trace_picture(gray, &Options::default()).expect("curves");
+        let paths = trace_picture(gray, InkStreaks::Fill, &Options::default())
+            .expect("curves")
+            .paths;
         assert_eq!(paths.len(), 1, "{paths:?}");
         let mut worst: f64 = 0.0;
         for segment in paths[0].segments() {
@@ -464,7 +467,9 @@ mod tests {
     fn pictures_of_ink_alone_are_rectangles() {
         for (w, h) in [(16, 16), (40, 20), (20, 70)] {
             let all = Gray::from_fn(w, h, |_, _| 1.0);
-            let paths = trace_picture(&all, &Options::default()).expect("curves");
+            let paths = trace_picture(&all, InkStreaks::Fill, &Options::default())
+                .expect("curves")
+                .paths;
             let area: f64 = paths.iter().map(Shape::area).sum();
             assert!(
                 (area - (w * h) as f64).abs() < 0.05 * area,

@@ -8,39 +8,57 @@ mod review;
 pub use options::Options;
 
 use crate::fit::{self, FitError};
-use crate::scan;
+use crate::scan::{self, Even, InkStreaks};
 use crate::trace::{self, Boundary};
 use crate::types::{Contour, Gray};
 use border::Carried;
 use contours::{found, sharp};
 use kurbo::{Affine, BezPath};
 
-/// The closed curves around a picture's ink, px, y up, origin at the picture's bottom left; outer ones
-/// counter-clockwise, holes clockwise. Nothing for a picture without ink. Ink that the picture's edge cuts ends
-/// there, straight.
+/// The curves around a picture's ink.
+#[derive(Debug, Clone)]
+pub struct Curves {
+    /// Closed, px, y up, origin at the picture's bottom left; outer ones counter-clockwise, holes clockwise.
+    pub paths: Vec<BezPath>,
+    /// Whether pale streaks in its ink were filled.
+    pub filled: bool,
+}
+
+/// The closed curves around a picture's ink, none where it has no ink. Ink that the picture's edge cuts ends there,
+/// straight. `streaks` says what becomes of pale ones in its ink.
 ///
 /// A picture out of focus is traced in larger pixels ([`trace::focused`]); lengths in the options are those of its
 /// own.
 ///
 /// # Errors
 /// An option of the fitter is outside its range.
-pub fn trace_picture(gray: &Gray, options: &Options) -> Result<Vec<BezPath>, FitError> {
-    let soft = legible(gray, options);
-    let gray = soft.as_ref().unwrap_or(gray);
+pub fn trace_picture(
+    gray: &Gray,
+    streaks: InkStreaks,
+    options: &Options,
+) -> Result<Curves, FitError> {
+    let even = legible(gray, streaks, options);
+    let filled = even.as_ref().is_some_and(|even| even.filled);
+    let gray = even.as_ref().map_or(gray, |even| &even.gray);
     let coverage = trace::level(gray);
     let contours = trace::trace(&coverage, &options.trace);
     if let Some((focused, side)) = focused(gray, &contours, options) {
-        let paths = trace_picture(&focused, &options.for_pixels_of(side))?.into_iter();
-        return Ok(paths.map(|p| Affine::scale(side as f64) * p).collect());
+        let small = trace_picture(&focused, streaks, &options.for_pixels_of(side))?;
+        let paths = small.paths.into_iter();
+        return Ok(Curves {
+            paths: paths.map(|p| Affine::scale(side as f64) * p).collect(),
+            filled: filled || small.filled,
+        });
     }
-    match carried(&coverage, &contours, options) {
+    let paths = match carried(&coverage, &contours, options) {
         Some(carried) => {
             let contours = trace::trace(&carried.coverage, &options.trace);
             let paths = curves(&carried.coverage, contours, options)?;
-            Ok(carried.cut(&paths, options.trace.speckle_px2))
+            carried.cut(&paths, options.trace.speckle_px2)
         }
-        None => curves(&coverage, contours, options),
-    }
+        None => curves(&coverage, contours, options)?,
+    };
+    Ok(Curves { paths, filled })
 }
 
 /// The coverage with the ink that the picture's edge cuts carried on, if there is such.
@@ -74,10 +92,12 @@ fn look_at_grey(options: &Options) -> bool {
 
 /// The picture with its ink at one level where it is pale in many places; in grey levels, for the methods that look
 /// at them, where it has but two.
-fn legible(gray: &Gray, options: &Options) -> Option<Gray> {
-    let looks = look_at_grey(options);
-    let soft = looks.then(|| scan::softened(gray)).flatten();
-    soft.or_else(|| scan::shaded(gray))
+fn legible(gray: &Gray, streaks: InkStreaks, options: &Options) -> Option<Even> {
+    if look_at_grey(options) {
+        scan::legible(gray, streaks)
+    } else {
+        scan::shaded(gray, streaks)
+    }
 }
 
 /// The picture in larger pixels, for the methods that look at grey levels, where it is out of focus; and the side of

@@ -1,7 +1,10 @@
 //! `[[sheet]]`: a page and what is drawn on it.
 
 use super::check;
-use crate::scan::{self, Direction, InkGrain, Inks, Options, Order, Polarity, Scale, Tones, Turn};
+use crate::scan::{
+    self, Direction, InkGrain, InkStreaks, Inks, Options, Order, Polarity, Scale, Texture, Tones,
+    Turn,
+};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
@@ -37,6 +40,9 @@ pub struct SheetTable {
     /// What becomes of ink that is grain, as of a pencil or a dry brush.
     #[serde(default)]
     pub grain: InkGrain,
+    /// What becomes of pale streaks in ink, as of a ballpoint.
+    #[serde(default)]
+    pub streaks: InkStreaks,
     /// Which ink the letters are drawn with, where the page has other colours too; a list of inks makes each of them
     /// a layer of a colour font, the lowest first.
     #[serde(default)]
@@ -141,6 +147,15 @@ impl SheetTable {
             rest.is_some_and(|r| r.is_empty() || r.starts_with(", page "))
         };
         name == self.name() || (self.layout == Layout::Template && self.image.iter().any(page_of))
+    }
+
+    /// What becomes of ink that is not one even tone.
+    #[must_use]
+    pub const fn texture(&self) -> Texture {
+        Texture {
+            grain: self.grain,
+            streaks: self.streaks,
+        }
     }
 
     /// How the page is cut, for a font of so many units an em, the lines of `glyphs` left open.

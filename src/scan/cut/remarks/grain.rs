@@ -2,6 +2,7 @@
 
 use super::Warning;
 use crate::scan::clean::Page;
+use crate::scan::grain::InkGrain;
 use crate::types::Gray;
 
 /// Levels of ink and those below what is surely ink, coverage.
@@ -35,7 +36,7 @@ pub(super) fn warning(page: &Page) -> Option<Warning> {
     if page.averaged_px > 0.0 {
         return Some(Warning::of_averaged(page.averaged_px));
     }
-    let message = followed(&page.sheet.gray)?;
+    let message = followed(&page.sheet.gray, page.texture.grain)?;
     Some(Warning {
         index: None,
         label: None,
@@ -44,12 +45,16 @@ pub(super) fn warning(page: &Page) -> Option<Warning> {
 }
 
 /// What is said of a page, paper 0 and ink 1, much of whose ink is grain that outlines follow.
-fn followed(gray: &Gray) -> Option<String> {
+fn followed(gray: &Gray, grain: InkGrain) -> Option<String> {
     let share = share(gray);
+    let ours = match grain {
+        InkGrain::Soften => "",
+        InkGrain::Keep => "write grain = \"soften\" under [[sheet]]; where that finds no grain, ",
+    };
     (share > MOST).then(|| {
         format!(
             "{:.0} % of the ink is grey grain, as of a pencil or a dry brush, and outlines follow it, which takes \
-             long: soften the picture by some pixels in an image editor, or go over the letters in ink",
+             long: {ours}soften the picture by some pixels in an image editor, or go over the letters in ink",
             100.0 * share
         )
     })
@@ -104,8 +109,13 @@ mod tests {
             seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
             (seed >> 16) as f32 / 65_536.0
         };
-        let told = followed(&bars(|| if noise() < 0.4 { 0.2 } else { 1.0 })).expect("grain");
-        assert!(told.contains("grey grain"), "{told}");
+        let pencil = bars(|| if noise() < 0.4 { 0.2 } else { 1.0 });
+        for (grain, names_it) in [(InkGrain::Soften, false), (InkGrain::Keep, true)] {
+            let told = followed(&pencil, grain).expect("grain");
+            assert!(told.contains("grey grain"), "{told}");
+            assert_eq!(told.contains("grain = \"soften\""), names_it, "{told}");
+        }
+        let followed = |gray: &Gray| followed(gray, InkGrain::Keep);
         assert!(
             followed(&bars(|| 0.85 + 0.3 * noise())).is_none(),
             "the grain of paper"

@@ -135,9 +135,23 @@ fn across(slots: &[&Slot], all: &[Component], baseline: impl Fn(&Slot) -> f64) -
 
 /// What is odd about the picture as a whole.
 pub(super) fn of_picture(page: &Page, options: &Options) -> impl Iterator<Item = Warning> {
-    grain::warning(page)
-        .into_iter()
-        .chain(colourless(page, options))
+    let filled = page.filled.then(Warning::of_filled);
+    let texture = grain::warning(page).into_iter().chain(filled);
+    texture.chain(colourless(page, options))
+}
+
+impl Warning {
+    /// What is to be said of a page in whose ink pale streaks were filled.
+    #[must_use]
+    pub fn of_filled() -> Self {
+        Self {
+            index: None,
+            label: None,
+            message: "the ink has pale streaks, as of a ballpoint: they were filled; streaks = \"keep\" under [[sheet]] \
+                      leaves them"
+                .to_owned(),
+        }
+    }
 }
 
 /// A remark where inks are to be told apart in a picture without colours.

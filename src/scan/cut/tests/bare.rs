@@ -393,7 +393,7 @@ fn letters_whose_place_is_said_stand_in_the_rows_of_their_neighbours() {
             }
         };
         let pins: Vec<Pin> = pinned.iter().map(pin).collect();
-        let page = clean(paper.scan(), InkGrain::default()).unwrap();
+        let page = clean(paper.scan(), Texture::default()).unwrap();
         let cut = cut_with(&page, &labels(&ROWS.join(" ")), &free(), &pins).unwrap();
         assert_whole(&cut, 0.0, "pinned");
         for cell in &cut.cells {

@@ -21,7 +21,7 @@ fn beside_black(sheet: &Sheet, [left, top, right, bottom]: [usize; 4]) -> Sheet 
 
 /// The skew of a page and how many letters it was cut into.
 fn cut_sheet(sheet: Sheet) -> (f64, usize) {
-    let page = clean(sheet, InkGrain::default()).unwrap();
+    let page = clean(sheet, Texture::default()).unwrap();
     let cut = cut(&page, &labels(NAMES), &options(Layout::Grid(4, 5))).unwrap();
     (cut.skew_deg, cut.cells.len())
 }
@@ -68,7 +68,7 @@ fn a_letter_that_touches_a_lid_is_cut_free() {
     paper.bar(-20.0, 114.0, 116.0, 6.0);
     let sheet = beside_black(&paper.scan(), [100; 4]);
     let cut = cut(
-        &clean(sheet, InkGrain::default()).unwrap(),
+        &clean(sheet, Texture::default()).unwrap(),
         &labels(NAMES),
         &options(Layout::Grid(4, 5)),
     )
@@ -90,9 +90,9 @@ fn a_shadow_over_half_of_a_page_can_be_read_as_the_page() {
         ..plain.clone()
     };
     let cut = |page: &Page| cut(page, &labels(NAMES), &options(Layout::Grid(4, 5)));
-    let lit = cut(&clean(sheet(), InkGrain::default()).unwrap()).map_or(0, |cut| cut.cells.len());
+    let lit = cut(&clean(sheet(), Texture::default()).unwrap()).map_or(0, |cut| cut.cells.len());
     assert!(lit < 20, "what is dark seems to lie beside the page");
-    let page = clean_otherwise(sheet(), InkGrain::default())
+    let page = clean_otherwise(sheet(), Texture::default())
         .unwrap()
         .expect("another way");
     assert_eq!(cut(&page).unwrap().cells.len(), 20);

@@ -6,8 +6,7 @@ mod signs;
 mod small;
 mod told;
 
-use super::super::clean::{clean, clean_otherwise};
-use super::super::grain::InkGrain;
+use super::super::clean::{Texture, clean, clean_otherwise};
 use super::super::options::{Direction, Layout, Order, Scale};
 use super::super::whole::floor;
 use super::*;
@@ -114,7 +113,7 @@ fn options(layout: Layout) -> Options {
 }
 
 fn cut_page(paper: &Paper, names: &str, options: &Options) -> Result<Cut, ScanError> {
-    let page = clean(paper.scan(), InkGrain::default())?;
+    let page = clean(paper.scan(), Texture::default())?;
     cut(&page, &labels(names), options)
 }
 
@@ -474,7 +473,7 @@ fn corner_pins_straighten_a_letter() {
         region: Some(region),
         rotation_deg: 0.0,
     };
-    let page = clean(paper.scan(), InkGrain::default()).unwrap();
+    let page = clean(paper.scan(), Texture::default()).unwrap();
     let cut = |pin: Pin| cut_with(&page, &labels(NAMES), &options(Layout::Free), &[pin]).unwrap();
     let columns = |region: Region| tall_columns(&cut(pin(region)).cells[5].gray, 24);
     let straight = columns(Region::Quad(quad));

@@ -279,7 +279,7 @@ fn printed_lines_do_not_say_how_thick_strokes_are() {
         paper.bar(x + 30.0, y - 30.0, 10.0, 30.0);
         paper.bar(x, y - 30.0, 40.0, 10.0);
     }
-    let page = clean(paper.scan(), InkGrain::default()).unwrap();
+    let page = clean(paper.scan(), Texture::default()).unwrap();
     let (_, ink) = level::pieces(&page.sheet.gray, page.noise);
     let width = stroke_width(&ink);
     assert!((8.0..13.0).contains(&width), "{width}");

@@ -110,7 +110,7 @@ fn an_error_of_a_page_whose_ink_was_guessed_names_polarity() {
     let said = |guessed: Option<Shade>| {
         let mut sheet = grid_page(0.0).scan();
         sheet.guessed = guessed;
-        let page = clean(sheet, InkGrain::default()).unwrap();
+        let page = clean(sheet, Texture::default()).unwrap();
         let cut = cut(&page, &labels(&names), &options(Layout::Grid(4, 5)));
         cut.unwrap_err().to_string()
     };
@@ -126,6 +126,6 @@ fn an_error_of_a_page_whose_ink_was_guessed_names_polarity() {
         guessed: Some(Shade::Light),
         ..grid_page(0.0).scan()
     };
-    let blank = clean(empty, InkGrain::default()).unwrap_err().to_string();
+    let blank = clean(empty, Texture::default()).unwrap_err().to_string();
     assert!(blank.contains("polarity"), "{blank}");
 }
