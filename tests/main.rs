@@ -20,5 +20,6 @@ mod papers;
 mod published;
 mod recognise;
 mod sheets;
+mod streaks;
 mod template;
 mod words;
