@@ -9,8 +9,10 @@ use super::plan::Plan;
 use super::shared::{Shared, share};
 use crate::scan::components::Component;
 use crate::scan::cut::layout::named::COUNTS;
-use crate::scan::cut::layout::touching::{Along, Touch};
+use crate::scan::cut::layout::touching::{Along, End, Meeting, Touch};
+use crate::scan::letters::Shape;
 use crate::types::Label;
+use glyphs_reader::glyphdata::GlyphData;
 use std::ops::Range;
 
 /// The border of two letters lies within this share of a cell from that of their cells.
@@ -49,11 +51,14 @@ fn touching(
     let mut usual: Vec<usize> = own.iter().copied().filter(|&a| a > 0).collect();
     usual.sort_unstable();
     let least = COUNTS * usual.get(usual.len() / 2).copied().unwrap_or(0) as f64;
+    let data = GlyphData::default();
     let mut named = vec![false; shared.cells.len()];
-    let names = labels.iter().enumerate().filter(|(_, l)| l.0 != "_");
-    for index in names.map(|(index, _)| index) {
+    let mut joined = vec![[false; 2]; shared.cells.len()];
+    for (index, label) in labels.iter().enumerate().filter(|(_, l)| l.0 != "_") {
         let (row, column) = plan.place(index);
-        named[row * plan.columns + column] = plan.claims.iter().all(|(k, _)| *k != index);
+        let cell = row * plan.columns + column;
+        named[cell] = plan.claims.iter().all(|(k, _)| *k != index);
+        joined[cell] = Shape::of(label, &data).joined;
     }
     let claimed = |i: usize| plan.claims.iter().any(|(_, parts)| parts.contains(&i));
     let touch = |cell: usize, i: usize| {
@@ -73,7 +78,20 @@ fn touching(
                 let ink = || all[i].pixels().filter(here).count();
                 named[cell] && (least.max(own[cell] as f64)..).contains(&(ink() as f64))
             };
-            let ends = borders(cells, home, reach, holds);
+            let end = |k: usize| {
+                let (border, reach) = (cells.begin(k), UNEQUAL * cells.pitch);
+                let cell = row * plan.columns + k;
+                let strokes = along == Along::Row && joined[cell - 1][1] && joined[cell][0];
+                End {
+                    stretch: border - reach..border + reach,
+                    meeting: if strokes {
+                        Meeting::Strokes
+                    } else {
+                        Meeting::Any
+                    },
+                }
+            };
+            let ends: Vec<End> = seconds(cells, home, reach, holds).map(end).collect();
             (!ends.is_empty()).then(|| Touch::at(ends, (along, vec![i]), cells.pitch))
         })
     };
@@ -84,14 +102,14 @@ fn touching(
         .collect()
 }
 
-/// Where the letters of the cells around `home` may be cut apart that ink from one place to another reaches the
-/// middles of.
-fn borders(
+/// Of the cells around `home` that ink from one place to another reaches the middles of, all but the first: the
+/// letters may be cut apart where each of them begins.
+fn seconds(
     cells: &Axis,
     home: usize,
     (from, to): (f64, f64),
     holds: impl Fn(usize) -> bool,
-) -> Vec<Range<f64>> {
+) -> Range<usize> {
     let middle = |k: usize| cells.begin(k) + cells.pitch / 2.0;
     let is_in = |k: &usize| (from..to).contains(&middle(*k)) && holds(*k);
     let first = (0..home).rev().take_while(is_in).last().unwrap_or(home);
@@ -99,9 +117,5 @@ fn borders(
         .take_while(is_in)
         .last()
         .unwrap_or(home);
-    let end = |k: usize| {
-        let border = cells.begin(k);
-        border - UNEQUAL * cells.pitch..border + UNEQUAL * cells.pitch
-    };
-    (first + 1..=last).map(end).collect()
+    first + 1..last + 1
 }

@@ -23,22 +23,48 @@ const UNEQUAL: f64 = 0.25;
 /// Coverage of the ink's edge.
 const LEVEL: f64 = 0.5;
 
+/// What meets where one letter ends and the next one begins.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Meeting {
+    /// A joining stroke of either, as their names say, which may lie in line with each other.
+    Strokes,
+    /// Whatever it is.
+    Any,
+}
+
+/// Where one letter ends and the next one begins.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct End {
+    /// Upright px.
+    pub(super) stretch: Range<f64>,
+    pub(super) meeting: Meeting,
+}
+
+impl End {
+    /// So far around a place.
+    fn around(place: f64, reach: f64) -> Self {
+        Self {
+            stretch: place - reach..place + reach,
+            meeting: Meeting::Any,
+        }
+    }
+}
+
 /// Ink that is of several letters.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Touch {
     /// Indices of its components.
     ink: Vec<usize>,
     along: Along,
-    /// Where one letter ends and the next one begins, upright px.
-    ends: Vec<Range<f64>>,
+    /// In order.
+    ends: Vec<End>,
     /// How far apart the middles of the cells are, px, where letters stand in the middle of theirs.
     cells: Option<f64>,
 }
 
 impl Touch {
-    /// Letters in cells so many upright px apart, of which one ends and the next one begins in each of some
-    /// stretches.
-    pub(super) fn at(ends: Vec<Range<f64>>, (along, ink): (Along, Vec<usize>), pitch: f64) -> Self {
+    /// Letters in cells so many upright px apart.
+    pub(super) fn at(ends: Vec<End>, (along, ink): (Along, Vec<usize>), pitch: f64) -> Self {
         Self {
             ink,
             along,
@@ -50,10 +76,7 @@ impl Touch {
     /// Letters of one row, so many within `bounds`.
     pub(super) fn beside(ink: Vec<usize>, bounds: Rect, letters: usize) -> Self {
         let width = bounds.width() / letters as f64;
-        let end = |k: usize| {
-            let middle = bounds.x0 + k as f64 * width;
-            middle - UNEQUAL * width..middle + UNEQUAL * width
-        };
+        let end = |k: usize| End::around(bounds.x0 + k as f64 * width, UNEQUAL * width);
         Self {
             ink,
             along: Along::Row,
@@ -65,51 +88,87 @@ impl Touch {
     /// A letter of one row and one of the next, whose middles are at `rows`.
     pub(super) fn below(ink: Vec<usize>, rows: Range<f64>) -> Self {
         let (pitch, middle) = (rows.end - rows.start, (rows.start + rows.end) / 2.0);
-        let end = middle - UNEQUAL * pitch..middle + UNEQUAL * pitch;
         Self {
             ink,
             along: Along::Column,
-            ends: vec![end],
+            ends: vec![End::around(middle, UNEQUAL * pitch)],
             cells: None,
         }
     }
 
     /// Cuts the ink of `page` in `all`, where new pieces go to the end, and says which pieces were cut from others.
+    ///
+    /// The surest border comes first: where it is tells how far the letters beside it reach, and so of the next ones.
     pub(super) fn part(
         &self,
         all: &mut Vec<Component>,
         (page, upright): (&Gray, &View),
     ) -> Vec<usize> {
         let ink: Vec<Component> = self.ink.iter().map(|&i| all[i].clone()).collect();
-        let ink: Vec<&Component> = ink.iter().collect();
-        let mut pieces: Vec<Vec<Component>> = ink.iter().map(|&c| vec![c.clone()]).collect();
-        for (k, stretch) in self.ends.iter().enumerate() {
-            let border = Border {
-                along: self.along,
-                stretch,
-                upright,
-                cells: self.cells,
-                is_last: k + 1 == self.ends.len(),
-            };
+        let mut pieces: Vec<Vec<Component>> = ink.iter().map(|c| vec![c.clone()]).collect();
+        let mut left: Vec<usize> = (0..self.ends.len()).collect();
+        let mut costs: Vec<Option<f64>> = vec![None; left.len()];
+        while !left.is_empty() {
+            for &k in &left {
+                costs[k] = costs[k].or_else(|| {
+                    let border = self.border(k, &left, upright);
+                    let all = pieces.iter().flatten();
+                    let partings = all.filter_map(|piece| border.parting(piece, page));
+                    Some(partings.map(|p| p.cost).fold(f64::INFINITY, f64::min))
+                });
+            }
+            let cost = |k: usize| costs[k].unwrap_or(f64::INFINITY);
+            let surest = left.iter().copied();
+            let surest = surest.min_by(|&a, &b| cost(a).total_cmp(&cost(b)));
+            let Some(k) = surest else { break };
+            let border = self.border(k, &left, upright);
             let seam = OnceCell::new();
-            let seam = || seam.get_or_init(|| Seam::within(stretch, (self.along, &ink), upright));
+            let seam = || {
+                seam.get_or_init(|| Seam::within(border.stretch, (self.along, &ink), upright))
+                    .as_ref()
+            };
             let cut = |piece: &Component| {
-                let apart = pale::part(piece, page, &border);
-                let over = || overlap::part(piece, page, &border).map(|parts| parts.concat());
-                let cut = || {
-                    seam()
-                        .as_ref()
-                        .map(|s| piece.parted(|x, y| s.is_before(x, y)))
-                };
-                apart
-                    .or_else(over)
-                    .or_else(cut)
-                    .unwrap_or_else(|| vec![piece.clone()])
+                let told = border.parting(piece, page).map(|p| p.pieces);
+                let cut = || seam().map(|s| piece.parted(|x, y| s.is_before(x, y)));
+                told.or_else(cut).unwrap_or_else(|| vec![piece.clone()])
             };
             for of in &mut pieces {
                 *of = of.iter().flat_map(cut).collect();
             }
+            left.retain(|&other| other != k);
+            // more is known of those beside it
+            for beside in [k.checked_sub(1), Some(k + 1)].into_iter().flatten() {
+                costs
+                    .iter_mut()
+                    .skip(beside)
+                    .take(1)
+                    .for_each(|c| *c = None);
+            }
         }
+        self.put(pieces, all, upright)
+    }
+
+    /// The border number `k`, where those that are `left` are not cut yet.
+    fn border<'a>(&'a self, k: usize, left: &[usize], upright: &'a View) -> Border<'a> {
+        let is_left = |k: Option<usize>| k.is_some_and(|k| left.contains(&k));
+        let End { stretch, meeting } = &self.ends[k];
+        Border {
+            along: self.along,
+            stretch,
+            meeting: *meeting,
+            upright,
+            cells: self.cells,
+            is_single: [!is_left(k.checked_sub(1)), !is_left(Some(k + 1))],
+        }
+    }
+
+    /// Puts the pieces of each component in its place; which were cut from others.
+    fn put(
+        &self,
+        pieces: Vec<Vec<Component>>,
+        all: &mut Vec<Component>,
+        upright: &View,
+    ) -> Vec<usize> {
         let mut parted = Vec::new();
         for (&i, mut pieces) in self.ink.iter().zip(pieces) {
             pieces.iter_mut().for_each(|p| p.stand(upright));
@@ -130,19 +189,43 @@ struct Border<'a> {
     along: Along,
     /// Upright px.
     stretch: &'a Range<f64>,
+    meeting: Meeting,
     upright: &'a View,
     /// How far apart the middles of the cells are, px, where letters stand in the middle of theirs.
     cells: Option<f64>,
-    /// One letter follows, not several.
-    is_last: bool,
+    /// Whether one letter alone is before it, and after it.
+    is_single: [bool; 2],
+}
+
+/// Ink that is parted.
+struct Parting {
+    /// How unlikely it is; 0 is what pale pixels alone join.
+    cost: f64,
+    pieces: Vec<Component>,
 }
 
 impl Border<'_> {
+    /// A piece of ink parted by what its pixels and edges tell; none where they tell nothing.
+    fn parting(&self, piece: &Component, page: &Gray) -> Option<Parting> {
+        let pale = || pale::part(piece, page, self).map(|pieces| Parting { cost: 0.0, pieces });
+        let is_here = self.reaches(piece.bounds);
+        is_here.then(|| pale().or_else(|| overlap::part(piece, page, self)))?
+    }
+
+    /// Whether some of a box in the sheet lies within its stretch.
+    fn reaches(&self, bounds: Rect) -> bool {
+        let Rect { x0, y0, x1, y1 } = bounds;
+        let corners = [(x0, y0), (x0, y1), (x1, y0), (x1, y1)];
+        let sides = corners.map(|p| self.side(Point::from(p)));
+        sides.iter().any(|s| *s > -1.0) && sides.iter().any(|s| *s < 1.0)
+    }
+
     /// Where the middles of the letter before it and of the one after it are, in halves of the stretch behind its
     /// middle, if that is known.
     fn middles(&self) -> [Option<f64>; 2] {
         let off = self.cells.map(|pitch| pitch / 2.0 / self.half());
-        [off.map(|v| -v), off.filter(|_| self.is_last)]
+        let [before, after] = self.is_single;
+        [off.filter(|_| before).map(|v| -v), off.filter(|_| after)]
     }
 
     /// How far behind its middle a place of the sheet is, halves of the stretch.

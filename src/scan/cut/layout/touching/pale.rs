@@ -109,7 +109,7 @@ mod tests {
     use super::*;
     use crate::numeric::view::View;
     use crate::scan::components::components;
-    use crate::scan::cut::layout::touching::Along;
+    use crate::scan::cut::layout::touching::{Along, Meeting};
     use kurbo::{Affine, Rect};
 
     /// Where the pieces of some bars begin and end, of which one ends and the next one begins between 40 and 80 px.
@@ -124,9 +124,10 @@ mod tests {
         let border = Border {
             along: Along::Row,
             stretch: &(40.0..80.0),
+            meeting: Meeting::Any,
             upright: &View::from(Affine::IDENTITY),
             cells: None,
-            is_last: true,
+            is_single: [true; 2],
         };
         let parts = part(&ink[0], &gray, &border)?;
         Some(parts.iter().map(|c| (c.bounds.x0, c.bounds.x1)).collect())

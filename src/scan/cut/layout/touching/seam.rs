@@ -63,7 +63,7 @@ impl Seam {
     /// where there is no ink.
     pub(super) fn within(
         stretch: &Range<f64>,
-        (along, ink): (Along, &[&Component]),
+        (along, ink): (Along, &[Component]),
         upright: &View,
     ) -> Option<Self> {
         let bounds = ink.iter().map(|c| c.bounds).reduce(|a, b| a.union(b))?;
@@ -242,7 +242,6 @@ mod tests {
                 f32::from(u8::from(bars.iter().any(here)))
             });
             let ink = components(&gray, 0.5, 0.5);
-            let ink: Vec<&Component> = ink.iter().collect();
             let upright = View::from(Affine::IDENTITY);
             Seam::within(&stretch, (along, &ink), &upright).unwrap().at
         })

@@ -1,9 +1,11 @@
 //! A picture of ink → the rings around it, and their corners inwards near a border.
 
+use super::joint::{Place, joint};
 use super::parabola::Parabola;
 use super::shape::filled;
 use super::{Field, LEVEL};
 use crate::numeric::iso;
+use crate::scan::cut::layout::touching::{Border, Meeting};
 use crate::scan::whole::floor;
 use kurbo::{Point, Vec2};
 
@@ -41,6 +43,7 @@ pub(super) struct Edges {
     pub(super) stroke: f64,
     /// How far behind the border each point of each ring is, halves of its stretch.
     sides: Vec<Vec<f64>>,
+    pub(super) across: Across,
     /// Half of the border's stretch, px.
     half: f64,
     /// How much of a ring a corner takes on either side, points.
@@ -50,14 +53,52 @@ pub(super) struct Edges {
     size: (usize, usize),
 }
 
-/// A corner inwards, or a place where the side of one comes out of the ink.
+/// How far behind a border places are.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Across {
+    /// Where the origin is, halves of the border's stretch behind its middle.
+    origin: f64,
+    /// By how much that grows each px to the right and up.
+    grade: Vec2,
+}
+
+impl Across {
+    /// `side` says it of a place.
+    fn of(side: impl Fn(Point) -> f64) -> Self {
+        let origin = side(Point::ORIGIN);
+        let [right, up] = [Point::new(1.0, 0.0), Point::new(0.0, 1.0)].map(|p| side(p) - origin);
+        Self {
+            origin,
+            grade: Vec2::new(right, up),
+        }
+    }
+
+    /// How far behind the border's middle a place is, halves of its stretch.
+    pub(super) fn at(&self, p: Point) -> f64 {
+        self.origin + self.grade.dot(p.to_vec2())
+    }
+
+    /// Which way that grows, of length 1.
+    pub(super) fn along(&self) -> Vec2 {
+        self.grade / self.step()
+    }
+
+    /// By how much it grows that way each px.
+    pub(super) fn step(&self) -> f64 {
+        self.grade.hypot()
+    }
+}
+
+/// A corner inwards, a side of strokes that lie in line, or a place where the side of one comes out of the ink.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Corner {
     ring: usize,
     /// Index of its point.
     at: usize,
-    /// By how much it turns, radians; 0 where a side comes out.
+    /// By how much it turns, radians; 0 where it is no corner.
     sharp: f64,
+    /// A stroke of either letter may end there, beneath one of the other.
+    pub(super) is_joint: bool,
 }
 
 /// Where a stretch of an edge ends or begins.
@@ -73,7 +114,8 @@ impl Edges {
     /// stretch of so many px. None where there is no corner.
     pub(super) fn find(
         field: &Field,
-        (stroke, half): (f64, f64),
+        stroke: f64,
+        border: &Border<'_>,
         side: impl Fn(Point) -> f64,
     ) -> Option<Self> {
         let size = (field.width, field.height);
@@ -81,12 +123,14 @@ impl Edges {
         let rings = iso::rings(size, |x, y| field.at(x, y), LEVEL).into_iter();
         let rings = rings.filter(|r| area(r).abs() >= grain);
         let rings: Vec<Vec<Point>> = rings.map(|r| iso::even(&r, SPACING)).collect();
-        let sides = rings.iter().map(|r| r.iter().map(|&p| side(p)).collect());
+        let across = Across::of(side);
+        let sides = rings.iter().map(|r| r.iter().map(|&p| across.at(p)));
         let mut new = Self {
             corners: Vec::new(),
             stroke,
-            sides: sides.collect(),
-            half,
+            sides: sides.map(Iterator::collect).collect(),
+            across,
+            half: border.half(),
             round: floor((ROUND * stroke).clamp(ROUNDS.0, ROUNDS.1) / SPACING + 0.5),
             inside: filled(&rings, size),
             size,
@@ -97,6 +141,10 @@ impl Edges {
         corners.truncate(CORNERS);
         corners.sort_by_key(|c| (c.ring, c.at));
         new.corners = corners;
+        if border.meeting == Meeting::Strokes {
+            let sides = joint(&new.rings, stroke, &new.across, border.middles());
+            sides.into_iter().flatten().for_each(|p| new.join(p));
+        }
         let exits = new.exits();
         new.corners.extend(exits);
         new.corners.sort_by_key(|c| (c.ring, c.at));
@@ -141,6 +189,7 @@ impl Edges {
             ring,
             at,
             sharp: turns[at],
+            is_joint: false,
         });
         corners.collect()
     }
@@ -158,7 +207,7 @@ impl Edges {
                     let near = |o: &Corner| {
                         let d = o.at.abs_diff(c.at);
                         let n = self.rings[c.ring].len();
-                        o.ring == c.ring && d.min(n - d) <= 2 * self.round + CLOSE
+                        o.ring == c.ring && d.min(n - d) <= self.apart()
                     };
                     !self.corners.iter().chain(&out).any(near)
                 };
@@ -166,6 +215,31 @@ impl Edges {
             }
         }
         out
+    }
+
+    /// Marks a place, or the corner that is there, as a side of strokes that lie in line.
+    fn join(&mut self, (ring, at): Place) {
+        let n = self.rings[ring].len();
+        let off = |c: &Corner| {
+            let d = c.at.abs_diff(at);
+            if c.ring == ring { d.min(n - d) } else { n }
+        };
+        let reach = self.apart();
+        match self.corners.iter_mut().min_by_key(|c| off(c)) {
+            Some(corner) if off(corner) <= reach => corner.is_joint = true,
+            _ => self.corners.push(Corner {
+                ring,
+                at,
+                sharp: 0.0,
+                is_joint: true,
+            }),
+        }
+        self.corners.sort_by_key(|c| (c.ring, c.at));
+    }
+
+    /// Corners are farther apart than so many points.
+    const fn apart(&self) -> usize {
+        2 * self.round + CLOSE
     }
 
     /// Where a way through the ink leaves it.
@@ -185,6 +259,7 @@ impl Edges {
             ring,
             at,
             sharp: 0.0,
+            is_joint: false,
         })
     }
 
@@ -269,7 +344,9 @@ impl Edges {
 
     /// How little a corner looks like one letter's own: 1 where it is sharp and at the border, 0 far from it.
     pub(super) fn doubt(&self, corner: usize) -> f64 {
-        let Corner { ring, at, sharp } = self.corners[corner];
+        let Corner {
+            ring, at, sharp, ..
+        } = self.corners[corner];
         sharp.min(1.0) * (1.0 - self.sides[ring][at].abs()).max(0.0)
     }
 

@@ -1,15 +1,20 @@
 //! Two ends of edges → how one letter's edge may go on from the first to the second beneath another one's ink.
 
 use super::edges::{End, angle};
-use kurbo::{CubicBez, ParamCurve, Point};
+use kurbo::{CubicBez, ParamCurve, Point, Vec2};
 use std::f64::consts::FRAC_PI_2;
 
 /// A curve costs so many times its bend.
 const BEND: f64 = 0.6;
 /// A corner beneath ink, the hidden end of a stroke, costs so much.
 const CORNER: f64 = 0.3;
-/// And a straight cut.
+/// And a straight cut, but for the end of a stroke where one is expected.
 const CUT: f64 = 0.5;
+/// A side of a stroke goes along it by the cosine of their angle; such sides are so many strokes apart.
+const ALONG: f64 = 0.95;
+const WIDTHS: [f64; 2] = [0.4, 1.8];
+/// The middle of a stroke's end is beneath ink, so much of it left out on either side: edges are no straight lines.
+const RIM: f64 = 0.2;
 /// What each stroke's width of hidden edge adds.
 const LENGTH: f64 = 0.05;
 /// Longer ones than so many strokes are not believed.
@@ -31,37 +36,106 @@ pub(super) struct Hidden {
     pub(super) cost: f64,
     /// It does not go on as the edge came.
     pub(super) is_cut: bool,
-    /// From end to end, evenly spaced.
-    pub(super) path: Vec<Point>,
+    /// Of a stroke's end: how far it may lie beneath the ink.
+    pub(super) stub: Option<Stub>,
+    /// From end to end.
+    bends: Vec<Point>,
+}
+
+/// How far a stroke that ends beneath ink may go on.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Stub {
+    /// Where it ends at the nearest.
+    pub(super) at: Point,
+    /// Which way it goes, of length 1.
+    pub(super) way: Vec2,
+    /// How much farther it may go, px.
+    pub(super) most: f64,
 }
 
 impl Hidden {
-    /// The likeliest edge between two ends of edges of strokes so wide that lies in the ink.
+    /// The likeliest edge between two ends of edges of strokes so wide that lies in the ink. Where a stroke may end, it
+    /// goes `along` that way or back.
     pub(super) fn between(
         from: End,
         to: End,
-        stroke: f64,
+        (stroke, along): (f64, Option<Vec2>),
         is_ink: impl Fn(Point) -> bool,
     ) -> Option<Self> {
         let chord = (to.at - from.at).hypot();
         if chord > LONGEST * stroke || chord <= 0.0 {
             return None;
         }
-        let priced = |(cost, bends): (f64, Vec<Point>), is_cut: bool| {
-            let path = spaced(&bends);
-            let cost = cost + LENGTH * SPACING * path.len() as f64 / stroke;
-            Self { cost, is_cut, path }
+        let whole = |(cost, bends): (f64, Vec<Point>), is_cut: bool| Self {
+            cost,
+            is_cut,
+            stub: None,
+            bends,
         };
         let ways = [curve(from, to), corner(from, to)];
-        let ways = ways.into_iter().flatten().map(|way| priced(way, false));
-        let cut = priced((CUT, vec![from.at, to.at]), true);
-        let is_hidden = |h: &Self| {
+        let ways = ways.into_iter().flatten().map(|way| whole(way, false));
+        let cut = whole((CUT, vec![from.at, to.at]), true);
+        let stub = along.and_then(|along| stub(from, to, (stroke, along), &is_ink));
+        let ways = ways.chain([cut]).chain(stub);
+        let is_hidden = |path: &[Point]| {
             let far = |p: &&Point| p.distance(from.at).min(p.distance(to.at)) > BLUR;
-            h.path.iter().filter(far).all(|&p| is_ink(p))
+            path.iter().filter(far).all(|&p| is_ink(p))
         };
-        let ways = ways.chain([cut]).filter(is_hidden);
-        ways.min_by(|a, b| a.cost.total_cmp(&b.cost))
+        let priced = ways.filter_map(|mut way: Self| {
+            let path = way.path(0.0);
+            way.cost += LENGTH * SPACING * path.len() as f64 / stroke;
+            is_hidden(&path).then_some(way)
+        });
+        priced.min_by(|a, b| a.cost.total_cmp(&b.cost))
     }
+
+    /// From end to end, evenly spaced; a stroke's end so many px farther on.
+    pub(super) fn path(&self, farther: f64) -> Vec<Point> {
+        let Some(stub) = self.stub else {
+            return spaced(&self.bends);
+        };
+        let on = farther.clamp(0.0, stub.most) * stub.way;
+        let last = self.bends.len() - 1;
+        let is_end = |k: usize| k > 0 && k < last;
+        let bends = self.bends.iter().enumerate();
+        let bends = bends.map(|(k, &p)| if is_end(k) { p + on } else { p });
+        spaced(&bends.collect::<Vec<Point>>())
+    }
+}
+
+/// The end of a stroke that goes `along` or back, straight across, as near as may be.
+fn stub(
+    from: End,
+    to: End,
+    (stroke, along): (f64, Vec2),
+    is_ink: impl Fn(Point) -> bool,
+) -> Option<Hidden> {
+    let goes = |side: Vec2| [along, -along].into_iter().find(|a| side.dot(*a) > ALONG);
+    let way = goes(from.way).or_else(|| goes(-to.way))?;
+    let chord = to.at - from.at;
+    // the ink of a ring lies on its left
+    let width = way.cross(chord) / stroke;
+    if !(WIDTHS[0]..WIDTHS[1]).contains(&width) {
+        return None;
+    }
+    let ahead = way.dot(chord);
+    let a = from.at + ahead.max(0.0) * way;
+    let b = to.at + (-ahead).max(0.0) * way;
+    let middle = [a.lerp(b, RIM), b.lerp(a, RIM)];
+    let mut most = 0.0;
+    while most < LONGEST * stroke && middle.iter().all(|&p| is_ink(p + (most + 1.0) * way)) {
+        most += 1.0;
+    }
+    Some(Hidden {
+        cost: 0.0,
+        is_cut: false,
+        stub: Some(Stub {
+            at: a.midpoint(b),
+            way,
+            most,
+        }),
+        bends: vec![from.at, a, b, to.at],
+    })
 }
 
 /// The curve that goes on both ways, and what it costs. A thin rod's squared bend, integrated, times its length is

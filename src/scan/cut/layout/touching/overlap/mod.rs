@@ -6,19 +6,21 @@
 //! | file | what happens there |
 //! |---|---|
 //! | `edges` | the ink's rings, their corners inwards and how they come to them (`parabola`) |
+//! | `joint` | where joining strokes of both letters lie in line, without a corner |
 //! | `hidden` | how an edge may go on from one corner to another beneath the ink, and how unlikely that is |
 //! | `owners` | whose the stretches between the corners are: of all ways to share them out the likeliest ones |
 //! | `shape` | closed outlines → the share of each pixel that lies within |
 
 mod edges;
 mod hidden;
+mod joint;
 mod owners;
 mod parabola;
 mod shape;
 #[cfg(test)]
 mod tests;
 
-use super::{Border, LEVEL};
+use super::{Border, LEVEL, Parting};
 use crate::scan::components::Component;
 use crate::scan::whole::floor;
 use crate::types::Gray;
@@ -35,21 +37,21 @@ const LOST: f64 = 0.2;
 const LEAST: f64 = 1.0;
 
 /// The ink of the letter before a border and of the one after it; none where no way to part them is likely.
-pub(super) fn part(
-    ink: &Component,
-    page: &Gray,
-    border: &Border<'_>,
-) -> Option<[Vec<Component>; 2]> {
+pub(super) fn part(ink: &Component, page: &Gray, border: &Border<'_>) -> Option<Parting> {
     let field = Field::new(ink, page);
     let stroke = ink.stroke().max(1.0);
     let side = |p: Point| border.side(field.in_sheet(p));
-    let edges = Edges::find(&field, (stroke, border.half()), side)?;
+    let edges = Edges::find(&field, stroke, border, side)?;
     let splits = owners::likeliest(&edges, border.middles());
-    let mut told = splits
-        .iter()
-        .filter_map(|split| field.letters(&edges, split, stroke));
+    let told = splits.iter().find_map(|split| {
+        let letters = field.letters(&edges, split, stroke)?;
+        Some((split.cost, letters))
+    });
     let letter = |shape: Shape| ink.shared(|x, y| field.share(&shape, (x, y)));
-    told.next().map(|shapes| shapes.map(letter))
+    told.map(|(cost, letters)| Parting {
+        cost,
+        pieces: letters.map(letter).concat(),
+    })
 }
 
 /// The picture of some ink, px from its lower left corner, y up.

@@ -7,7 +7,7 @@
 //! of 25 fonts (docs/tried.md, "Letters that lie over each other"), each half of them tried on the other.
 
 use super::edges::{Edges, Lie};
-use super::hidden::Hidden;
+use super::hidden::{Hidden, Stub};
 use super::shape::Stretch;
 use crate::numeric::assignment::assign;
 use kurbo::Point;
@@ -46,6 +46,8 @@ pub(super) enum Owner {
 /// A way to share edges out.
 #[derive(Debug, Clone)]
 pub(super) struct Split {
+    /// How unlikely it is.
+    pub(super) cost: f64,
     /// Of the stretch after each corner.
     owners: Vec<Owner>,
     /// Of each ring without a corner.
@@ -101,7 +103,9 @@ pub(super) fn likeliest(edges: &Edges, middles: [Option<f64>; 2]) -> Vec<Split> 
             let from = edges.finish(before[i]);
             let to = |j: usize| {
                 let end = (i != j).then(|| edges.begin(j))?;
-                Hidden::between(from, end, edges.stroke, |p| edges.is_ink(p))
+                let is_joint = [i, j].iter().all(|&k| edges.corners[k].is_joint);
+                let along = is_joint.then(|| edges.across.along());
+                Hidden::between(from, end, (edges.stroke, along), |p| edges.is_ink(p))
             };
             (0..n).map(to).collect()
         })
@@ -109,6 +113,7 @@ pub(super) fn likeliest(edges: &Edges, middles: [Option<f64>; 2]) -> Vec<Split> 
     let least =
         |to: &Vec<Option<Hidden>>| to.iter().flatten().map(|h| h.cost).fold(NEVER, f64::min);
     let mut search = Search {
+        edges,
         middles,
         lies: (0..n).map(|k| edges.lie(k)).collect(),
         whole: &whole,
@@ -120,11 +125,15 @@ pub(super) fn likeliest(edges: &Edges, middles: [Option<f64>; 2]) -> Vec<Split> 
         left: CHOICES,
     };
     search.go_on(&mut Vec::new(), (0.0, 0.0));
-    let split = |(_, owners): (f64, Vec<Owner>)| {
+    let split = |(cost, owners): (f64, Vec<Owner>)| {
         let pairs = search.pairs(&owners).unwrap_or_default().into_iter();
-        let path = |i: usize, j: usize| hidden[i][j].as_ref().map(|h| h.path.clone());
-        let paths = pairs.filter_map(|(owner, i, j)| Some(((owner, i), (j, path(i, j)?))));
+        let path = |owner: Owner, i: usize, j: usize| {
+            let hidden = hidden[i][j].as_ref()?;
+            Some(hidden.path(search.farther(&owners, owner, hidden)))
+        };
+        let paths = pairs.filter_map(|(owner, i, j)| Some(((owner, i), (j, path(owner, i, j)?))));
         Split {
+            cost,
             hidden: paths.collect(),
             whole: whole
                 .iter()
@@ -138,6 +147,7 @@ pub(super) fn likeliest(edges: &Edges, middles: [Option<f64>; 2]) -> Vec<Split> 
 
 /// The search for the likeliest owners of the stretches after each corner.
 struct Search<'a> {
+    edges: &'a Edges,
     middles: [Option<f64>; 2],
     lies: Vec<Lie>,
     /// The rings without a corner.
@@ -205,7 +215,7 @@ impl Search<'_> {
         let own = (0..owners.len()).filter(|&k| owners[k] == owners[self.before[k]]);
         let own: f64 = own.map(|k| self.doubts[k]).sum();
         let hidden: f64 = edges().map(|h| h.cost).sum();
-        let off = MIDDLE * self.off(owners);
+        let off = MIDDLE * self.off(owners, &pairs);
         let cost = place + hidden + OWN * own + SEVERED * severed as f64 + off;
         if cost < self.worst() {
             let at = self.found.partition_point(|s| s.0 <= cost);
@@ -215,18 +225,49 @@ impl Search<'_> {
     }
 
     /// How far the letters' middles are from where they belong, halves of the border's stretch.
-    fn off(&self, owners: &[Owner]) -> f64 {
-        let stretches = || owners.iter().zip(&self.lies).map(|(o, l)| (*o, l.extent));
-        let rings = || self.whole.iter().map(|(_, o, l)| (*o, l.extent));
+    fn off(&self, owners: &[Owner], pairs: &[(Owner, usize, usize)]) -> f64 {
         let off = |(owner, middle): (Owner, Option<f64>)| {
-            let own = stretches().chain(rings()).filter(|(o, _)| *o == owner);
-            let [from, to] = own.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], (_, e)| {
-                [a.min(e[0]), b.max(e[1])]
+            let own = pairs.iter().filter(|p| p.0 == owner);
+            let hidden = own.filter_map(|&(_, i, j)| self.hidden[i][j].as_ref());
+            let ends = hidden.filter_map(|h| {
+                let stub = h.stub?;
+                let end = stub.at + self.farther(owners, owner, h) * stub.way;
+                Some(self.edges.across.at(end))
             });
+            let [from, to] =
+                ends.fold(self.extent(owners, owner), |[a, b], e| [a.min(e), b.max(e)]);
             middle.map_or(0.0, |m| ((from + to) / 2.0 - m).abs())
         };
         let letters = [Owner::First, Owner::Second].into_iter();
         letters.zip(self.middles).map(off).sum()
+    }
+
+    /// From where to where the edges of a letter reach that are seen.
+    fn extent(&self, owners: &[Owner], owner: Owner) -> [f64; 2] {
+        let stretches = owners.iter().zip(&self.lies).map(|(o, l)| (*o, l.extent));
+        let rings = self.whole.iter().map(|(_, o, l)| (*o, l.extent));
+        let own = stretches.chain(rings).filter(|(o, _)| *o == owner);
+        own.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], (_, e)| {
+            [a.min(e[0]), b.max(e[1])]
+        })
+    }
+
+    /// How much farther a letter's stroke that ends beneath the ink goes on, px: until the letter's middle is where it
+    /// belongs, if that is known.
+    fn farther(&self, owners: &[Owner], owner: Owner, hidden: &Hidden) -> f64 {
+        let middle = match owner {
+            Owner::First => self.middles[0],
+            Owner::Second => self.middles[1],
+        };
+        let farther = |(stub, middle): (Stub, f64)| {
+            let across = &self.edges.across;
+            let [from, to] = self.extent(owners, owner);
+            let forth = stub.way.dot(across.along());
+            let other = if forth > 0.0 { from } else { to };
+            let end = 2.0 * middle - other;
+            ((end - across.at(stub.at)) / (forth * across.step())).clamp(0.0, stub.most)
+        };
+        hidden.stub.zip(middle).map_or(0.0, farther)
     }
 
     /// The corners between which each letter's hidden edges run at the least cost; none where there is no such edge,

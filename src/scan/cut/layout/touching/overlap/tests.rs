@@ -1,7 +1,7 @@
 use super::*;
 use crate::numeric::view::View;
 use crate::scan::components::components;
-use crate::scan::cut::layout::touching::Along;
+use crate::scan::cut::layout::touching::{Along, Meeting};
 use kurbo::Affine;
 
 /// Side of the pictures, px.
@@ -11,6 +11,15 @@ type Inside<'a> = &'a dyn Fn(f64, f64) -> bool;
 
 /// Which of the pixels of two letters, of which one ends and the next one begins near `at` px, are said to be whose.
 fn parted(letters: [Inside<'_>; 2], at: f64) -> Option<[Vec<bool>; 2]> {
+    parted_in(letters, at, (None, Meeting::Any))
+}
+
+/// The same of letters in the middle of cells so many px apart, of which such strokes meet.
+fn parted_in(
+    letters: [Inside<'_>; 2],
+    at: f64,
+    (cells, meeting): (Option<f64>, Meeting),
+) -> Option<[Vec<bool>; 2]> {
     let gray = Gray::from_fn(SIDE, SIDE, |x, y| {
         let inked = |l: &Inside<'_>| l(x as f64 + 0.5, y as f64 + 0.5);
         f32::from(u8::from(letters.iter().any(inked)))
@@ -20,20 +29,21 @@ fn parted(letters: [Inside<'_>; 2], at: f64) -> Option<[Vec<bool>; 2]> {
     let border = Border {
         along: Along::Row,
         stretch: &(at - 20.0..at + 20.0),
+        meeting,
         upright: &View::from(Affine::IDENTITY),
-        cells: None,
-        is_last: true,
+        cells,
+        is_single: [true; 2],
     };
-    let whose = |pieces: Vec<Component>| {
+    let whose = |c: Component| {
         let mut own = vec![false; SIDE * SIDE];
-        for c in &pieces {
-            c.pixels().for_each(|(x, y)| own[y * SIDE + x] = true);
-            let less = c.shares.iter().filter(|s| s.2 < 0.5);
-            less.for_each(|&(x, y, _)| own[y * SIDE + x] = false);
-        }
+        c.pixels().for_each(|(x, y)| own[y * SIDE + x] = true);
+        let less = c.shares.iter().filter(|s| s.2 < 0.5);
+        less.for_each(|&(x, y, _)| own[y * SIDE + x] = false);
         own
     };
-    part(&ink[0], &gray, &border).map(|letters| letters.map(whose))
+    let letters = part(&ink[0], &gray, &border)?.pieces;
+    let letters = <[Component; 2]>::try_from(letters).expect("each in one piece");
+    Some(letters.map(whose))
 }
 
 /// Pixels that are wrongly said to be one's or not.
@@ -95,6 +105,27 @@ fn corners_beneath_the_other_letter_are_found() {
         let off = wrong(own, letter);
         assert!(off <= 12, "{off}");
     }
+}
+
+#[test]
+fn joining_strokes_in_line_end_where_the_letters_middles_say() {
+    let first = [
+        Rect::new(10.0, 20.0, 20.0, 110.0),
+        Rect::new(10.0, 100.0, 80.0, 110.0),
+    ];
+    let second = [
+        Rect::new(120.0, 20.0, 130.0, 110.0),
+        Rect::new(62.0, 100.0, 130.0, 110.0),
+    ];
+    let letters: [Inside<'_>; 2] = [&|x, y| within(x, y, &first), &|x, y| within(x, y, &second)];
+    let middles = |meeting| parted_in(letters, 70.0, (Some(51.0), meeting));
+    let own = middles(Meeting::Strokes).expect("both are told");
+    for (own, letter) in own.iter().zip(letters) {
+        // of 18 px in line; a cell's middle is half a px off
+        let off = wrong(own, letter);
+        assert!(off <= 20, "{off}");
+    }
+    assert_eq!(middles(Meeting::Any), None, "there is no corner");
 }
 
 #[test]
