@@ -2,7 +2,7 @@
 //!
 //! Such strokes have no corner where one ends and the other begins: what is known is where the letters' middles are.
 
-use super::edges::Across;
+use super::across::Across;
 use crate::scan::whole::floor;
 use kurbo::Point;
 

@@ -5,12 +5,14 @@
 //!
 //! | file | what happens there |
 //! |---|---|
+//! | `across` | how far behind the border a place is |
 //! | `edges` | the ink's rings, their corners inwards and how they come to them (`parabola`) |
 //! | `joint` | where joining strokes of both letters lie in line, without a corner |
 //! | `hidden` | how an edge may go on from one corner to another beneath the ink, and how unlikely that is |
 //! | `owners` | whose the stretches between the corners are: of all ways to share them out the likeliest ones |
 //! | `shape` | closed outlines → the share of each pixel that lies within |
 
+mod across;
 mod edges;
 mod hidden;
 mod joint;

@@ -32,7 +32,7 @@ const NEVER: f64 = 1e6;
 /// So many of the likeliest ways are given.
 const WAYS: usize = 16;
 /// So many choices are looked at.
-const CHOICES: usize = 2_000_000;
+const CHOICES: usize = 250_000;
 
 /// Whose an edge is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -124,7 +124,7 @@ pub(super) fn likeliest(edges: &Edges, middles: [Option<f64>; 2]) -> Vec<Split> 
         found: Vec::new(),
         left: CHOICES,
     };
-    search.go_on(&mut Vec::new(), (0.0, 0.0));
+    search.go_on(&mut Vec::new(), So::default());
     let split = |(cost, owners): (f64, Vec<Owner>)| {
         let pairs = search.pairs(&owners).unwrap_or_default().into_iter();
         let path = |owner: Owner, i: usize, j: usize| {
@@ -143,6 +143,17 @@ pub(super) fn likeliest(edges: &Edges, middles: [Option<f64>; 2]) -> Vec<Split> 
         }
     };
     search.found.clone().into_iter().map(split).collect()
+}
+
+/// What the owners of some stretches say.
+#[derive(Debug, Clone, Copy, Default)]
+struct So {
+    /// What it costs where they lie.
+    place: f64,
+    /// And their hidden edges and own corners, at least.
+    least: f64,
+    /// At how many corners each letter's edge comes out.
+    crossings: [usize; 2],
 }
 
 /// The search for the likeliest owners of the stretches after each corner.
@@ -170,12 +181,11 @@ impl Search<'_> {
         last.map_or(DEAREST, |s| s.0)
     }
 
-    /// Gives the next stretch each owner that it may have; where those before it lie costs so much, and their hidden
-    /// edges so much at least.
-    fn go_on(&mut self, owners: &mut Vec<Owner>, (place, least): (f64, f64)) {
+    /// Gives the next stretch each owner that it may have.
+    fn go_on(&mut self, owners: &mut Vec<Owner>, so: So) {
         let k = owners.len();
         if k == self.lies.len() {
-            return self.take(owners, place);
+            return self.take(owners, so.place);
         }
         let [before, behind] = self.lies[k].beyond.map(|v| ASTRAY * v);
         let mut choices = [
@@ -185,13 +195,24 @@ impl Search<'_> {
         // the likelier one first
         choices.sort_by(|a, b| a.1.total_cmp(&b.1));
         for (owner, astray, other) in choices {
-            let changes = owners.get(self.before[k]).is_some_and(|o| *o != owner);
-            let least = least + if changes { self.least[k] } else { 0.0 };
-            let place = place + astray;
-            if astray - other < CERTAIN && place + least < self.worst() && self.left > 0 {
+            let mut next = So {
+                place: so.place + astray,
+                ..so
+            };
+            match owners.get(self.before[k]) {
+                Some(same) if *same == owner => next.least += OWN * self.doubts[k],
+                Some(_) => {
+                    next.least += self.least[k];
+                    next.crossings[owner as usize] += 1;
+                }
+                None => (),
+            }
+            let likely = astray - other < CERTAIN && next.place + next.least < self.worst();
+            let few = next.crossings.iter().all(|n| *n <= CROSSINGS);
+            if likely && few && self.left > 0 {
                 self.left -= 1;
                 owners.push(owner);
-                self.go_on(owners, (place, least));
+                self.go_on(owners, next);
                 owners.pop();
             }
         }
