@@ -26,7 +26,7 @@ const LEVEL: f64 = 0.5;
 /// What meets where one letter ends and the next one begins.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Meeting {
-    /// A joining stroke of either, as their names say, which may lie in line with each other.
+    /// Joining strokes of both, as their names say, which may lie in line with each other.
     Strokes,
     /// Whatever it is.
     Any,
@@ -109,7 +109,9 @@ impl Touch {
         let mut left: Vec<usize> = (0..self.ends.len()).collect();
         let mut costs: Vec<Option<f64>> = vec![None; left.len()];
         while !left.is_empty() {
-            for &k in &left {
+            // the last one needs no price
+            let priced = if left.len() > 1 { &left[..] } else { &[] };
+            for &k in priced {
                 costs[k] = costs[k].or_else(|| {
                     let border = self.border(k, &left, upright);
                     let all = pieces.iter().flatten();
@@ -117,9 +119,9 @@ impl Touch {
                     Some(partings.map(|p| p.cost).fold(f64::INFINITY, f64::min))
                 });
             }
-            let cost = |k: usize| costs[k].unwrap_or(f64::INFINITY);
+            let cost = |k: &usize| costs[*k].unwrap_or(f64::INFINITY);
             let surest = left.iter().copied();
-            let surest = surest.min_by(|&a, &b| cost(a).total_cmp(&cost(b)));
+            let surest = surest.min_by(|a, b| cost(a).total_cmp(&cost(b)));
             let Some(k) = surest else { break };
             let border = self.border(k, &left, upright);
             let seam = OnceCell::new();
@@ -137,12 +139,8 @@ impl Touch {
             }
             left.retain(|&other| other != k);
             // more is known of those beside it
-            for beside in [k.checked_sub(1), Some(k + 1)].into_iter().flatten() {
-                costs
-                    .iter_mut()
-                    .skip(beside)
-                    .take(1)
-                    .for_each(|c| *c = None);
+            for beside in left.iter().filter(|other| other.abs_diff(k) == 1) {
+                costs[*beside] = None;
             }
         }
         self.put(pieces, all, upright)
