@@ -5,7 +5,7 @@ use khatt::pipeline::convert::{self, convert};
 use khatt::pipeline::picture::{Options, trace_picture};
 use khatt::pipeline::{Nothing, Project, Unwatched, World, build, outputs, reference};
 use khatt::recognise::{Alphabet, Look, Method, Pruning, Sample, Skeleton, centerline};
-use khatt::scan::{InkGrain, Polarity, Reading, Tones, clean, load, load_as};
+use khatt::scan::{InkStreaks, Polarity, Reading, Texture, Tones, clean, load, load_as};
 use khatt::types::{Bitmap, Font, Gray};
 use khatt::{corner, fit, read, write};
 use std::path::Path;
@@ -57,7 +57,7 @@ pub fn image(data: &[u8]) {
     by_profile(data);
     for page in load(data, "fuzz", Polarity::Auto).unwrap_or_default() {
         if page.gray.samples().len() <= PIXELS {
-            let _ = clean(page, InkGrain::default());
+            let _ = clean(page, Texture::default());
         }
     }
 }
@@ -122,7 +122,7 @@ pub fn trace(data: &[u8]) {
     let mut options = Options::default();
     options.fit = fits[way % fits.len()].clone();
     options.corners = corners[way / fits.len() % corners.len()].clone();
-    let _ = trace_picture(&gray, &options);
+    let _ = trace_picture(&gray, InkStreaks::default(), &options);
     let _ = centerline(&gray);
     let _ = Skeleton::new(&Bitmap::threshold(&gray, 0.5), Pruning::default());
     for method in Method::all() {
