@@ -5,6 +5,8 @@
 mod overlap;
 mod pale;
 mod seam;
+#[cfg(test)]
+mod tests;
 
 pub(super) use seam::Along;
 

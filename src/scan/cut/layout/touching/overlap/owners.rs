@@ -276,10 +276,7 @@ impl Search<'_> {
     /// How much farther a letter's stroke that ends beneath the ink goes on, px: until the letter's middle is where it
     /// belongs, if that is known.
     fn farther(&self, owners: &[Owner], owner: Owner, hidden: &Hidden) -> f64 {
-        let middle = match owner {
-            Owner::First => self.middles[0],
-            Owner::Second => self.middles[1],
-        };
+        let middle = self.middles[owner as usize];
         let farther = |(stub, middle): (Stub, f64)| {
             let across = &self.edges.across;
             let [from, to] = self.extent(owners, owner);
