@@ -15,7 +15,7 @@
 
 use super::joining::{self, Height, Method, Options};
 use super::{AssembleError, Drawn};
-use crate::numeric::median::median;
+use crate::numeric::median::{NORMAL, median};
 use kurbo::Affine;
 use std::collections::BTreeMap;
 
@@ -31,9 +31,6 @@ const MOST: f64 = 8.0;
 
 /// Least deviation of strokes, em: they are not measured better than that.
 const MEASURED: f64 = 0.001;
-
-/// A standard deviation in medians of the distance, where it is a normal one.
-const NORMAL: f64 = 1.4826;
 
 /// How far each letter lies above where its joining strokes and those of its row say that it belongs, font units; 0
 /// where they do not tell. Letters of the same number in `rows` were given one baseline.

@@ -1,4 +1,10 @@
-//! The value in the middle.
+//! The value in the middle, and others by their rank.
+
+use super::cast::index;
+use std::cmp::Ordering;
+
+/// A standard deviation in medians of the distance from the median, where values are normal ones.
+pub const NORMAL: f64 = 1.4826;
 
 /// The middle value, or the mean of the two in the middle; `None` of no values. Order does not matter.
 #[must_use]
@@ -15,6 +21,22 @@ pub fn median(values: impl IntoIterator<Item = f64>) -> Option<f64> {
     Some(f64::midpoint(low, *high))
 }
 
+/// The value below which this share of the others lies; `None` of no values. They change places.
+#[must_use]
+pub fn quantile<T: Copy>(values: &mut [T], share: f64, order: fn(&T, &T) -> Ordering) -> Option<T> {
+    let last = values.len().checked_sub(1)?;
+    let place = index(share * last as f64);
+    Some(*values.select_nth_unstable_by(place, order).1)
+}
+
+/// The least and the greatest value; of no values infinity and its negative.
+#[must_use]
+pub fn range<'a>(values: impl IntoIterator<Item = &'a f32>) -> (f32, f32) {
+    let none = (f32::INFINITY, f32::NEG_INFINITY);
+    let wider = |(least, most): (f32, f32), v: &f32| (least.min(*v), most.max(*v));
+    values.into_iter().fold(none, wider)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -26,5 +48,15 @@ mod tests {
         assert_eq!(median([3.0, 1.0]), Some(2.0));
         assert_eq!(median([9.0, 1.0, 2.0]), Some(2.0));
         assert_eq!(median([9.0, 4.0, 1.0, 2.0]), Some(3.0));
+    }
+
+    #[test]
+    fn ranks_and_ends() {
+        let mut values = [3.0, 1.0, 4.0, 1.5, 5.0];
+        let ranks = [0.0, 0.5, 0.99, 1.0].map(|s| quantile(&mut values, s, f32::total_cmp));
+        assert_eq!(ranks, [1.0, 3.0, 4.0, 5.0].map(Some));
+        assert_eq!(quantile(&mut [], 0.5, f32::total_cmp), None);
+        assert_eq!(range(&values), (1.0, 5.0));
+        assert_eq!(range(&[]), (f32::INFINITY, f32::NEG_INFINITY));
     }
 }

@@ -14,6 +14,7 @@ pub mod levels;
 pub mod many;
 pub mod median;
 pub mod minimise;
+pub mod pieces;
 pub mod powers;
 pub mod qbc;
 pub mod refit;

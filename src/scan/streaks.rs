@@ -5,10 +5,11 @@
 //! pale, in ink that is uneven itself. Which of both a picture has all of its valleys tell together. Where streaks
 //! are the rule, each is filled up to the lower of its two sides.
 
-use crate::numeric::{levels::dilated, median::median};
+use crate::numeric::levels::dilated;
+use crate::numeric::median::{NORMAL, median};
+use crate::numeric::pieces::{extent, foot, taken};
 use crate::types::Gray;
 use serde::{Deserialize, Serialize};
-use std::mem;
 
 /// What becomes of pale streaks in ink, as of a ballpoint.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -28,8 +29,8 @@ impl InkStreaks {
 
 /// How far from a valley its sides are looked for, px along rows and columns, and along diagonals; and of streaks, of
 /// which two may lie side by side.
-const ASIDE: [[usize; 2]; 2] = [[3, 4], [2, 3]];
-const FAR: [[usize; 2]; 2] = [[4, 6], [3, 4]];
+const ASIDE: [[isize; 2]; 2] = [[3, 4], [2, 3]];
+const FAR: [[isize; 2]; 2] = [[4, 6], [3, 4]];
 /// So near to the picture's edge nothing is looked for, px.
 const MARGIN: usize = 6;
 /// Its sides are ink: at least this part of its level.
@@ -87,21 +88,16 @@ pub(super) fn filled(
     let valleys = seen.long(&seen.valleys((lowest, 1.0 - FAINT), (FAINT, FAR), &counts));
     let mut samples = gray.samples().to_vec();
     for valley in valleys {
-        if valley.iter().all(|v| seen.at(v.place) >= PAPER) {
-            valley.iter().for_each(|v| seen.fill(v, &mut samples));
+        if valley.iter().all(|v| seen.at(v.0) >= PAPER) {
+            valley.iter().for_each(|v| seen.fill(v.0, &mut samples));
         }
     }
     let full = gray.with_samples(samples);
     (full != *gray).then_some(full)
 }
 
-/// A pixel between ink on both sides.
-#[derive(Clone, Copy)]
-struct Valley {
-    place: usize,
-    /// How much paler it is than they are.
-    relief: f32,
-}
+/// A pixel between ink on both sides: its place, and how much paler it is than they are.
+type Valley = (usize, f32);
 
 /// A picture, its samples taken as parts of the ink's level.
 struct Seen<'a> {
@@ -116,7 +112,7 @@ impl Seen<'_> {
     }
 
     /// Steps of one pixel across a valley, and how far its sides lie in them.
-    fn across(&self, [straight, diagonal]: [[usize; 2]; 2]) -> [(usize, [usize; 2]); 4] {
+    fn across(&self, [straight, diagonal]: [[isize; 2]; 2]) -> [(usize, [isize; 2]); 4] {
         let w = self.gray.width();
         [
             (1, straight),
@@ -127,22 +123,19 @@ impl Seen<'_> {
     }
 
     /// How much paler a pixel is than ink on both of its sides in this direction, where it is the palest of three.
-    fn relief(&self, place: usize, (step, aside): (usize, [usize; 2])) -> f32 {
+    fn relief(&self, place: usize, (step, aside): (usize, [isize; 2])) -> f32 {
         let here = self.at(place);
-        let sides = |n: usize| [place - n * step, place + n * step].map(|p| self.at(p));
-        if sides(1).into_iter().any(|side| side < here) {
-            return 0.0;
-        }
-        let lower = aside.map(|n| sides(n).into_iter().fold(f32::MAX, f32::min));
-        let side = lower[0].max(lower[1]);
-        if side < SIDE { 0.0 } else { side - here }
+        // a crest of paleness
+        let pale = |n: isize| -self.at(place.wrapping_add_signed(n * step.cast_signed()));
+        let side = foot(-here, pale, aside).map(|foot| -foot);
+        side.map_or(0.0, |side| if side < SIDE { 0.0 } else { side - here })
     }
 
     /// The pixels of levels between two that are valleys by `relief`, row by row.
     fn valleys(
         &self,
         (low, high): (f32, f32),
-        (relief, aside): (f32, [[usize; 2]; 2]),
+        (relief, aside): (f32, [[isize; 2]; 2]),
         counts: impl Fn(usize, usize) -> bool,
     ) -> Vec<Valley> {
         let (w, h) = (self.gray.width(), self.gray.height());
@@ -159,10 +152,7 @@ impl Seen<'_> {
                 let all = across.map(|way| self.relief(place, way));
                 let most = all.into_iter().fold(0.0, f32::max);
                 if most >= relief {
-                    out.push(Valley {
-                        place,
-                        relief: most,
-                    });
+                    out.push((place, most));
                 }
             }
         }
@@ -172,29 +162,10 @@ impl Seen<'_> {
     /// The valleys that are long enough, each by itself.
     fn long(&self, pixels: &[Valley]) -> Vec<Vec<Valley>> {
         let w = self.gray.width();
-        // one more than the index among the pixels
-        let mut left = vec![0_u32; self.gray.samples().len()];
-        for (mark, v) in (1..).zip(pixels) {
-            left[v.place] = mark;
-        }
-        let mut out = Vec::new();
-        for start in pixels {
-            let (mut valley, mut open) = (Vec::new(), vec![start.place]);
-            while let Some(place) = open.pop() {
-                let mark = mem::take(&mut left[place]) as usize;
-                let Some(found) = mark.checked_sub(1).map(|i| pixels[i]) else {
-                    continue;
-                };
-                valley.push(found);
-                for row in [place - w, place, place + w] {
-                    open.extend((row - 1..=row + 1).filter(|&p| left[p] > 0));
-                }
-            }
-            if extent(&valley, w) >= LONG {
-                out.push(valley);
-            }
-        }
-        out
+        let mut left = vec![0.0; self.gray.samples().len()];
+        pixels.iter().for_each(|v| left[v.0] = v.1);
+        let each = pixels.iter().map(|v| taken(&mut left, w, v.0));
+        each.filter(|valley| extent(valley, w) >= LONG).collect()
     }
 
     /// Whether valleys are streaks, all together.
@@ -204,14 +175,14 @@ impl Seen<'_> {
         if valleys.len() < ENOUGH || count < PART * inked.count() as f64 {
             return false;
         }
-        let paler = |level: f32| valleys.iter().filter(|v| self.at(v.place) < level).count();
+        let paler = |level: f32| valleys.iter().filter(|v| self.at(v.0) < level).count();
         if PALER
             .iter()
             .any(|&(level, most)| paler(level) as f64 > most * count)
         {
             return false;
         }
-        let relief = valleys.iter().map(|v| f64::from(v.relief)).sum::<f64>() / count;
+        let relief = valleys.iter().map(|v| f64::from(v.1)).sum::<f64>() / count;
         self.deviation()
             .is_some_and(|off| relief <= DEVIATIONS * off)
     }
@@ -232,19 +203,20 @@ impl Seen<'_> {
         let some: Vec<f64> = ink.into_iter().step_by(step).collect();
         let level = median(some.clone())?;
         // of a normal number by the median of its distance
-        median(some.into_iter().map(|v| (v - level).abs())).map(|off| 1.4826 * off)
+        median(some.into_iter().map(|v| (v - level).abs())).map(|off| NORMAL * off)
     }
 
     /// Fills a valley, across it in all directions in which it is one, up to the lower of its sides.
-    fn fill(&self, valley: &Valley, samples: &mut [f32]) {
+    fn fill(&self, valley: usize, samples: &mut [f32]) {
         for way in self.across(FAR) {
-            if self.relief(valley.place, way) < FAINT {
+            if self.relief(valley, way) < FAINT {
                 continue;
             }
             let (step, [_, far]) = way;
+            let far = far.unsigned_abs();
             let [back, on] = [
-                self.darkest(valley.place, (1..=far).map(|n| valley.place - n * step)),
-                self.darkest(valley.place, (1..=far).map(|n| valley.place + n * step)),
+                self.darkest(valley, (1..=far).map(|n| valley - n * step)),
+                self.darkest(valley, (1..=far).map(|n| valley + n * step)),
             ];
             let to = self.at(back).min(self.at(on));
             if to < SIDE {
@@ -264,16 +236,6 @@ impl Seen<'_> {
             .max_by(|a, b| self.at(*a).total_cmp(&self.at(*b)))
             .unwrap_or(from)
     }
-}
-
-/// The larger side of the box around a valley's pixels, px.
-fn extent(valley: &[Valley], width: usize) -> usize {
-    let side = |at: fn(usize, usize) -> usize| {
-        let places = || valley.iter().map(|v| at(v.place, width));
-        let ends = places().min().zip(places().max());
-        ends.map_or(0, |(least, most)| most - least + 1)
-    };
-    side(|p, w| p % w).max(side(|p, w| p / w))
 }
 
 #[cfg(test)]

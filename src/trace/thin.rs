@@ -10,11 +10,12 @@ use crate::{
     numeric::{
         cast::{index, single},
         levels::dilated,
-        median::median,
+        median::{NORMAL, median},
+        pieces::{extent, foot, taken},
     },
     types::{Contour, Gray},
 };
-use std::{f64::consts::SQRT_2, mem::take};
+use std::f64::consts::SQRT_2;
 
 /// A crest stands out by this much coverage somewhere: a line of 0.5 px under the blur of a usual scan.
 const RELIEF: f32 = 0.2;
@@ -97,7 +98,7 @@ fn grain(gray: &Gray, [paper, ink]: [f32; 2]) -> f32 {
     /// So near to a level nothing but grain is expected.
     const PLAIN: f32 = 0.15;
     /// Deviation of a normal number by the median of differences of two.
-    const DEVIATION: f64 = 1.4826 / SQRT_2;
+    const DEVIATION: f64 = NORMAL / SQRT_2;
     let plain = |v: f32| !(PLAIN..1.0 - PLAIN).contains(&v);
     let part = |v: &f32| (v - paper) / (ink - paper);
     let rows = gray.samples().chunks_exact(gray.width().max(1));
@@ -180,13 +181,9 @@ impl<'a> Field<'a> {
     fn relief_among(&self, beside: impl Fn((isize, isize)) -> f32) -> f32 {
         let here = beside((0, 0));
         let over = |(dx, dy): (isize, isize)| {
-            let side = |n: isize| beside((n * dx, n * dy));
-            if here < side(1).max(side(-1)) {
-                return 0.0;
-            }
             let steps = self.aside[usize::from(dx != 0 && dy != 0)];
-            let [near, far] = steps.map(|n| here - side(n).max(side(-n)));
-            near.max(far)
+            let foot = foot(here, |n| beside((n * dx, n * dy)), steps);
+            foot.map_or(0.0, |foot| here - foot)
         };
         ACROSS.map(over).into_iter().fold(0.0, f32::max)
     }
@@ -257,7 +254,7 @@ impl<'a> Field<'a> {
         if off.len() < SURE.1 {
             return f32::INFINITY;
         }
-        grain.max(single(1.4826 * median(off).unwrap_or(0.0)))
+        grain.max(single(NORMAL * median(off).unwrap_or(0.0)))
     }
 
     /// The pixels that stand out by `relief` and do not reach far over the level.
@@ -297,37 +294,9 @@ impl<'a> Field<'a> {
     }
 }
 
-/// The pixels of the crest that pixel `start` is part of, taken out of a map of heights.
-fn taken(height: &mut [f32], w: usize, start: usize) -> Vec<Crest> {
-    let mut out = Vec::new();
-    let mut open = vec![start];
-    while let Some(i) = open.pop() {
-        if height[i] <= 0.0 {
-            continue;
-        }
-        out.push((i, take(&mut height[i])));
-        let (x, y) = (i % w, i / w);
-        for y in y.saturating_sub(1)..(y + 2).min(height.len() / w) {
-            let row = x.saturating_sub(1)..(x + 2).min(w);
-            open.extend(row.map(|x| y * w + x).filter(|&j| height[j] > 0.0));
-        }
-    }
-    out
-}
-
 /// The largest extent of connected pixels among some, on an empty map.
 fn longest(pixels: &[usize], map: &mut [f32], w: usize) -> usize {
     pixels.iter().for_each(|&i| map[i] = 1.0);
     let extents = pixels.iter().map(|&i| extent(&taken(map, w, i), w));
     extents.max().unwrap_or(0)
-}
-
-/// The larger side of the box around a crest's pixels, in pixels.
-fn extent(crest: &[Crest], w: usize) -> usize {
-    let sides = crest.iter().fold(None, |b: Option<[usize; 4]>, (i, _)| {
-        let (x, y) = (i % w, i / w);
-        let [x0, x1, y0, y1] = b.unwrap_or([x, x, y, y]);
-        Some([x0.min(x), x1.max(x), y0.min(y), y1.max(y)])
-    });
-    sides.map_or(0, |[x0, x1, y0, y1]| (x1 - x0).max(y1 - y0) + 1)
 }

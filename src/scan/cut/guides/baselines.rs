@@ -1,6 +1,6 @@
 //! Where rows stand: from the many letters of a page, never from one letter's own ink.
 
-use crate::numeric::median::median;
+use crate::numeric::median::{NORMAL, median};
 use crate::scan::cut::Levels;
 use crate::scan::letters::{Foot, Kind, Shape};
 use kurbo::Rect;
@@ -11,9 +11,7 @@ pub(super) const OVERSHOOT: f64 = 0.015;
 /// A row's own letters weigh against the whole page as this many letters of it do, or more where they scatter by more
 /// than rows do.
 const SHRINK: f64 = 2.0;
-/// A standard deviation in medians of the distance, and the variance of a median in that of a mean, where values are
-/// normal ones.
-pub(super) const NORMAL: f64 = 1.4826;
+/// The variance of a median in that of a mean, where values are normal ones.
 const OF_MEDIAN: f64 = 1.57;
 /// How far a foot may lie off the page's common line and still be one, as a share of the usual letter's
 /// height: a hand's rows drift by less, a letter that hangs is farther off.

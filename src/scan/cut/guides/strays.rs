@@ -11,9 +11,9 @@
 //! On a page whose rows are even `s` is next to nothing, so that letters of an odd style move no row; nor do few
 //! votes anywhere.
 
-use super::baselines::{Letter, Line, NORMAL, drops, feet_on_line, near};
+use super::baselines::{Letter, Line, drops, feet_on_line, near};
 use super::votes::{MAY_STAND, Poll, Vote};
-use crate::numeric::median::median;
+use crate::numeric::median::{NORMAL, median};
 use crate::scan::cut::Levels;
 
 /// Weight of a row's votes from which on it tells where it stands, and rows that tell how far rows stray, at least.
