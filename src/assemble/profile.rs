@@ -1,5 +1,6 @@
 //! A glyph's sides as scan lines see them.
 
+use crate::numeric::cast::index;
 use crate::numeric::median::median;
 use crate::types::Outline;
 use kurbo::{Affine, PathEl, Point, flatten};
@@ -136,13 +137,8 @@ pub(super) fn white(distances: &[Option<f64>], depths: (f64, f64)) -> White {
 }
 
 /// How many scan lines lie within a height, em.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "a height of a part of the em, in rows"
-)]
 pub(super) fn rows(height: f64) -> usize {
-    (height / STEP).round() as usize
+    index((height / STEP).round())
 }
 
 /// The outline as straight edges.

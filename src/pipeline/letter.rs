@@ -93,10 +93,6 @@ impl Letter {
 
     /// From the curves' px to font units; x is the cell's own.
     #[must_use]
-    #[expect(
-        clippy::cast_precision_loss,
-        reason = "pictures have fewer rows than 2^52"
-    )]
     pub fn frame(&self, units_per_em: u16) -> Frame {
         let guides = &self.guides;
         Frame {

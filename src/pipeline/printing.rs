@@ -8,6 +8,7 @@ use super::project::{Layout, Project, SheetTable};
 use super::watch::Stage;
 use super::world::World;
 use crate::assemble::names;
+use crate::numeric::cast::index;
 use crate::numeric::median::median;
 use crate::scan::{
     self, Cut, Direction, InkGrain, Order, Polarity, Reading, Reason, Rejected, Warning,
@@ -287,13 +288,4 @@ fn warnings(drawings: &[Drawing]) -> Vec<Warning> {
     out.extend(small.map(|s| s.1));
     out.sort_by_key(|w| w.index);
     out
-}
-
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "an area is no larger than its picture"
-)]
-const fn index(area: f64) -> usize {
-    area as usize
 }

@@ -1,11 +1,12 @@
 //! Letters of a reference font as pictures: shaped, drawn, labelled as a project labels its cells.
 
 use crate::assemble::names::{self, Form, Identity};
+use crate::numeric::cast::single;
 use crate::read::Pen;
 use crate::recognise::Sample;
 use crate::types::{Gray, Guides, Label};
 use harfrust::{ShapeOptions, Shaper, ShaperData, UnicodeBuffer};
-use kurbo::{Affine, BezPath, PathEl, Rect, Shape, Vec2};
+use kurbo::{Affine, BezPath, PathEl, Point, Rect, Shape, Vec2};
 use resvg::tiny_skia::{Color, FillRule, Paint, PathBuilder, Pixmap, Transform};
 use skrifa::outline::DrawSettings;
 use skrifa::prelude::{LocationRef, Size};
@@ -243,19 +244,18 @@ fn pixels(side: f64) -> Option<u32> {
     (side.is_finite() && side <= MOST).then(|| (side + 2.0 * MARGIN).ceil() as u32)
 }
 
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "pictures are a few hundred px large"
-)]
 fn push(builder: &mut PathBuilder, el: PathEl) {
+    let at = |p: Point| (single(p.x), single(p.y));
     match el {
-        PathEl::MoveTo(p) => builder.move_to(p.x as f32, p.y as f32),
-        PathEl::LineTo(p) => builder.line_to(p.x as f32, p.y as f32),
-        PathEl::QuadTo(c, p) => builder.quad_to(c.x as f32, c.y as f32, p.x as f32, p.y as f32),
+        PathEl::MoveTo(p) => builder.move_to(at(p).0, at(p).1),
+        PathEl::LineTo(p) => builder.line_to(at(p).0, at(p).1),
+        PathEl::QuadTo(c, p) => {
+            let [(cx, cy), (x, y)] = [c, p].map(at);
+            builder.quad_to(cx, cy, x, y);
+        }
         PathEl::CurveTo(a, b, p) => {
-            builder.cubic_to(
-                a.x as f32, a.y as f32, b.x as f32, b.y as f32, p.x as f32, p.y as f32,
-            );
+            let [(ax, ay), (bx, by), (x, y)] = [a, b, p].map(at);
+            builder.cubic_to(ax, ay, bx, by, x, y);
         }
         PathEl::ClosePath => builder.close(),
     }

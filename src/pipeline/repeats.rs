@@ -143,10 +143,6 @@ fn rotation(rings: &[Vec<String>], letters: &[Letter]) -> String {
 }
 
 /// Root mean square distance of the scanned edge from the outline, as a share of the em.
-#[expect(
-    clippy::cast_precision_loss,
-    reason = "letters have fewer points than 2^52"
-)]
 fn noise(letter: &Letter) -> f64 {
     let lines: Vec<Polyline> = letter.paths.iter().filter_map(chords).collect();
     let distances = letter.edge.iter().flat_map(|c| c.points()).map(|&p| {

@@ -243,10 +243,6 @@ pub(super) fn mm_per_unit(built: &Built, letter: &Letter) -> Option<f64> {
 }
 
 /// Largest and root mean square of the distances.
-#[expect(
-    clippy::cast_precision_loss,
-    reason = "letters have fewer points than 2^52"
-)]
 fn errors(edge: &[Vec<(Point, f64)>]) -> (f64, f64) {
     let all = edge.iter().flatten().map(|(_, d)| *d);
     let all: Vec<f64> = all.filter(|d| d.is_finite()).collect();

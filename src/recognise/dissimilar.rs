@@ -17,7 +17,7 @@ use super::affine::{Map, STAY, Sums};
 use super::skeleton::{Skeleton, Stroke};
 use super::spline::{Data, FEW, Knots, PIXEL_STEPS, Spline};
 use crate::numeric::assignment::assign;
-use crate::numeric::cast::single;
+use crate::numeric::cast::{index, single};
 use kurbo::{Point, Vec2};
 
 /// How faithful to the paper.
@@ -315,13 +315,8 @@ fn lengths(points: &[Point]) -> Vec<f64> {
 }
 
 /// The interval of `n` ≥ 2 table entries that `x` lies in, and where in it.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "cut to the table first"
-)]
 fn split(x: f64, n: usize) -> (usize, f64) {
-    let i = (x.max(0.0) as usize).min(n - 2);
+    let i = index(x).min(n - 2);
     (i, x - i as f64)
 }
 

@@ -10,7 +10,7 @@ use super::paper::Paper;
 use super::shading;
 use super::steps::softened;
 use super::streaks::InkStreaks;
-use super::whole::{floor, narrow, ratio};
+use crate::numeric::cast::{index, single};
 use crate::types::{Gray, Sheet};
 use rayon::prelude::*;
 
@@ -113,21 +113,13 @@ fn even(
     (paper, lit): (Option<Paper>, Option<Paper>),
     texture: Texture,
 ) -> Result<Page, ScanError> {
-    let Sheet {
-        gray,
-        colours,
-        dpi,
-        guessed,
-        source,
-    } = sheet;
-    let (width, height) = (gray.width(), gray.height());
-    let levels = Levels::measure(&gray, field, paper.as_ref());
-    let blank = || ScanError::Blank {
-        source_name: source.clone(),
-    };
-    let levels = levels.ok_or_else(|| blank().or_polarity(guessed))?;
-    let scatter_px = gray.scatter_px();
-    let mut samples = gray.into_samples();
+    let (width, height) = (sheet.gray.width(), sheet.gray.height());
+    let levels = Levels::measure(&sheet.gray, field, paper.as_ref()).ok_or_else(|| {
+        let source_name = sheet.source.clone();
+        ScanError::Blank { source_name }.or_polarity(sheet.guessed)
+    })?;
+    let scatter_px = sheet.gray.scatter_px();
+    let mut samples = sheet.gray.into_samples();
     let scale = 1.0 / (levels.ink - levels.paper);
     let (low, high) = (-Gray::OVERSHOOT, 1.0 + Gray::OVERSHOOT);
     let rows = samples.par_chunks_mut(width.max(1)).enumerate();
@@ -138,10 +130,7 @@ fn even(
         }
     });
     let gray = Gray::new(width, height, samples)
-        .map_err(|e| ScanError::Decode {
-            source_name: source.clone(),
-            why: e.to_string(),
-        })?
+        .map_err(|e| ScanError::decode(&sheet.source, e))?
         .with_scatter(scatter_px);
     let seen = paper.as_ref().or(lit.as_ref());
     let averaged = match texture.grain {
@@ -153,13 +142,7 @@ fn even(
     let filled = even.as_ref().is_some_and(|even| even.filled);
     let gray = even.map_or(gray, |even| even.gray);
     Ok(Page {
-        sheet: Sheet {
-            gray,
-            colours,
-            dpi,
-            guessed,
-            source,
-        },
+        sheet: Sheet { gray, ..sheet },
         noise: levels.noise * scale,
         contrast: levels.ink - levels.paper,
         averaged_px,
@@ -190,7 +173,7 @@ impl Levels {
         let paper = level(peak);
         let below = (0..peak).map(|i| (f64::from(level(i) - paper).powi(2), histogram[i]));
         let (sum, count) = below.fold((0.0, 0), |(s, n), (d, k)| (s + d * k as f64, n + k));
-        let noise = narrow((sum / (count.max(1) as f64)).sqrt());
+        let noise = single((sum / (count.max(1) as f64)).sqrt());
         let least = (NOISE * noise).max(LEAST);
         let start = (peak..BINS).find(|&i| level(i) > paper + least)?;
         let inked: usize = histogram[start..].iter().sum();
@@ -198,7 +181,7 @@ impl Levels {
         if (inked as f64) < (BLANK * all as f64).max(1.0) {
             return None;
         }
-        let mut left = floor(INK * inked as f64);
+        let mut left = index(INK * inked as f64);
         let ink = (start..BINS).find(|&i| {
             let here = histogram[i];
             let found = left < here;
@@ -215,7 +198,7 @@ impl Levels {
 
 /// The middle of a bin.
 fn level(bin: usize) -> f32 {
-    1.25 * (ratio(bin) + 0.5) / ratio(BINS) - 0.25
+    1.25 * (bin as f32 + 0.5) / BINS as f32 - 0.25
 }
 
 /// Every `step`-th sample of every `step`-th row, light divided out.
@@ -230,7 +213,7 @@ fn histogram(gray: &Gray, field: &Field, paper: Option<&Paper>, step: usize) -> 
                 continue;
             }
             let place = f64::from(reflected(*v, light) + 0.25) / 1.25;
-            sum[floor(place * BINS as f64).min(BINS - 1)] += 1;
+            sum[index(place * BINS as f64).min(BINS - 1)] += 1;
         }
         sum
     };

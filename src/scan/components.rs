@@ -1,6 +1,6 @@
 //! Connected ink: runs along rows, joined where they touch, also at their corners.
 
-use super::whole::floor;
+use crate::numeric::cast::index;
 use crate::numeric::view::View;
 use crate::types::Gray;
 use kurbo::{Affine, Point, Rect};
@@ -12,6 +12,13 @@ pub(super) struct Run {
     pub(super) y: usize,
     pub(super) start: usize,
     pub(super) end: usize,
+}
+
+impl Run {
+    /// Column and row of its pixels.
+    pub(super) fn pixels(self) -> impl Iterator<Item = (usize, usize)> {
+        (self.start..self.end).map(move |x| (x, self.y))
+    }
 }
 
 /// One connected piece of ink.
@@ -103,8 +110,7 @@ impl Component {
 
     /// Column and row of all its pixels.
     pub(super) fn pixels(&self) -> impl Iterator<Item = (usize, usize)> {
-        let row = |&r: &Run| (r.start..r.end).map(move |x| (x, r.y));
-        self.runs.iter().flat_map(row)
+        self.runs.iter().copied().flat_map(Run::pixels)
     }
 
     /// The pieces into which a border through its pixels cuts it.
@@ -158,7 +164,7 @@ impl Component {
         let pieces = groups.map(|g| {
             let runs: Vec<Run> = g.into_iter().map(|i| runs[i]).collect();
             let area: usize = runs.iter().map(|r| r.end - r.start).sum();
-            let mut piece = Self::new(runs, floor(full * area as f64));
+            let mut piece = Self::new(runs, index(full * area as f64));
             let own = self.shares.iter().copied();
             piece.shares = own.filter(|(x, y, _)| piece.covers(*x, *y)).collect();
             piece
@@ -179,7 +185,7 @@ impl Component {
 
     /// The paper between its runs and another piece's that lie no more than `reach` px higher or lower, px.
     fn distances<'a>(&'a self, other: &'a Self, reach: f64) -> impl Iterator<Item = f64> + 'a {
-        let rows = floor(reach) + 1;
+        let rows = index(reach) + 1;
         self.runs.iter().flat_map(move |a| {
             let first = a.y.saturating_sub(rows);
             let near = &other.runs[other.runs.partition_point(|r| r.y < first)..];
@@ -196,7 +202,7 @@ impl Component {
     pub(super) fn within(&self, upright: &View, area: Rect) -> Vec<Self> {
         let back = upright.inverse().bounds(area);
         let clip = |r: &Run| {
-            let (start, end) = (r.start.max(floor(back.x0)), r.end.min(floor(back.x1)));
+            let (start, end) = (r.start.max(index(back.x0)), r.end.min(index(back.x1)));
             let middle = upright.at(Point::new((start + end) as f64 / 2.0, r.y as f64 + 0.5));
             (start < end && area.contains(middle)).then_some(Run { y: r.y, start, end })
         };

@@ -4,7 +4,7 @@
 //! right direction, pile up. The sum of squares of that projection is climbed from coarse to fine.
 
 use super::components::{Component, Run};
-use super::whole::floor;
+use crate::numeric::cast::index;
 use kurbo::{Point, Vec2};
 use rayon::prelude::*;
 
@@ -27,7 +27,7 @@ pub(super) fn skew_deg(edges: &Edges) -> f64 {
         return 0.0;
     };
     let steps = (REACH_DEG / COARSE_DEG).round();
-    let angles: Vec<f64> = (0..=floor(2.0 * steps))
+    let angles: Vec<f64> = (0..=index(2.0 * steps))
         .map(|i| (i as f64 - steps) * COARSE_DEG)
         .collect();
     let bin = |step: f64| (step.to_radians() * bounds / 2.0).max(1.0);
@@ -50,7 +50,7 @@ pub(super) fn skew_deg(edges: &Edges) -> f64 {
 /// The best of the angles up to one and a half coarser steps around `angle`, between its neighbours.
 fn climb(energy: impl Fn(f64) -> f64 + Sync, angle: f64, step: f64) -> f64 {
     let reach = 1.5 * CLOSER;
-    let tries: Vec<f64> = (0..=floor(2.0 * reach))
+    let tries: Vec<f64> = (0..=index(2.0 * reach))
         .map(|i| angle + (i as f64 - reach) * step)
         .collect();
     let found: Vec<f64> = tries.par_iter().map(|a| energy(*a)).collect();
@@ -75,7 +75,7 @@ impl Edges {
     /// Where the picture of this height ends, ink has no edge of its own.
     pub(super) fn new(components: &[&Component], height: usize) -> Self {
         let edge: f64 = components.iter().map(|c| c.bounds.width()).sum();
-        let step = floor(edge / POINTS as f64).max(1);
+        let step = index(edge / POINTS as f64).max(1);
         let mut new = Self {
             lower: Vec::new(),
             upper: Vec::new(),
@@ -127,7 +127,7 @@ pub(super) fn energy_of(places: impl Iterator<Item = f64> + Clone) -> f64 {
     let mut bins: Vec<f64> = Vec::new();
     for place in places {
         let place = place - low;
-        let (i, t) = (floor(place), place.fract());
+        let (i, t) = (index(place), place.fract());
         if bins.len() < i + 2 {
             bins.resize(i + 2, 0.0);
         }

@@ -242,6 +242,14 @@ pub enum ScanError {
 }
 
 impl ScanError {
+    /// What a decoder says of a file.
+    pub(super) fn decode(source: &str, why: impl ToString) -> Self {
+        Self::Decode {
+            source_name: source.to_owned(),
+            why: why.to_string(),
+        }
+    }
+
     /// The same where it may be due to the ink's shade, which was guessed.
     pub(super) fn or_polarity(self, guessed: Option<Shade>) -> Self {
         match (guessed, self) {

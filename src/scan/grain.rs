@@ -8,7 +8,8 @@
 use super::paper::Paper;
 use super::shading::levels;
 use super::steps::{Levels, blurred};
-use super::whole::{floor, narrow};
+use crate::numeric::cast::single;
+use crate::numeric::median::{self, quantile};
 use crate::numeric::tone::at_half;
 use crate::types::Gray;
 use serde::{Deserialize, Serialize};
@@ -113,8 +114,7 @@ fn is_rough(gray: &Gray, counts: impl Fn(usize, usize) -> bool) -> bool {
 /// By how much a pixel and its eight neighbours differ.
 fn range(gray: &Gray, x: usize, y: usize) -> f32 {
     let rows = [y - 1, y, y + 1].map(|y| &gray.row(y)[x - 1..=x + 1]);
-    let ends = |(a, b): (f32, f32), v: &f32| (a.min(*v), b.max(*v));
-    let (least, most) = rows.into_iter().flatten().fold((f32::MAX, f32::MIN), ends);
+    let (least, most) = median::range(rows.into_iter().flatten());
     most - least
 }
 
@@ -169,12 +169,12 @@ impl Strokes {
             .map(|&(x, y)| off((x, y)) * off((x + 1, y)))
             .sum::<f64>()
             / count;
-        let least_range = ROUGH * narrow(level);
+        let least_range = ROUGH * single(level);
         let rough = places
             .iter()
             .filter(|&&(x, y)| range(gray, x, y) > least_range);
         Some(Self {
-            level: narrow(level),
+            level: single(level),
             width_px,
             rough: rough.count() as f64 / count,
             one_way: one_way(gray, &soft, least, &places),
@@ -197,8 +197,7 @@ fn usual(soft: &Gray, counts: impl Fn(usize, usize) -> bool) -> Option<f32> {
     let rows = (0..soft.height()).flat_map(|y| (0..soft.width()).map(move |x| (x, y)));
     let inked = rows.filter(|&(x, y)| soft.at(x, y) > INK && counts(x, y));
     let mut inked: Vec<f32> = inked.map(|(x, y)| soft.at(x, y)).collect();
-    let nth = floor(BELOW * inked.len().checked_sub(1)? as f64);
-    Some(*inked.select_nth_unstable_by(nth, f32::total_cmp).1)
+    quantile(&mut inked, BELOW, f32::total_cmp)
 }
 
 /// How far the slopes around places within strokes go one way, by the structure tensor: 0 where they go all ways, 1

@@ -3,7 +3,7 @@
 use super::components::Component;
 use crate::types::Colours;
 use serde::{Deserialize, Serialize};
-use std::{fmt, iter};
+use std::fmt;
 
 /// Ink is neutral when the light that it swallows differs among the colours by less than this share: printers'
 /// blacks come to 0.05, a blue ballpoint to 0.15 where its strokes cross and 0.5 elsewhere.
@@ -215,7 +215,9 @@ impl Inks {
     /// Whether most pixels of a piece are of one of these inks: two hues beside each other can have a third in the
     /// mean.
     fn cover(&self, c: &Component, colours: &Colours, paper: [f64; 3]) -> bool {
-        let own = pixels(c).filter(|&(x, y)| self.nearest(more(colours.at(x, y), paper)).is_some());
+        let own = c
+            .pixels()
+            .filter(|&(x, y)| self.nearest(more(colours.at(x, y), paper)).is_some());
         2 * own.count() > c.area
     }
 }
@@ -291,7 +293,7 @@ pub(super) fn paper(colours: &Colours) -> [f64; 3] {
 /// What a piece of ink swallows more than its paper, summed over its pixels.
 fn swallowed(c: &Component, colours: &Colours, paper: [f64; 3]) -> [f64; 3] {
     let mut sum = [0.0; 3];
-    for (x, y) in pixels(c) {
+    for (x, y) in c.pixels() {
         let here = colours.at(x, y);
         for ((s, v), p) in sum.iter_mut().zip(here).zip(paper) {
             *s += f64::from(v) - p;
@@ -303,12 +305,6 @@ fn swallowed(c: &Component, colours: &Colours, paper: [f64; 3]) -> [f64; 3] {
 /// What a place swallows more than its paper.
 pub(super) fn more(here: [u8; 3], paper: [f64; 3]) -> [f64; 3] {
     [0, 1, 2].map(|i| (f64::from(here[i]) - paper[i]).max(0.0))
-}
-
-/// Column and row of each pixel of a piece.
-pub(super) fn pixels(c: &Component) -> impl Iterator<Item = (usize, usize)> {
-    let runs = c.runs.iter();
-    runs.flat_map(|run| (run.start..run.end).zip(iter::repeat(run.y)))
 }
 
 #[cfg(test)]

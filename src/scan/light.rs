@@ -3,8 +3,8 @@
 //! It is the paper's level of each block, opened by a window wider than strokes. Strokes that are wider stay dark in
 //! it; they are told from shadows by being as dark as ink and not reaching the picture's edge.
 
-use super::paper::{Paper, beside, regions};
-use super::whole::{floor, ratio};
+use super::paper::{Paper, beside, is_outermost, regions};
+use crate::numeric::median::quantile;
 use crate::types::Gray;
 use rayon::prelude::*;
 
@@ -43,11 +43,7 @@ impl Field {
                 .flat_map(|y| cut(y).iter().step_by(step))
                 .copied()
                 .collect();
-            if all.is_empty() {
-                return 0.0;
-            }
-            let nth = floor(PAPER * (all.len() - 1) as f64);
-            *all.select_nth_unstable_by(nth, f32::total_cmp).1
+            quantile(&mut all, PAPER, f32::total_cmp).unwrap_or(0.0)
         };
         let values = (0..columns * rows).into_par_iter().map(level).collect();
         let mut field = Self {
@@ -104,8 +100,7 @@ impl Field {
         let (count, columns) = (self.values.len(), self.columns);
         let mut reached = vec![f32::NEG_INFINITY; count];
         for (i, level) in reached.iter_mut().enumerate() {
-            let (x, y) = (i % columns, i / columns);
-            if x == 0 || y == 0 || x + 1 == columns || y + 1 == count / columns {
+            if is_outermost(i, columns, count) {
                 *level = self.values[i];
             }
         }
@@ -133,7 +128,7 @@ impl Field {
     fn smooth(&mut self) {
         self.separable(|line, i| {
             let window = &line[i.saturating_sub(1)..(i + 2).min(line.len())];
-            window.iter().sum::<f32>() / ratio(window.len())
+            window.iter().sum::<f32>() / window.len() as f32
         });
     }
 
@@ -168,7 +163,7 @@ impl Field {
     /// One value a pixel from the values at the blocks' centres.
     pub(super) fn along<'a>(&'a self, row: &'a [f32]) -> impl Iterator<Item = f32> + 'a {
         let half = self.block / 2;
-        let step = 1.0 / ratio(self.block);
+        let step = 1.0 / self.block as f32;
         let ends = |i: usize| (row[i.saturating_sub(1)], row[i.min(row.len() - 1)]);
         // stretch i lies between the centres of blocks i − 1 and i
         (0..=row.len()).flat_map(move |i| {
@@ -178,14 +173,14 @@ impl Field {
             } else {
                 (0, self.block)
             };
-            (from..to).map(move |k| p + (q - p) * (ratio(k) + 0.5) * step)
+            (from..to).map(move |k| p + (q - p) * (k as f32 + 0.5) * step)
         })
     }
 
     fn between(&self, at: usize, count: usize) -> (usize, usize, f32) {
         let shifted = at + self.block - self.block / 2;
         let (i, k) = (shifted / self.block, shifted % self.block);
-        let t = (ratio(k) + 0.5) / ratio(self.block);
+        let t = (k as f32 + 0.5) / self.block as f32;
         (i.saturating_sub(1).min(count - 1), i.min(count - 1), t)
     }
 }
@@ -201,7 +196,7 @@ mod tests {
             let (x, y) = (i % 420, i / 420);
             let square = (120..300).contains(&x) && (30..210).contains(&y);
             let counter = (190..230).contains(&x) && (100..140).contains(&y);
-            let light = 0.9 - ratio(x) * 0.001;
+            let light = 0.9 - x as f32 * 0.001;
             1.0 - light * if square && !counter { left } else { 1.0 }
         };
         Gray::new(420, 240, (0..420 * 240).map(sample).collect()).unwrap()
@@ -224,7 +219,7 @@ mod tests {
             (60, 120),
             (400, 20),
         ] {
-            let light = 1.0 - (0.9 - ratio(x) * 0.001);
+            let light = 1.0 - (0.9 - x as f32 * 0.001);
             let level = level(&square(0.1), x, y);
             assert!((level - light).abs() < 0.04, "{x} {y}: {level} for {light}");
         }

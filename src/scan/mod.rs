@@ -29,7 +29,6 @@ mod separation;
 mod shading;
 mod steps;
 mod streaks;
-mod whole;
 
 pub use clean::{Page, Texture, clean, clean_otherwise};
 pub use cut::{Cut, Pin, Reason, Region, Rejected, Warning, cut, cut_with};

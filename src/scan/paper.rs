@@ -128,26 +128,20 @@ fn line(points: &[(f64, f64)], block: f64) -> Option<(f64, f64)> {
 /// The blocks of one region and of the holes in it.
 pub(super) fn with_holes(regions: &[usize], one: usize, columns: usize) -> Vec<bool> {
     let outside: Vec<bool> = regions.iter().map(|&r| r != one).collect();
-    let holes = regions_of(&outside, columns);
-    let reaches = edges(&holes, columns);
-    let inside = |i: usize| !outside[i] || !reaches[holes[i]];
-    (0..regions.len()).map(inside).collect()
-}
-
-/// Regions of the blocks that are out, by a number that one of each region's blocks has.
-fn regions_of(out: &[bool], columns: usize) -> Vec<usize> {
-    regions(out.len(), columns, |a, b| out[a] && out[b])
-}
-
-/// For each region's number whether it reaches the picture's edge.
-fn edges(regions: &[usize], columns: usize) -> Vec<bool> {
-    let rows = regions.len() / columns.max(1);
-    let mut reaches = vec![false; regions.len()];
-    for (i, &r) in regions.iter().enumerate() {
-        let (x, y) = (i % columns, i / columns);
-        reaches[r] |= x == 0 || y == 0 || x + 1 == columns || y + 1 == rows;
+    let count = outside.len();
+    let holes = self::regions(count, columns, |a, b| outside[a] && outside[b]);
+    let mut reach_edge = vec![false; count];
+    for (i, &hole) in holes.iter().enumerate() {
+        reach_edge[hole] |= is_outermost(i, columns, count);
     }
-    reaches
+    let inside = |i: usize| !outside[i] || !reach_edge[holes[i]];
+    (0..count).map(inside).collect()
+}
+
+/// Whether one of `count` blocks, or pixels, in rows of `columns` lies at the edge.
+pub(super) fn is_outermost(i: usize, columns: usize, count: usize) -> bool {
+    let (x, y) = (i % columns, i / columns);
+    x == 0 || y == 0 || x + 1 == columns || y + 1 == count / columns
 }
 
 /// The blocks to the left and right of one of `count` in rows of `columns`, above and below it.

@@ -9,7 +9,7 @@ use super::components::Component;
 use super::deskew::{Edges, energy_of};
 use super::options::Layout;
 use super::paper::Paper;
-use super::whole::floor;
+use crate::numeric::cast::index;
 use crate::numeric::view::View;
 use kurbo::{Affine, Point, Rect, Vec2};
 use nalgebra::{SMatrix, SVector};
@@ -111,8 +111,8 @@ impl Scene<'_> {
                 .map(|set| energy_of(set.iter().map(|q| down(q) / bin)) / bin)
                 .sum()
         };
-        let turns = floor(2.0 * REACH / STEP);
-        let slopes = floor(2.0 * SLOPES.0 / SLOPES.1 + 0.5);
+        let turns = index(2.0 * REACH / STEP);
+        let slopes = index(2.0 * SLOPES.0 / SLOPES.1 + 0.5);
         let start = |i: usize| Pencil {
             slope: slope - SLOPES.0 + SLOPES.1 * (i % (slopes + 1)) as f64,
             turn: (STEP * (i / (slopes + 1)) as f64 - REACH) / half,

@@ -1,6 +1,7 @@
 //! A picture in its own range: for drawings that are nowhere darker than half of black, or everywhere.
 
-use super::whole::floor;
+use super::paper::is_outermost;
+use crate::numeric::median::quantile;
 use crate::types::Gray;
 
 /// Share of the samples beyond each end of the range.
@@ -21,23 +22,14 @@ pub fn is_all_dark(gray: &Gray) -> bool {
 pub fn full_range(gray: &Gray) -> Option<Gray> {
     let (w, h) = (gray.width(), gray.height());
     let mut all = gray.samples().to_vec();
-    let mut at = |share: f64| {
-        let last = all.len().checked_sub(1)?;
-        Some(
-            *all.select_nth_unstable_by(floor(share * last as f64), f32::total_cmp)
-                .1,
-        )
-    };
+    let mut at = |share: f64| quantile(&mut all, share, f32::total_cmp);
     let (low, high) = (at(BEYOND)?, at(1.0 - BEYOND)?);
     if high - low < LEAST {
         return None;
     }
-    let is_edge = |i: &usize| {
-        let (x, y) = (i % w, i / w);
-        x == 0 || y == 0 || x + 1 == w || y + 1 == h
-    };
     let middle = 0.5 * (low + high);
-    let edge: Vec<usize> = (0..w * h).filter(is_edge).collect();
+    let outermost = |i: &usize| is_outermost(*i, w, w * h);
+    let edge: Vec<usize> = (0..w * h).filter(outermost).collect();
     let dark = edge.iter().filter(|&&i| gray.samples()[i] > middle).count();
     let (paper, ink) = if 2 * dark > edge.len() {
         (high, low)

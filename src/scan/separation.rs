@@ -8,8 +8,8 @@
 use super::chamfer::distances;
 use super::components::{Component, components};
 use super::error::ScanError;
-use super::ink::{Ink, Inks, more, paper, pixels};
-use super::whole::narrow;
+use super::ink::{Ink, Inks, more, paper};
+use crate::numeric::cast::single;
 use crate::types::{Colours, Gray, Sheet};
 
 /// Coverage from which ink of a plate holds together, and that a piece of it must reach somewhere.
@@ -90,7 +90,7 @@ impl<'a> Separation<'a> {
         };
         let paper = paper(colours);
         let mut seen: Vec<Vec<([u8; 3], f32)>> = vec![Vec::new(); inks.layers().len()];
-        for (x, y) in letters.iter().flat_map(pixels) {
+        for (x, y) in letters.iter().flat_map(Component::pixels) {
             let (here, coverage) = (colours.at(x, y), sheet.gray.at(x, y));
             let ink = inks.nearest(more(here, paper)).filter(|_| coverage >= CORE);
             if let Some(list) = ink.and_then(|i| seen.get_mut(i)) {
@@ -190,7 +190,7 @@ impl<'a> Separation<'a> {
         }
         let weight = |(i, a): (usize, f64)| a.max(f64::EPSILON) * f64::from(self.inks[i].level);
         let sum: f64 = best.1.iter().map(|&part| weight(part)).sum();
-        let share = |part: (usize, f64)| (part.0, narrow(weight(part) / sum));
+        let share = |part: (usize, f64)| (part.0, single(weight(part) / sum));
         best.1.into_iter().map(share).collect()
     }
 
@@ -223,7 +223,7 @@ fn far(plate: &[f32], width: usize, least: f64) -> Vec<u16> {
     let mut field = vec![u16::MAX; plate.len()];
     let pieces = components(&gray, LOW, SEED).into_iter();
     for piece in pieces.filter(|c| c.area as f64 >= least && c.stroke() >= FRINGE) {
-        pixels(&piece).for_each(|(x, y)| field[y * width + x] = 0);
+        piece.pixels().for_each(|(x, y)| field[y * width + x] = 0);
     }
     if field.contains(&0) {
         distances(&mut field, width);
@@ -308,7 +308,7 @@ mod tests {
         };
         let gray = Gray::from_fn(SIDE, SIDE, |x, y| {
             let part = inks(x, y);
-            narrow(f64::from(part.0 + part.1) / 255.0)
+            single(f64::from(part.0 + part.1) / 255.0)
         });
         let swallowed = (0..SIDE * SIDE).map(|i| [0, 1, 2].map(|c| level(at(i), c)));
         let sheet = Sheet {

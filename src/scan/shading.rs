@@ -8,8 +8,9 @@
 use super::paper::Paper;
 use super::steps::softened;
 use super::streaks::{self, InkStreaks};
-use super::whole::floor;
+use crate::numeric::cast::index;
 use crate::numeric::coverage::blur;
+use crate::numeric::median::range;
 use crate::types::Gray;
 use std::{mem, ops::Range};
 
@@ -100,12 +101,12 @@ pub(super) fn levels(gray: &Gray) -> Option<[f32; 2]> {
     let step = (high - low) / STEPS as f32;
     let mut counts = [0_usize; STEPS];
     for v in gray.samples() {
-        let bin = floor(f64::from((v - low) / step));
+        let bin = index(f64::from((v - low) / step));
         counts[bin.min(STEPS - 1)] += 1;
     }
     let nth = |mut bins: Range<usize>, share: f64| {
         let last = counts[bins.clone()].iter().sum::<usize>().checked_sub(1)?;
-        let mut left = floor(share * last as f64);
+        let mut left = index(share * last as f64);
         bins.find(|&i| {
             let is_here = counts[i] > left;
             left = left.saturating_sub(counts[i]);
@@ -138,9 +139,7 @@ fn is_uneven(gray: &Gray, [paper, ink]: [f32; 2], counts: impl Fn(usize, usize) 
 
 /// Whether a pixel and its neighbours are alike, as far as they are darker than the paper.
 fn is_flat(rows: [&[f32]; 3], x: usize, paper: f32) -> bool {
-    let near = rows.iter().flat_map(|row| &row[x - 1..=x + 1]);
-    let ends = |(a, b): (f32, f32), v: &f32| (a.min(*v), b.max(*v));
-    let (least, most) = near.fold((f32::MAX, f32::MIN), ends);
+    let (least, most) = range(rows.iter().flat_map(|row| &row[x - 1..=x + 1]));
     least - paper >= FLAT * (most - paper)
 }
 

@@ -1,6 +1,6 @@
 //! Pictures of two levels, whose edges run in steps of whole pixels: told, and brought to grey.
 
-use crate::numeric::{cast::index, coverage};
+use crate::numeric::{cast::index, coverage, median::range};
 use crate::types::Gray;
 use rayon::prelude::*;
 use std::mem;
@@ -41,8 +41,7 @@ pub(super) struct Levels {
 
 impl Levels {
     fn of(gray: &Gray) -> Self {
-        let ends = |(a, b): (f32, f32), v: &f32| (a.min(*v), b.max(*v));
-        let (least, most) = gray.samples().iter().fold((f32::MAX, f32::MIN), ends);
+        let (least, most) = range(gray.samples());
         Self { least, most }
     }
 

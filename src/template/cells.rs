@@ -1,10 +1,11 @@
 //! A recognised page → its drawings, upright and without the printed guides.
 
 use super::draw::{GUIDE_WIDTH, Joins, guides, joining};
-use super::find::{Found, as_f64, floor};
+use super::find::Found;
 use super::gain::Gain;
 use super::layout::{Layout, Place};
 use super::tile::Tile;
+use crate::numeric::cast::{index, single};
 use crate::numeric::tone;
 use crate::numeric::view::View;
 use crate::types::{Cell, Gray, Guides, Label, Sheet};
@@ -70,7 +71,7 @@ fn drawing(
     } else {
         tile.samples.fill(0.0);
     }
-    let whole = Rect::new(0.0, 0.0, as_f64(tile.w), as_f64(tile.h));
+    let whole = Rect::new(0.0, 0.0, tile.w as f64, tile.h as f64);
     let window = ink.map_or(whole, |r| r.inflate(MARGIN, MARGIN).intersect(whole));
     let to_mm = Affine::translate(field.origin().to_vec2())
         * Affine::scale(1.0 / px_per_mm)
@@ -109,14 +110,14 @@ fn touches(ink: Rect, field: Rect, joins: &Joins) -> bool {
 /// A rectangle of the page at `px_per_mm`.
 fn resample(sheet: &Sheet, view: &View, field: Rect, px_per_mm: f64) -> Tile {
     let (w, h) = (
-        floor(field.width() * px_per_mm),
-        floor(field.height() * px_per_mm),
+        index(field.width() * px_per_mm),
+        index(field.height() * px_per_mm),
     );
     let page = |p: Point| field.origin() + p.to_vec2() / px_per_mm;
     let mut samples = Vec::with_capacity(w * h);
     for y in 0..h {
         for x in 0..w {
-            let p = page(Point::new(as_f64(x) + 0.5, as_f64(y) + 0.5));
+            let p = page(Point::new(x as f64 + 0.5, y as f64 + 0.5));
             samples.push(cubic_sample(&sheet.gray, view.at(p)));
         }
     }
@@ -125,21 +126,18 @@ fn resample(sheet: &Sheet, view: &View, field: Rect, px_per_mm: f64) -> Tile {
 
 /// Whole pixels of a tile, the edges put where ink that has spread had them: coverage `level` becomes a half.
 fn crop(tile: &Tile, window: Rect, level: f64) -> Gray {
-    let (left, top) = (floor(window.x0), floor(window.y0));
-    #[expect(
-        clippy::cast_possible_truncation,
-        reason = "samples are single precision"
-    )]
+    let (left, top) = (index(window.x0), index(window.y0));
     let at = |x: usize, y: usize| {
-        tone::at_half(tile.samples[(y + top) * tile.w + x + left] as f32, level)
+        let sample = tile.samples[(y + top) * tile.w + x + left];
+        tone::at_half(single(sample), level)
     };
-    Gray::from_fn(floor(window.width()), floor(window.height()), at)
+    Gray::from_fn(index(window.width()), index(window.height()), at)
 }
 
 /// Coverage at a point by Catmull-Rom's cubic through 4 × 4 pixels; the border's pixels go on beyond it.
 fn cubic_sample(gray: &Gray, p: Point) -> f64 {
     let q = p - Vec2::new(0.5, 0.5);
-    let (w, h) = (as_f64(gray.width()), as_f64(gray.height()));
+    let (w, h) = (gray.width() as f64, gray.height() as f64);
     if !(q.x > -1.0 && q.y > -1.0 && q.x < w && q.y < h) {
         return 0.0;
     }
@@ -156,9 +154,9 @@ fn cubic_sample(gray: &Gray, p: Point) -> f64 {
     let (wx, wy) = (weights(q.x - x), weights(q.y - y));
     let mut sum = 0.0;
     for (j, b) in wy.iter().enumerate() {
-        let row = gray.row(floor((y - 1.0 + as_f64(j)).clamp(0.0, h - 1.0)));
+        let row = gray.row(index((y - 1.0 + j as f64).clamp(0.0, h - 1.0)));
         for (i, a) in wx.iter().enumerate() {
-            let column = floor((x - 1.0 + as_f64(i)).clamp(0.0, w - 1.0));
+            let column = index((x - 1.0 + i as f64).clamp(0.0, w - 1.0));
             sum += a * b * f64::from(row.get(column).copied().unwrap_or(0.0));
         }
     }

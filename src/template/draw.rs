@@ -156,7 +156,6 @@ fn qr(text: &str, square: Rect) -> Result<BezPath, TemplateError> {
     let code = QrCode::with_error_correction_level(text, EcLevel::Q)
         .map_err(|e| TemplateError::Drawing(e.to_string()))?;
     let n = code.width();
-    #[expect(clippy::cast_precision_loss, reason = "at most 177 modules")]
     let module = square.width() / n as f64;
     let mut path = BezPath::new();
     let dark = code
@@ -165,7 +164,6 @@ fn qr(text: &str, square: Rect) -> Result<BezPath, TemplateError> {
         .enumerate()
         .filter(|(_, c)| *c == qrcode::Color::Dark);
     for (i, _) in dark {
-        #[expect(clippy::cast_precision_loss, reason = "at most 177 modules")]
         let at = Vec2::new((i % n) as f64, (i / n) as f64) * module;
         path.extend(
             Rect::from_origin_size(square.origin() + at, (module, module)).path_elements(1.0),

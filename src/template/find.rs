@@ -3,6 +3,7 @@
 use super::TemplateError;
 use super::draw::RING;
 use super::layout::{Code, Layout};
+use crate::numeric::cast::index;
 use crate::numeric::view::View;
 use crate::types::{Gray, Sheet};
 use image::{GrayImage, Luma};
@@ -50,7 +51,6 @@ pub fn find(sheet: &Sheet, layout: &Layout) -> Result<Found, TemplateError> {
             found: marks.len().min(3),
         });
     };
-    #[expect(clippy::cast_precision_loss, reason = "a small factor")]
     let corners = corners.map(|p| (p.to_vec2() * factor as f64).to_point());
     let mut foreign = None;
     for turn in 0..4 {
@@ -93,7 +93,6 @@ pub fn find(sheet: &Sheet, layout: &Layout) -> Result<Found, TemplateError> {
 fn reduce(gray: &Gray) -> (Gray, usize) {
     let factor = gray.width().max(gray.height()).div_ceil(SEARCH).max(1);
     let (w, h) = (gray.width() / factor, gray.height() / factor);
-    #[expect(clippy::cast_precision_loss, reason = "a block has few samples")]
     let share = 1.0 / (factor * factor) as f32;
     let small = Gray::from_fn(w, h, |x, y| {
         let rows = (y * factor..(y + 1) * factor).map(|r| gray.row(r));
@@ -127,7 +126,6 @@ fn dark(gray: &Gray) -> GrayImage {
         let (y0, y1) = (y.saturating_sub(r), (y + r + 1).min(h));
         let sum = sums[y1 * stride + x1] - sums[y0 * stride + x1] - sums[y1 * stride + x0]
             + sums[y0 * stride + x0];
-        #[expect(clippy::cast_precision_loss, reason = "a window has few samples")]
         let mean = sum / ((x1 - x0) * (y1 - y0)) as f64;
         Luma([u8::from(f64::from(gray.at(x, y)) > mean + CONTRAST) * 255])
     })
@@ -269,16 +267,16 @@ fn disc_centre(gray: &Gray, view: &View, mark: Point) -> Option<(Point, f64)> {
     let inside = px.intersect(Rect::new(
         0.0,
         0.0,
-        as_f64(gray.width()),
-        as_f64(gray.height()),
+        gray.width() as f64,
+        gray.height() as f64,
     ));
     if inside.area() < 9.0 {
         return None;
     }
-    let samples: Vec<(Point, f64, f64)> = (floor(inside.y0)..floor(inside.y1))
-        .flat_map(|y| (floor(inside.x0)..floor(inside.x1)).map(move |x| (x, y)))
+    let samples: Vec<(Point, f64, f64)> = (index(inside.y0)..index(inside.y1))
+        .flat_map(|y| (index(inside.x0)..index(inside.x1)).map(move |x| (x, y)))
         .map(|(x, y)| {
-            let p = Point::new(as_f64(x) + 0.5, as_f64(y) + 0.5);
+            let p = Point::new(x as f64 + 0.5, y as f64 + 0.5);
             (p, (back * p).distance(mark), f64::from(gray.at(x, y)))
         })
         .filter(|(_, r, _)| *r < reach)
@@ -302,11 +300,11 @@ fn disc_centre(gray: &Gray, view: &View, mark: Point) -> Option<(Point, f64)> {
 
 /// What the QR code in `square` says, its modules read where the view puts them.
 fn read_code(gray: &Gray, square: Rect, view: &View, modules: usize) -> Option<String> {
-    let module = square.width() / as_f64(modules);
+    let module = square.width() / modules as f64;
     let value = |x: usize, y: usize| {
         let offsets = [-0.2, 0.0, 0.2];
         let at = |dx: f64, dy: f64| {
-            let p = Vec2::new(as_f64(x) + 0.5 + dx, as_f64(y) + 0.5 + dy) * module;
+            let p = Vec2::new(x as f64 + 0.5 + dx, y as f64 + 0.5 + dy) * module;
             sample(gray, view.at(square.origin() + p))
         };
         offsets
@@ -329,12 +327,12 @@ fn read_code(gray: &Gray, square: Rect, view: &View, modules: usize) -> Option<S
 /// Bilinear coverage at a point, px; paper outside the picture.
 pub(super) fn sample(gray: &Gray, p: Point) -> f64 {
     let q = p - Vec2::new(0.5, 0.5);
-    if !(q.x > -1.0 && q.y > -1.0 && q.x < as_f64(gray.width()) && q.y < as_f64(gray.height())) {
+    if !(q.x > -1.0 && q.y > -1.0 && q.x < gray.width() as f64 && q.y < gray.height() as f64) {
         return 0.0;
     }
     let (x, y) = (q.x.max(0.0).floor(), q.y.max(0.0).floor());
     let (fx, fy) = ((q.x - x).max(0.0), (q.y - y).max(0.0));
-    let (x, y) = (floor(x), floor(y));
+    let (x, y) = (index(x), index(y));
     let (x1, y1) = (
         (x + 1).min(gray.width() - 1),
         (y + 1).min(gray.height() - 1),
@@ -343,21 +341,4 @@ pub(super) fn sample(gray: &Gray, p: Point) -> f64 {
     let top = v(x, y) * (1.0 - fx) + v(x1, y) * fx;
     let bottom = v(x, y1) * (1.0 - fx) + v(x1, y1) * fx;
     top * (1.0 - fy) + bottom * fy
-}
-
-#[expect(
-    clippy::cast_precision_loss,
-    reason = "pictures have fewer pixels a side than 2^52"
-)]
-pub(super) const fn as_f64(n: usize) -> f64 {
-    n as f64
-}
-
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "the cast saturates; callers stay inside the picture"
-)]
-pub(super) fn floor(v: f64) -> usize {
-    v.floor() as usize
 }

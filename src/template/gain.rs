@@ -1,8 +1,9 @@
 //! Ink gain: how printer, paper and scanner blur and spread what is black, from the strip at the page's foot.
 
 use super::draw::{LADDER, SQUARE, strip};
-use super::find::{Found, as_f64, floor, sample};
+use super::find::{Found, sample};
 use super::layout::Layout;
+use crate::numeric::cast::index;
 use crate::types::Sheet;
 use kurbo::{Affine, Point, Rect, Vec2};
 use serde::{Deserialize, Serialize};
@@ -57,7 +58,7 @@ pub fn gain(sheet: &Sheet, layout: &Layout, found: &Found) -> Option<Gain> {
         .map(|(centre, turn)| edge(&at, centre, turn + SQUARE.1, step))
         .collect();
     let edges = edges?;
-    let mean = |of: fn(&Edge) -> f64| edges.iter().map(of).sum::<f64>() / as_f64(edges.len());
+    let mean = |of: fn(&Edge) -> f64| edges.iter().map(of).sum::<f64>() / edges.len() as f64;
     let (paper, ink) = levels(&at, strip.squares[0]);
     let shade = |p: Point| (at(p) - paper) / (ink - paper);
     let ladder = strip
@@ -102,25 +103,25 @@ struct Edge {
 /// The edge of a square on the side that `turn` points to.
 fn edge(at: &impl Fn(Point) -> f64, centre: Point, turn: f64, step: f64) -> Option<Edge> {
     let (out, along) = (Vec2::from_angle(turn), Vec2::from_angle(turn).turn_90());
-    let bins = floor(2.0 * REACH / BIN);
+    let bins = index(2.0 * REACH / BIN);
     let mut sums = vec![[0.0f64; 2]; bins];
     let half = 0.35 * SQUARE.0;
-    for i in 0..floor(2.0 * half / step) {
-        for k in 0..floor(2.0 * REACH / step) {
+    for i in 0..index(2.0 * half / step) {
+        for k in 0..index(2.0 * REACH / step) {
             // the golden section spreads the samples of neighbouring lines over all bins
-            let d = (as_f64(k) + (as_f64(i) * 0.618_034).fract()) * step - REACH;
-            let t = (as_f64(i) + 0.5) * step - half;
-            let bin = &mut sums[floor((d + REACH) / BIN).min(bins - 1)];
+            let d = (k as f64 + (i as f64 * 0.618_034).fract()) * step - REACH;
+            let t = (i as f64 + 0.5) * step - half;
+            let bin = &mut sums[index((d + REACH) / BIN).min(bins - 1)];
             bin[0] += at(centre + out * (SQUARE.0 / 2.0 + d) + along * t);
             bin[1] += 1.0;
         }
     }
     let filled = sums.iter().enumerate().filter(|(_, s)| s[1] > 0.0);
     let profile: Vec<[f64; 2]> = filled
-        .map(|(i, s)| [(as_f64(i) + 0.5) * BIN - REACH, s[0] / s[1]])
+        .map(|(i, s)| [(i as f64 + 0.5) * BIN - REACH, s[0] / s[1]])
         .collect();
     let end = (profile.len() / 8).max(1);
-    let mean = |p: &[[f64; 2]]| p.iter().map(|v| v[1]).sum::<f64>() / as_f64(p.len());
+    let mean = |p: &[[f64; 2]]| p.iter().map(|v| v[1]).sum::<f64>() / p.len() as f64;
     let (ink, paper) = (mean(&profile[..end]), mean(&profile[profile.len() - end..]));
     if profile.len() < 8 || ink - paper < 0.1 {
         return None;
@@ -149,7 +150,7 @@ fn edge(at: &impl Fn(Point) -> f64, centre: Point, turn: f64, step: f64) -> Opti
 fn level_at_edge(shade: &[[f64; 2]]) -> Option<f64> {
     let near = || shade.iter().filter(|[d, _]| d.abs() < MIDDLE);
     let n = near().count();
-    let mean = |i: usize| near().map(|p| p[i]).sum::<f64>() / as_f64(n.max(1));
+    let mean = |i: usize| near().map(|p| p[i]).sum::<f64>() / n.max(1) as f64;
     let (d, v) = (mean(0), mean(1));
     let (xy, xx) = near().fold((0.0, 0.0), |(xy, xx), p| {
         (xy + (p[0] - d) * (p[1] - v), xx + (p[0] - d) * (p[0] - d))
@@ -161,22 +162,22 @@ fn level_at_edge(shade: &[[f64; 2]]) -> Option<f64> {
 fn patch(value: &impl Fn(Point) -> f64, r: Rect) -> f64 {
     let n = 12;
     let at = |i: usize| {
-        let (u, v) = (as_f64(i % n) + 0.5, as_f64(i / n) + 0.5);
-        value(r.origin() + Vec2::new(u * r.width(), v * r.height()) / as_f64(n))
+        let (u, v) = ((i % n) as f64 + 0.5, (i / n) as f64 + 0.5);
+        value(r.origin() + Vec2::new(u * r.width(), v * r.height()) / n as f64)
     };
-    (0..n * n).map(at).sum::<f64>() / as_f64(n * n)
+    (0..n * n).map(at).sum::<f64>() / (n * n) as f64
 }
 
 /// Width of an upright line: its coverage added up across it, mm.
 fn width(shade: &impl Fn(Point) -> f64, line: Rect, step: f64) -> f64 {
     let (from, to) = (line.x0 - 0.8, line.x1 + 0.8);
-    let count = floor((to - from) / step).max(1);
+    let count = index((to - from) / step).max(1);
     let across = |k: usize| {
-        let x = from + (as_f64(k) + 0.5) * (to - from) / as_f64(count);
+        let x = from + (k as f64 + 0.5) * (to - from) / count as f64;
         (0..20)
             .map(|i| shade(Point::new(x, line.y0 + 1.0 + 0.2 * f64::from(i))))
             .sum::<f64>()
             / 20.0
     };
-    (0..count).map(across).sum::<f64>() * (to - from) / as_f64(count)
+    (0..count).map(across).sum::<f64>() * (to - from) / count as f64
 }

@@ -2,6 +2,7 @@
 
 use super::TemplateError;
 use super::draw::Page;
+use crate::numeric::cast::single;
 use kurbo::PathEl;
 use pdf_writer::{Content, Finish, Pdf, Rect, Ref};
 use resvg::tiny_skia::{Color, Pixmap};
@@ -70,12 +71,8 @@ pub fn pdf(pages: &[Page]) -> Vec<u8> {
     pdf.finish()
 }
 
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "PDF numbers are single precision"
-)]
 fn points(mm: f64) -> f32 {
-    (mm * POINTS) as f32
+    single(mm * POINTS)
 }
 
 fn drawing(page: &Page) -> Vec<u8> {
@@ -133,14 +130,9 @@ pub fn png(page: &Page, dpi: f64) -> Result<Vec<u8>, TemplateError> {
     );
     let mut map = Pixmap::new(w, h).ok_or_else(|| fail(format!("{w} × {h} px")))?;
     map.fill(Color::WHITE);
-    let fit = points_of(f64::from(w) / f64::from(tree.size().width()));
+    let fit = single(f64::from(w) / f64::from(tree.size().width()));
     resvg::render(&tree, Transform::from_scale(fit, fit), &mut map.as_mut());
     map.encode_png().map_err(|e| fail(e.to_string()))
-}
-
-#[expect(clippy::cast_possible_truncation, reason = "a drawing's scale")]
-const fn points_of(v: f64) -> f32 {
-    v as f32
 }
 
 #[expect(

@@ -1,7 +1,9 @@
 //! Ink that lies outside all fields of a recognised page.
 
-use super::find::{Found, as_f64, floor, sample};
+use super::find::{Found, sample};
 use super::layout::{Layout, Place};
+use crate::numeric::cast::index;
+use crate::numeric::median::quantile;
 use crate::types::Sheet;
 use image::{GrayImage, Luma};
 use imageproc::region_labelling::{Connectivity, connected_components};
@@ -26,31 +28,26 @@ const DUST: f64 = 0.4;
 #[must_use]
 pub fn stray(sheet: &Sheet, layout: &Layout, found: &Found, places: &[Place]) -> Vec<(Rect, f64)> {
     let area = layout.body_mm();
-    let (w, h) = (floor(area.width() * PER_MM), floor(area.height() * PER_MM));
+    let (w, h) = (index(area.width() * PER_MM), index(area.height() * PER_MM));
     let page = |x: f64, y: f64| area.origin() + Point::new(x, y).to_vec2() / PER_MM;
     let row = |y: usize| {
         let at = |x: usize| {
             sample(
                 &sheet.gray,
-                found.view.at(page(as_f64(x) + 0.5, as_f64(y) + 0.5)),
+                found.view.at(page(x as f64 + 0.5, y as f64 + 0.5)),
             )
         };
         (0..w).map(at).collect::<Vec<f64>>()
     };
     let samples: Vec<Vec<f64>> = (0..h).into_par_iter().map(row).collect();
-    let block = floor(BLOCK * PER_MM);
+    let block = index(BLOCK * PER_MM);
     let paper = |bx: usize, by: usize| {
         let rows = samples.iter().skip(by * block).take(block);
         let mut all: Vec<f64> = rows
             .flat_map(|r| r.iter().skip(bx * block).take(block))
             .copied()
             .collect();
-        let k = floor(PAPER * as_f64(all.len().saturating_sub(1)));
-        if all.is_empty() {
-            0.0
-        } else {
-            *all.select_nth_unstable_by(k, f64::total_cmp).1
-        }
+        quantile(&mut all, PAPER, f64::total_cmp).unwrap_or(0.0)
     };
     let (columns, rows) = (w.div_ceil(block), h.div_ceil(block));
     let levels: Vec<Vec<f64>> = (0..rows)
@@ -62,7 +59,7 @@ pub fn stray(sheet: &Sheet, layout: &Layout, found: &Found, places: &[Place]) ->
         .collect();
     let inked = |x: usize, y: usize| {
         let level = levels[y / block][x / block];
-        let p = page(as_f64(x) + 0.5, as_f64(y) + 0.5);
+        let p = page(x as f64 + 0.5, y as f64 + 0.5);
         samples[y][x] > level + DARK * found.contrast && !fields.iter().any(|f| f.contains(p))
     };
     #[expect(

@@ -1,6 +1,7 @@
 //! The picture of one field: its light evened, its printed guides and its dust taken out.
 
-use super::find::{as_f64, floor};
+use crate::numeric::cast::index;
+use crate::numeric::median::quantile;
 use image::{GrayImage, Luma};
 use imageproc::region_labelling::{Connectivity, connected_components};
 use kurbo::{Line, Rect, Vec2};
@@ -31,26 +32,25 @@ impl Tile {
     /// `contrast` is that of the page's marks.
     pub(super) fn normalise(&mut self, contrast: f64) -> bool {
         let least = CONTRAST * contrast;
-        let (low, high) = (
-            quantile(&self.samples, 0.02),
-            quantile(&self.samples, 0.998),
-        );
+        let mut all = self.samples.clone();
+        let mut at = |share: f64| quantile(&mut all, share, f64::total_cmp).unwrap_or(0.0);
+        let (low, high) = (at(0.02), at(0.998));
         if high - low < least {
             return false;
         }
         let middle = (low + high) / 2.0;
         let slope = self.paper_plane(low + (middle - low) * 0.6);
-        let size = Vec2::new(as_f64(self.w), as_f64(self.h));
+        let size = Vec2::new(self.w as f64, self.h as f64);
         for (i, v) in self.samples.iter_mut().enumerate() {
-            let (x, y) = (as_f64(i % self.w) / size.x, as_f64(i / self.w) / size.y);
+            let (x, y) = ((i % self.w) as f64 / size.x, (i / self.w) as f64 / size.y);
             *v -= slope[0] + slope[1] * x + slope[2] * y;
         }
         let half = (high - low) / 2.0;
-        let dark: Vec<f64> = self.samples.iter().copied().filter(|&v| v > half).collect();
-        let ink = quantile(&dark, 0.6);
-        if dark.is_empty() || ink < least {
+        let mut dark: Vec<f64> = self.samples.iter().copied().filter(|&v| v > half).collect();
+        let ink = quantile(&mut dark, 0.6, f64::total_cmp);
+        let Some(ink) = ink.filter(|ink| *ink >= least) else {
             return false;
-        }
+        };
         self.samples.iter_mut().for_each(|v| *v /= ink);
         true
     }
@@ -108,8 +108,8 @@ impl Tile {
         let mut cleared = Vec::new();
         for piece in &dust {
             let rim = piece.bounds.inflate(f64::from(RIM), f64::from(RIM));
-            for y in floor(rim.y0.max(0.0))..floor(rim.y1).min(self.h) {
-                for x in floor(rim.x0.max(0.0))..floor(rim.x1).min(self.w) {
+            for y in index(rim.y0.max(0.0))..index(rim.y1).min(self.h) {
+                for x in index(rim.x0.max(0.0))..index(rim.x1).min(self.w) {
                     #[expect(clippy::cast_possible_truncation, reason = "inside the field")]
                     let kept = kept_at(x as u32, y as u32);
                     cleared.extend((!kept).then_some(y * self.w + x));
@@ -127,8 +127,8 @@ impl Tile {
         let mut b = nalgebra::Vector3::zeros();
         for (i, &v) in self.samples.iter().enumerate().filter(|(_, v)| **v < most) {
             let (x, y) = (
-                as_f64(i % self.w) / as_f64(self.w),
-                as_f64(i / self.w) / as_f64(self.h),
+                (i % self.w) as f64 / self.w as f64,
+                (i / self.w) as f64 / self.h as f64,
             );
             let row = nalgebra::Vector3::new(1.0, x, y);
             a += row * row.transpose();
@@ -148,22 +148,23 @@ impl Tile {
     pub(super) fn lift(&mut self, line: Line, half_width: f64) {
         let reach = half_width + BLUR_PX;
         let (y0, y1) = (
-            floor((line.p0.y - reach).max(0.0)),
-            floor((line.p0.y + reach).max(0.0)) + 1,
+            index((line.p0.y - reach).max(0.0)),
+            index((line.p0.y + reach).max(0.0)) + 1,
         );
         let (x0, x1) = (
-            floor(line.p0.x.max(0.0)),
-            floor(line.p1.x.max(0.0)).min(self.w),
+            index(line.p0.x.max(0.0)),
+            index(line.p1.x.max(0.0)).min(self.w),
         );
         for y in y0..y1.min(self.h) {
             let Some(row) = self.samples.get_mut(y * self.w + x0..y * self.w + x1) else {
                 continue;
             };
-            let paper: Vec<f64> = row.iter().copied().filter(|&v| v < SURELY_PAPER).collect();
+            let mut paper: Vec<f64> = row.iter().copied().filter(|&v| v < SURELY_PAPER).collect();
             if paper.len() * 8 < row.len() {
                 continue;
             }
-            let grey = quantile(&paper, 0.5).clamp(0.0, SURELY_PAPER);
+            let grey = quantile(&mut paper, 0.5, f64::total_cmp).unwrap_or(0.0);
+            let grey = grey.clamp(0.0, SURELY_PAPER);
             row.iter_mut().for_each(|v| *v = (*v - grey) / (1.0 - grey));
         }
     }
@@ -184,14 +185,4 @@ impl Piece {
         let [a, b] = self.steps;
         2.0 * self.area / (a.max(b) + a.min(b) / 2.0).max(1.0)
     }
-}
-
-/// The value below which a share of the values lies; 0 of none.
-fn quantile(values: &[f64], share: f64) -> f64 {
-    let mut v = values.to_vec();
-    if v.is_empty() {
-        return 0.0;
-    }
-    let k = floor(share * as_f64(v.len() - 1)).min(v.len() - 1);
-    *v.select_nth_unstable_by(k, f64::total_cmp).1
 }

@@ -25,10 +25,6 @@ pub(super) fn pixels(v: f64) -> String {
 
 /// The map from the curves' space (y up) to that of a picture so many px high (y down).
 #[must_use]
-#[expect(
-    clippy::cast_precision_loss,
-    reason = "pictures have fewer rows than 2^52"
-)]
 pub fn to_picture(height: usize) -> Affine {
     Affine::new([1.0, 0.0, 0.0, -1.0, 0.0, height as f64])
 }

@@ -2,6 +2,7 @@
 
 use super::numbers::{count, to_i16};
 use super::{WriteError, sfnt};
+use crate::numeric::cast::single;
 use crate::types::{Component, Font, Glyph};
 use kurbo::{BezPath, PathEl, Rect};
 use std::collections::BTreeMap;
@@ -230,7 +231,7 @@ fn place(
     let what = || format!("a component of {}", glyph.name);
     let [a, b, c, d, x, y] = part.place.as_coeffs();
     let (x, y) = (to_i16(x, what)?, to_i16(y, what)?);
-    let f = |v: f64| F2Dot14::from_f32(narrow(v));
+    let f = |v: f64| F2Dot14::from_f32(single(v));
     let transform = Transform {
         xx: f(a),
         yx: f(b),
@@ -268,12 +269,4 @@ fn place(
         Part::new(id, Anchor::Offset { x, y }, transform, flags),
         bbox,
     ))
-}
-
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "a 2.14 number needs 16 bits of the 24 kept"
-)]
-const fn narrow(v: f64) -> f32 {
-    v as f32
 }

@@ -99,7 +99,6 @@ impl Body<'_> {
             return Self::middle(columns, |_, high| high > LOOP * top).map(|m| m.0);
         }
         let line = ON_LINE * self.em;
-        #[expect(clippy::cast_precision_loss, reason = "a few hundred columns")]
         let is_head = |m: &(f64, usize)| m.1 as f64 >= HEAD * all.1 as f64;
         let standing = Self::middle(columns, |low, _| low > line).filter(is_head);
         let over = || Self::middle(columns, |_, high| high > 0.0).filter(|_| side == Place::Top);

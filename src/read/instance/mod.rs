@@ -6,6 +6,7 @@ mod positions;
 mod tests;
 
 use super::{ReadError, names};
+use crate::numeric::cast::single;
 use crate::types::{Glyph, Info};
 use names::text;
 use skrifa::instance::Location;
@@ -99,11 +100,7 @@ impl Place {
             let value = own.map_or(usual, |w| w.1);
             (axis.tag(), value, (value - usual).abs() > SAME)
         });
-        #[expect(
-            clippy::cast_possible_truncation,
-            reason = "axis values have 16 bits before the point"
-        )]
-        let settings = wanted.iter().map(|(tag, v)| (tag.as_str(), *v as f32));
+        let settings = wanted.iter().map(|(tag, v)| (tag.as_str(), single(*v)));
         Ok(Self {
             axes: axes.collect(),
             location: all.location(settings),

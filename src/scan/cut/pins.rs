@@ -77,11 +77,7 @@ impl Region {
 /// Pixels of a piece of ink inside a polygon.
 fn held(points: &[Point], c: &Component) -> f64 {
     let path = path(points);
-    let pixels = c
-        .runs
-        .iter()
-        .flat_map(|r| (r.start..r.end).map(|x| (x, r.y)));
-    pixels.filter(|&(x, y)| holds(&path, x, y)).count() as f64
+    c.pixels().filter(|&(x, y)| holds(&path, x, y)).count() as f64
 }
 
 /// Cuts the pieces of ink that lie across the edge of a polygon.

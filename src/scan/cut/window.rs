@@ -5,12 +5,12 @@
 //! keeps what the scanner could resolve (Lanczos of three lobes). Perspective is undone in the same step.
 
 use super::Slot;
+use crate::numeric::cast::{index, single};
 use crate::numeric::view::View;
 use crate::scan::chamfer::distances;
 use crate::scan::clean::Page;
 use crate::scan::components::{Component, Run, components, enclosed};
 use crate::scan::separation::{self, Separation};
-use crate::scan::whole::{floor, narrow};
 use crate::types::{Cell, Gray, Guides, Plate};
 use kurbo::{Affine, Point, Rect, Vec2};
 use std::f64::consts::PI;
@@ -92,7 +92,7 @@ impl Shutter<'_> {
 
     /// The picture of all ink, and of each ink by itself where there are several.
     fn pictures(&self, parts: &[&Component], window: Rect, to_sheet: &View) -> (Gray, Vec<Plate>) {
-        let (w, h) = (floor(window.width()), floor(window.height()));
+        let (w, h) = (index(window.width()), index(window.height()));
         let needed = to_sheet.bounds(Rect::new(0.0, 0.0, w as f64, h as f64));
         let mut patch = Patch::new(
             self,
@@ -103,7 +103,7 @@ impl Shutter<'_> {
             return (patch.picture((w, h), to_sheet), Vec::new());
         };
         let mut all = separation.plates(&separation::Part {
-            corner: (floor(patch.origin.x), floor(patch.origin.y)),
+            corner: (index(patch.origin.x), index(patch.origin.y)),
             width: patch.width,
             samples: &patch.samples,
         });
@@ -152,8 +152,8 @@ impl Patch {
             gray.width() as f64,
             gray.height() as f64,
         ));
-        let (x0, y0) = (floor(area.x0), floor(area.y0));
-        let (width, height) = (floor(area.width().max(0.0)), floor(area.height().max(0.0)));
+        let (x0, y0) = (index(area.x0), index(area.y0));
+        let (width, height) = (index(area.width().max(0.0)), index(area.height().max(0.0)));
         let rows = (y0..y0 + height).flat_map(|y| gray.row(y)[x0..x0 + width].iter().copied());
         let mut new = Self {
             width,
@@ -258,13 +258,13 @@ impl Patch {
     }
 
     fn mark(&self, r: &Run, mask: &mut [u16]) {
-        let place = |v: usize, origin: f64, size: usize| v.saturating_sub(floor(origin)).min(size);
+        let place = |v: usize, origin: f64, size: usize| v.saturating_sub(index(origin)).min(size);
         let y = place(r.y, self.origin.y, self.height);
         let (a, b) = (
             place(r.start, self.origin.x, self.width),
             place(r.end, self.origin.x, self.width),
         );
-        if r.y >= floor(self.origin.y) && y < self.height {
+        if r.y >= index(self.origin.y) && y < self.height {
             mask[y * self.width + a..y * self.width + b].fill(0);
         }
     }
@@ -273,7 +273,7 @@ impl Patch {
     fn at(&self, x: f64, y: f64) -> f32 {
         let inside = x >= 0.0 && y >= 0.0 && x < self.width as f64 && y < self.height as f64;
         if inside {
-            self.samples[floor(y) * self.width + floor(x)]
+            self.samples[index(y) * self.width + index(x)]
         } else {
             0.0
         }
@@ -306,7 +306,7 @@ impl Kernel {
             let raw: [f64; 2 * LOBES] =
                 std::array::from_fn(|k| weight(k as f64 + 1.0 - LOBES as f64 - t));
             let sum: f64 = raw.iter().sum();
-            raw.map(|w| narrow(w / sum))
+            raw.map(|w| single(w / sum))
         };
         Self {
             taps: (0..=PHASES).map(phase).collect(),
@@ -318,7 +318,7 @@ impl Kernel {
         let split = |v: f64| {
             (
                 v.floor(),
-                &self.taps[floor((v - v.floor()) * PHASES as f64 + 0.5)],
+                &self.taps[index((v - v.floor()) * PHASES as f64 + 0.5)],
             )
         };
         let ((x, across), (y, down)) = (split(x), split(y));
@@ -332,7 +332,7 @@ impl Kernel {
         if !inside {
             return patch.at(x, y);
         }
-        let start = floor(top) * patch.width + floor(left);
+        let start = index(top) * patch.width + index(left);
         let line = |(k, w): (usize, &f32)| {
             let row = &patch.samples[start + k * patch.width..][..2 * LOBES];
             w * row.iter().zip(across).map(|(v, w)| v * w).sum::<f32>()

@@ -8,6 +8,8 @@ mod tones;
 
 use super::error::{MAX_PIXELS, ScanError};
 use super::header;
+use super::paper::is_outermost;
+use crate::numeric::median::range;
 use crate::types::{Gray, Shade, Sheet};
 use image::error::ImageError;
 use image::metadata::Orientation;
@@ -201,10 +203,7 @@ fn sheet(picture: Picture, source: &str, reading: Reading) -> Result<Sheet, Scan
         samples.par_iter_mut().for_each(|v| *v = 1.0 - *v);
         colours = None; // what light ink swallows says nothing of it
     }
-    let gray = Gray::new(width, height, samples).map_err(|e| ScanError::Decode {
-        source_name: source.to_owned(),
-        why: e.to_string(),
-    })?;
+    let gray = Gray::new(width, height, samples).map_err(|e| ScanError::decode(source, e))?;
     Ok(Sheet {
         gray,
         colours,
@@ -263,10 +262,10 @@ fn opened<'a>(bytes: &'a [u8], source: &str) -> Result<Box<dyn ImageDecoder + 'a
     // a PNG's is unpacked before any limit holds
     let profile = header::png_chunk(bytes, b"iCCP").map_or(0, <[u8]>::len);
     if profile as u64 > MAX_BYTES / DEFLATE {
-        return Err(ScanError::Decode {
-            source_name: source_name(),
-            why: "its colour profile is larger than a page".to_owned(),
-        });
+        return Err(ScanError::decode(
+            source,
+            "its colour profile is larger than a page",
+        ));
     }
     let mut decoder: Box<dyn ImageDecoder + '_> = if header::is_pcx(bytes) {
         Box::new(PCXDecoder::new(Cursor::new(bytes)).map_err(fail)?)
@@ -295,15 +294,11 @@ fn opened<'a>(bytes: &'a [u8], source: &str) -> Result<Box<dyn ImageDecoder + 'a
 
 /// What a decoder says is wrong.
 fn unreadable(wrong: ImageError, source: &str) -> ScanError {
-    let source_name = source.to_owned();
     match wrong {
-        ImageError::IoError(e) if e.kind() == ErrorKind::UnexpectedEof => {
-            ScanError::Truncated { source_name }
-        }
-        e => ScanError::Decode {
-            source_name,
-            why: e.to_string(),
+        ImageError::IoError(e) if e.kind() == ErrorKind::UnexpectedEof => ScanError::Truncated {
+            source_name: source.to_owned(),
         },
+        e => ScanError::decode(source, e),
     }
 }
 
@@ -348,11 +343,9 @@ fn rgba<S: Sample>((raw, width): (&[S], usize), light: &Light, grain: Grain) -> 
 fn over_white(pixels: Vec<(f32, f32)>, width: usize) -> Vec<f32> {
     /// No pixel that lets more light through is ink.
     const INK: f32 = 0.5;
-    let span = |a: (f32, f32), v: f32| (a.0.min(v), a.1.max(v));
-    let none = (f32::INFINITY, f32::NEG_INFINITY);
-    let visible = pixels.iter().filter(|p| p.1 > FLAT).map(|p| p.0);
-    let (dark, light) = visible.fold(none, span);
-    let (clear, opaque) = pixels.iter().map(|p| p.1).fold(none, span);
+    let visible = pixels.iter().filter(|p| p.1 > FLAT).map(|p| &p.0);
+    let (dark, light) = range(visible);
+    let (clear, opaque) = range(pixels.iter().map(|p| &p.1));
     let over_paper = |(v, a): (f32, f32)| (1.0 - v) * a;
     let pale = || pixels.iter().all(|p| over_paper(*p) < INK);
     let by_opacity = opaque - clear > FLAT
@@ -367,16 +360,9 @@ fn lies_on_nothing(pixels: &[(f32, f32)], width: usize) -> bool {
     /// Opacity of what can be seen.
     const SEEN: f32 = 0.5;
     let seen = |p: &&(f32, f32)| p.1 >= SEEN;
-    let height = pixels.len().checked_div(width).unwrap_or(0);
-    let outermost = |i: usize| {
-        let (x, y) = (i % width, i / width);
-        x == 0 || y == 0 || x + 1 == width || y + 1 == height
-    };
     let ring = pixels.iter().enumerate();
-    let ring: Vec<_> = ring
-        .filter(|(i, _)| outermost(*i))
-        .map(|(_, p)| p)
-        .collect();
+    let ring = ring.filter(|(i, _)| is_outermost(*i, width, pixels.len()));
+    let ring: Vec<_> = ring.map(|(_, p)| p).collect();
     let around = ring.iter().copied().filter(seen).count();
     2 * pixels.iter().filter(seen).count() < pixels.len() && 10 * around < ring.len()
 }

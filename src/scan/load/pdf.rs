@@ -20,10 +20,7 @@ pub(super) fn is_pdf(bytes: &[u8]) -> bool {
 
 /// The picture of each page, upright, with its resolution where it covers the page.
 pub(super) fn pages(bytes: &[u8], source: &str, tones: Tones) -> Result<Vec<Picture>, ScanError> {
-    let fail = |why: &str| ScanError::Decode {
-        source_name: source.to_owned(),
-        why: why.to_owned(),
-    };
+    let fail = |why: &str| ScanError::decode(source, why);
     let pdf = Pdf::new(bytes.to_vec()).map_err(|_| fail("the PDF file cannot be read"))?;
     let pages = pdf.pages().iter().map(|p| page(p, source, tones, &fail));
     let found: Result<Vec<_>, ScanError> = pages.collect();

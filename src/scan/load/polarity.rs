@@ -5,8 +5,8 @@
 //! that falls off has none. A light page on a dark table is surrounded by dark and can be less than half of the
 //! picture; it is told from light ink by its size and by what is drawn on it.
 
+use crate::numeric::median::quantile;
 use crate::scan::paper::{beside, regions, with_holes};
-use crate::scan::whole::{floor, ratio};
 use crate::types::Shade;
 
 /// Share of dark pixels, of the outermost ring, from which the picture counts as light on dark.
@@ -62,7 +62,7 @@ pub(super) fn guess(ink: &[f32], width: usize) -> Guess {
     let picture = Picture::new(ink, width);
     let share = |places: &[(usize, usize)]| {
         let dark = places.iter().filter(|p| picture.is_dark(**p)).count();
-        ratio(dark) / ratio(places.len().max(1))
+        dark as f32 / places.len().max(1) as f32
     };
     let around = share(&picture.ring());
     let most = picture.dark_share();
@@ -145,7 +145,7 @@ impl<'a> Picture<'a> {
                 all += 1;
             }
         }
-        ratio(dark) / ratio(all)
+        dark as f32 / all as f32
     }
 
     /// The level of most steep edges in each part, or of all where it has few. In a picture out of focus that of the
@@ -168,10 +168,10 @@ impl<'a> Picture<'a> {
                 parts[self.part(place)].push(f32::midpoint(a, b));
             }
         });
-        let enough = ENOUGH * ratio(all.len()) / ratio(parts.len());
+        let enough = ENOUGH * all.len() as f32 / parts.len() as f32;
         let usual = nth(&mut all, 0.5);
         let own = |part: &mut Vec<f32>| {
-            if ratio(part.len()) > enough {
+            if part.len() as f32 > enough {
                 nth(part, 0.5)
             } else {
                 usual
@@ -210,7 +210,7 @@ impl<'a> Picture<'a> {
             let (x0, y0) = (i % columns * block, i / columns * block);
             let pixels = (y0..y0 + block).flat_map(|y| (x0..x0 + block).map(move |x| (x, y)));
             let dark = pixels.filter(|p| self.is_dark(*p)).count();
-            ratio(dark) / ratio(block * block)
+            dark as f32 / (block * block) as f32
         };
         let shares: Vec<f32> = (0..count).map(dark_share).collect();
         let light = |i: usize| shares[i] < 0.5;
@@ -225,7 +225,7 @@ impl<'a> Picture<'a> {
         };
         let page = with_holes(&region, largest, columns);
         let size = page.iter().filter(|i| **i).count();
-        ratio(size) >= PAGE * ratio(count)
+        size as f32 >= PAGE * count as f32
             && fill(&page, columns) >= FILL
             && pieces(&page, &shares, columns) >= PIECES
     }
@@ -233,11 +233,7 @@ impl<'a> Picture<'a> {
 
 /// The level below which this share of them lies; 0 of none.
 fn nth(levels: &mut [f32], share: f64) -> f32 {
-    let Some(last) = levels.len().checked_sub(1) else {
-        return 0.0;
-    };
-    let place = floor(share * last as f64);
-    *levels.select_nth_unstable_by(place, f32::total_cmp).1
+    quantile(levels, share, f32::total_cmp).unwrap_or(0.0)
 }
 
 /// The share of the narrowest rectangle around some blocks that they fill.

@@ -1,6 +1,7 @@
 //! What a file says of its numbers → their [`Light`], or why that is not known.
 
 use super::tones::{Light, Table, srgb, table};
+use crate::numeric::cast::single;
 use crate::scan::header;
 use hayro_syntax::object::{Array, Dict, Name, Object};
 use image::ImageDecoder;
@@ -114,11 +115,8 @@ fn curve(of: Option<&ToneReprCurve>) -> Result<impl Fn(f32) -> f32 + use<>, Stri
 }
 
 fn power(gamma: f64) -> impl Fn(f32) -> f32 {
-    #[expect(
-        clippy::cast_possible_truncation,
-        reason = "what is infinite is no curve that rises"
-    )]
-    let gamma = gamma as f32;
+    // what is infinite is no curve that rises
+    let gamma = single(gamma);
     move |number: f32| number.powf(gamma)
 }
 
@@ -161,7 +159,6 @@ fn rgb(curves: [impl Fn(f32) -> f32; 3], luminance: [f64; 3]) -> Result<Light, S
     if !(sum.is_finite() && sum > 0.0) {
         return Err("its colour profile's primaries give no light".to_owned());
     }
-    #[expect(clippy::cast_possible_truncation, reason = "parts of one")]
-    let weights = weights.map(|v| (v / sum) as f32);
+    let weights = weights.map(|v| single(v / sum));
     Ok(Light::apart([red?, green?, blue?], weights))
 }

@@ -1,7 +1,7 @@
 //! Dark ink and light ink on papers of many levels.
 
 use super::*;
-use crate::scan::whole::floor;
+use crate::numeric::cast::index;
 use image::{Rgb, RgbImage};
 
 /// How the light falls: its share at a place of a picture of side 1.
@@ -34,8 +34,8 @@ fn picture([paper, ink]: [[f64; 3]; 2], light: Light, table: Option<(f64, f64)>)
     } else {
         (0.0, 1.0)
     };
-    let level = |v: f64| u8::try_from(floor(255.0 * v.clamp(0.0, 1.0) + 0.5)).unwrap();
-    let side = |v: f64| u32::try_from(floor(v * wider)).unwrap();
+    let level = |v: f64| u8::try_from(index(255.0 * v.clamp(0.0, 1.0) + 0.5)).unwrap();
+    let side = |v: f64| u32::try_from(index(v * wider)).unwrap();
     RgbImage::from_fn(side(w), side(h), |x, y| {
         let (x, y) = (f64::from(x) + 0.5, f64::from(y) + 0.5);
         let (u, v) = (x - w * wider / 2.0, y - h * wider / 2.0);

@@ -4,6 +4,7 @@
 mod tests;
 
 use super::TemplateError;
+use crate::numeric::cast::index;
 use kurbo::{Point, Rect, Size};
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -291,7 +292,6 @@ impl Layout {
     }
 
     fn pitch(&self) -> Size {
-        #[expect(clippy::cast_precision_loss, reason = "at most 40")]
         let (columns, rows) = (self.columns() as f64, self.rows() as f64);
         Size::new(self.body().width / columns, self.body().height / rows)
     }
@@ -388,7 +388,6 @@ impl Layout {
             Direction::RightToLeft => columns - 1 - column,
         };
         let (pitch, size) = (self.pitch(), self.field());
-        #[expect(clippy::cast_precision_loss, reason = "at most 40")]
         let corner = Point::new(
             SIDE + column as f64 * pitch.width,
             HEAD + row as f64 * pitch.height,
@@ -434,13 +433,8 @@ const MOST: usize = 40;
 const LEAST: f64 = 3.0;
 
 /// How many cells of at least `cell` mm fit a length.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "the cast saturates, and what is too many is refused by the check"
-)]
 fn fit(length: f64, cell: f64) -> usize {
-    ((length / cell + 1e-9).floor() as usize).min(MOST)
+    index(length / cell + 1e-9).min(MOST)
 }
 
 /// The order in which the cells of a row are read.

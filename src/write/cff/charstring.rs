@@ -126,10 +126,6 @@ fn contours(shape: &BezPath) -> Vec<(Grid, Vec<Segment>, Grid)> {
     out
 }
 
-#[expect(
-    clippy::cast_precision_loss,
-    reason = "16.16 numbers fit a double exactly"
-)]
 fn unit(v: i64) -> f64 {
     v as f64 / 65536.0
 }

@@ -23,7 +23,7 @@ pub(super) fn ends(c: &Component, gray: &Gray, upright: &View) -> (f64, f64) {
             reach[0].max(reach[1]) > -(DEPTH + BLUR as f64)
         };
         let runs = c.runs.iter().filter(near);
-        let pixels = runs.flat_map(|r| (r.start..r.end).map(|x| (x, r.y)));
+        let pixels = runs.copied().flat_map(Run::pixels);
         let heights =
             pixels.filter_map(|(x, y)| Some(upright.at(crossing(c, gray, (x, y), steps)?).y));
         let heights: Vec<f64> = heights.collect();

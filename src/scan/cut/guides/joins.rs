@@ -29,7 +29,7 @@ fn end(letter: &Component, side: f64, upright: &View) -> Option<f64> {
     let stroke = letter.stroke();
     let limit = outer.clone().reduce(f64::min)? + END * stroke;
     let near = letter.runs.iter().zip(outer).filter(|r| r.1 < limit);
-    let pixels = near.flat_map(|(r, _)| (r.start..r.end).map(move |x| (x, r.y)));
+    let pixels = near.flat_map(|(r, _)| r.pixels());
     let heights = pixels.filter(|&(x, y)| inward(x, y) < limit);
     let heights: Vec<f64> = heights.map(|(x, y)| at(x, y).y).collect();
     let top = heights.iter().copied().reduce(f64::min)?;

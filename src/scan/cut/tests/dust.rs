@@ -83,7 +83,7 @@ fn dust_within_a_letter_is_told_by_dust_beside_the_others() {
         let cut = cut_page(&paper, NAMES, &options(Layout::Grid(4, 5))).unwrap();
         let cell = &cut.cells[0];
         let at = Point::new(104.0, 109.0) - (cell.to_sheet * Point::ORIGIN);
-        let seen = cell.gray.at(floor(at.x), floor(at.y)) > 0.5;
+        let seen = cell.gray.at(index(at.x), index(at.y)) > 0.5;
         assert_eq!(seen, kept, "{count} of {side} px: {:?}", cut.rejected);
     }
 }
@@ -111,7 +111,7 @@ fn the_sign_of_a_kaf_lies_within_it() {
         let cell = &cut.cells[1];
         let origin = cell.to_sheet * Point::ORIGIN;
         let at = Point::new(mote.0 + mote.2 / 2.0, mote.1 + 20.0 + mote.3 / 2.0) - origin;
-        let (x, y) = (floor(at.x.max(0.0)), floor(at.y.max(0.0)));
+        let (x, y) = (index(at.x.max(0.0)), index(at.y.max(0.0)));
         let seen = x < cell.gray.width() && y < cell.gray.height() && cell.gray.at(x, y) > 0.5;
         assert_eq!(seen, kept, "{name}: {mote:?}");
     }
@@ -297,7 +297,7 @@ fn a_zero_keeps_the_dot_in_its_middle() {
         let names = NAMES.replacen('i', name, 1);
         let cut = cut_page(&paper, &names, &options(Layout::Grid(4, 5))).unwrap();
         let gray = &cut.cells[1].gray;
-        let (x, y) = (gray.width() / 2, gray.height() / 2 + floor(off));
+        let (x, y) = (gray.width() / 2, gray.height() / 2 + index(off));
         assert_eq!(gray.at(x, y) > 0.5, keeps, "{name}, {off} px off");
     }
 }

@@ -8,8 +8,8 @@ mod told;
 
 use super::super::clean::{Texture, clean, clean_otherwise};
 use super::super::options::{Direction, Layout, Order, Scale};
-use super::super::whole::floor;
 use super::*;
+use crate::numeric::cast::index;
 use crate::numeric::view::View;
 use crate::types::{Gray, Sheet};
 use kurbo::Vec2;
@@ -162,7 +162,7 @@ fn a_grid_is_cut_into_its_letters() {
                 cell.guides
             );
             assert!(
-                cell.gray.at(floor(at.x), floor(at.y) - 6) > 0.7,
+                cell.gray.at(index(at.x), index(at.y) - 6) > 0.7,
                 "the stem stands there"
             );
             let ink: f32 = cell.gray.samples().iter().filter(|v| **v > 0.3).sum();

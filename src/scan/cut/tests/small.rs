@@ -98,7 +98,7 @@ fn a_small_eye_in_much_ink_is_no_pinhole() {
     let cut = cut_page(&paper, NAMES, &options(Layout::Grid(4, 5))).unwrap();
     let eye = cut.cells[6].to_sheet.inverse() * Point::new(x + 20.0, y + 20.0);
     let gray = &cut.cells[6].gray;
-    assert!(gray.at(floor(eye.x), floor(eye.y)) < 0.5);
+    assert!(gray.at(index(eye.x), index(eye.y)) < 0.5);
 }
 
 #[test]

@@ -1,8 +1,8 @@
 //! The ink of a bare page → pieces that are surely one, and how likely each is a part of another.
 
+use crate::numeric::cast::index;
 use crate::scan::components::Component;
 use crate::scan::cut::gap;
-use crate::scan::whole::floor;
 use kurbo::Rect;
 
 /// Two pieces one above the other are one within this many stroke widths: a pen that ran dry, a stroke parted by a
@@ -125,7 +125,7 @@ impl Piece {
         if width < TOUCHING {
             1
         } else {
-            floor(width + 0.5)
+            index(width + 0.5)
         }
     }
 
@@ -196,7 +196,7 @@ impl Usual {
         let quantile = |of: fn(Rect) -> f64, share: f64| {
             let mut sizes: Vec<f64> = boxes.iter().map(|&b| of(b)).collect();
             sizes.sort_by(|a, b| b.total_cmp(a));
-            let at = sizes.get(floor(share * letters as f64)).or(sizes.last());
+            let at = sizes.get(index(share * letters as f64)).or(sizes.last());
             at.map_or(1.0, |s| s.max(1.0))
         };
         Self {

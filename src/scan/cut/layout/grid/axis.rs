@@ -4,8 +4,8 @@
 //! compared with a wave of that length; the wave's phase says where the gaps are. Printed lines, letters
 //! out of their place and empty cells do not move it.
 
+use crate::numeric::cast::index;
 use crate::numeric::median::median;
-use crate::scan::whole::floor;
 use std::f64::consts::TAU;
 use std::ops::Range;
 
@@ -94,7 +94,7 @@ impl Axis {
     pub(super) fn cell(&self, at: f64) -> Option<usize> {
         let place = (at - self.start) / self.pitch;
         let inside = place > -0.5 && place < self.count as f64 + 0.5;
-        inside.then(|| floor(place).min(self.count - 1))
+        inside.then(|| index(place).min(self.count - 1))
     }
 
     /// Whether a place lies in a cell.
@@ -145,7 +145,7 @@ impl Profile {
         let step = ((end - origin) / SAMPLES as f64).max(1e-6);
         let mut ink = vec![0.0; SAMPLES + 1];
         for (a, b) in spans {
-            let place = |v: f64| floor((v - origin) / step).min(SAMPLES);
+            let place = |v: f64| index((v - origin) / step).min(SAMPLES);
             ink[place(*a)..=place(*b)]
                 .iter_mut()
                 .for_each(|v| *v += 1.0);

@@ -4,7 +4,7 @@
 //! line is thick, and what lies within it could be the letter's or the line's. The edge is seen again on both sides
 //! of that stretch: the cubic through two places on either side says where it runs in between.
 
-use crate::scan::whole::floor;
+use crate::numeric::cast::index;
 use std::iter;
 use std::ops::Range;
 
@@ -46,7 +46,7 @@ pub(super) fn find(
     ink: impl Fn(f64, f64) -> bool,
 ) -> Vec<Hidden> {
     let (before, after) = (line.start - 1.0, line.end + 1.0);
-    let places = (0..floor(ends.end - ends.start)).map(|i| ends.start + i as f64 + 0.5);
+    let places = (0..index(ends.end - ends.start)).map(|i| ends.start + i as f64 + 0.5);
     let sides: Vec<(bool, bool)> = places.map(|v| (ink(v, before), ink(v, after))).collect();
     let mut at = ends.start;
     let runs: Vec<Run> = sides
@@ -140,7 +140,7 @@ impl<F: Fn(f64, f64) -> bool> Line<'_, F> {
             (self.before, -1.0)
         };
         // an edge that leaves the line at more than half a right angle does not run along it
-        let most = floor(out.abs()) + 1;
+        let most = index(out.abs()) + 1;
         let places = iter::successors(Some(from), |v| Some(v + step)).take(most);
         let mut beyond = places.skip_while(|v| (self.ink)(end + out, *v) == full);
         Some((from, beyond.next()? - 0.5 * step))

@@ -7,9 +7,9 @@
 
 mod hidden;
 
+use crate::numeric::cast::index;
 use crate::numeric::view::View;
 use crate::scan::components::Component;
-use crate::scan::whole::floor;
 use hidden::Hidden;
 use kurbo::Point;
 use std::ops::Range;
@@ -43,11 +43,11 @@ pub(super) fn heights(lines: &[&Component], upright: &View) -> Vec<f64> {
 fn lines_of(lattice: &Component, upright: &View) -> [Vec<Range<f64>>; 2] {
     let b = lattice.upright;
     let at = |x: usize, y: usize| upright.at(Point::new(x as f64 + 0.5, y as f64 + 0.5));
-    let mut profiles = [b.width(), b.height()].map(|length| vec![0.0; floor(length) + 2]);
+    let mut profiles = [b.width(), b.height()].map(|length| vec![0.0; index(length) + 2]);
     for (x, y) in lattice.pixels() {
         let p = at(x, y) - b.origin();
         for (profile, v) in profiles.iter_mut().zip([p.x, p.y]) {
-            if let Some(ink) = profile.get_mut(floor(v)) {
+            if let Some(ink) = profile.get_mut(index(v)) {
                 *ink += 1.0;
             }
         }
@@ -75,7 +75,7 @@ pub(super) fn freed(lattice: &Component, upright: &View) -> Vec<Component> {
     let back = upright.inverse();
     let ink = |x: f64, y: f64| {
         let p = back.at(Point::new(x, y));
-        lattice.covers(floor(p.x.max(0.0)), floor(p.y.max(0.0)))
+        lattice.covers(index(p.x.max(0.0)), index(p.y.max(0.0)))
     };
     let across = |along: f64, x: f64| ink(x, along);
     let of = |lines: Vec<Range<f64>>, ends: Range<f64>, ink: &dyn Fn(f64, f64) -> bool| {

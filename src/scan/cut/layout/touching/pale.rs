@@ -4,8 +4,8 @@
 //! edges do beside it: joining strokes that lie in line with each other have no corner there.
 
 use super::{Border, LEVEL};
+use crate::numeric::cast::index;
 use crate::scan::components::Component;
-use crate::scan::whole::floor;
 use crate::types::Gray;
 use kurbo::Point;
 use std::collections::VecDeque;
@@ -66,8 +66,8 @@ struct Nearest {
 
 impl Nearest {
     fn to(pieces: &[Component], sides: &[Side], ink: &Component) -> Self {
-        let corner = (floor(ink.bounds.x0), floor(ink.bounds.y0));
-        let (width, height) = (floor(ink.bounds.width()), floor(ink.bounds.height()));
+        let corner = (index(ink.bounds.x0), index(ink.bounds.y0));
+        let (width, height) = (index(ink.bounds.width()), index(ink.bounds.height()));
         let place = |(x, y): (usize, usize)| (y - corner.1) * width + x - corner.0;
         let mut open = vec![false; width * height];
         ink.pixels().for_each(|p| open[place(p)] = true);

@@ -5,9 +5,9 @@
 //! they touch. Two letters meet in corners that the paper between them fills, and a stroke has straight edges: a path
 //! into ink or out of it is the longer, the less ink lies around.
 
+use crate::numeric::cast::index;
 use crate::numeric::view::View;
 use crate::scan::components::Component;
-use crate::scan::whole::floor;
 use kurbo::Point;
 use std::ops::Range;
 
@@ -68,8 +68,8 @@ impl Seam {
     ) -> Option<Self> {
         let bounds = ink.iter().map(|c| c.bounds).reduce(|a, b| a.union(b))?;
         let stroke = ink.iter().max_by_key(|c| c.area)?.stroke().max(1.0);
-        let (start, left) = along.turned((floor(bounds.x0), floor(bounds.y0)));
-        let (end, right) = along.turned((floor(bounds.x1), floor(bounds.y1)));
+        let (start, left) = along.turned((index(bounds.x0), index(bounds.y0)));
+        let (end, right) = along.turned((index(bounds.x1), index(bounds.y1)));
         let at = |lane: usize, place: usize| along.at(along.turned((lane, place)), upright);
         let nearest = |lane: usize, to: f64| {
             let off = |place: &usize| (at(lane, *place) - to).abs();
@@ -78,7 +78,7 @@ impl Seam {
         let ends =
             [start, end - 1].map(|lane| [stretch.start, stretch.end].map(|to| nearest(lane, to)));
         let ends = || ends.iter().flatten().flatten().copied();
-        let reach = floor(stroke);
+        let reach = index(stroke);
         let first = ends().min()?.saturating_sub(reach).max(left);
         let last = (ends().max()? + 1 + reach).min(right);
         let half = ((stretch.end - stretch.start) / 2.0).max(1.0);
@@ -137,7 +137,7 @@ impl Field {
 
     /// Measures the edges of strokes so many px wide.
     fn weigh(&mut self, stroke: f64) {
-        let (width, lanes, reach) = (self.width, self.middles.len(), floor(stroke));
+        let (width, lanes, reach) = (self.width, self.middles.len(), index(stroke));
         // sums of the ink before each lane and place
         let mut sums = vec![0_usize; (width + 1) * (lanes + 1)];
         for lane in 0..lanes {

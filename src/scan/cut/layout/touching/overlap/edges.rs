@@ -5,9 +5,9 @@ use super::joint::{Place, joint};
 use super::parabola::Parabola;
 use super::shape::filled;
 use super::{Field, LEVEL};
+use crate::numeric::cast::index;
 use crate::numeric::iso;
 use crate::scan::cut::layout::touching::{Border, Meeting};
-use crate::scan::whole::floor;
 use kurbo::{Point, Vec2};
 
 /// Points of a ring are so many px apart.
@@ -96,7 +96,7 @@ impl Edges {
             sides: sides.map(Iterator::collect).collect(),
             across,
             half: border.half(),
-            round: floor((ROUND * stroke).clamp(ROUNDS.0, ROUNDS.1) / SPACING + 0.5),
+            round: index((ROUND * stroke).clamp(ROUNDS.0, ROUNDS.1) / SPACING + 0.5),
             inside: filled(&rings, size),
             size,
             rings,
@@ -121,7 +121,7 @@ impl Edges {
     fn inward(&self, ring: usize) -> Vec<Corner> {
         let points = &self.rings[ring];
         let n = points.len();
-        let side = floor((SIDE * self.stroke).max(SHORTEST) / SPACING + 0.5);
+        let side = index((SIDE * self.stroke).max(SHORTEST) / SPACING + 0.5);
         let (close, far) = (self.round + CLOSE, self.round + side);
         let off = |i: usize, by: usize, forth: bool| {
             let by = by % n;
@@ -209,7 +209,7 @@ impl Edges {
 
     /// Where a way through the ink leaves it.
     fn leaves(&self, from: Point, way: Vec2) -> Option<Point> {
-        let steps = self.round + CLOSE..floor(LONGEST * self.stroke);
+        let steps = self.round + CLOSE..index(LONGEST * self.stroke);
         let mut places = steps.map(|i| from + i as f64 * way);
         places.find(|p| !self.is_ink(*p))
     }
@@ -231,8 +231,8 @@ impl Edges {
     /// Whether there is ink at a place or a pixel beside it, holes by grain included: corners inwards are rounded.
     pub(super) fn is_ink(&self, p: Point) -> bool {
         let (width, height) = self.size;
-        let column = floor(p.x.max(0.0));
-        let row = floor((height as f64 - p.y).max(0.0));
+        let column = index(p.x.max(0.0));
+        let row = index((height as f64 - p.y).max(0.0));
         let rows = row.saturating_sub(1)..(row + 2).min(height);
         let columns = column.saturating_sub(1)..(column + 2).min(width);
         let mut around = rows.flat_map(|y| columns.clone().map(move |x| y * width + x));
@@ -292,7 +292,7 @@ impl Edges {
 
     /// Where some points begin: on the parabola through what is seen of them.
     fn end(&self, points: &[Point]) -> End {
-        let seen = floor((SEEN * self.stroke).max(2.0 * SHORTEST) / SPACING);
+        let seen = index((SEEN * self.stroke).max(2.0 * SHORTEST) / SPACING);
         let seen = &points[..points.len().min(seen + 1)];
         let straight = (seen[0], seen[seen.len() - 1] - seen[0]);
         let (at, way) = Parabola::beginning(seen).map_or(straight, |p| (p.at, p.way(0.0)));

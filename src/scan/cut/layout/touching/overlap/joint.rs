@@ -3,7 +3,7 @@
 //! Such strokes have no corner where one ends and the other begins: what is known is where the letters' middles are.
 
 use super::across::Across;
-use crate::scan::whole::floor;
+use crate::numeric::cast::index;
 use kurbo::Point;
 
 /// The sides of a stroke that runs along the row go along it, by the cosine of their angle to it, and are so many
@@ -69,8 +69,8 @@ fn meeting(rings: &[Vec<Point>], across: &Across, middles: [Option<f64>; 2]) -> 
 /// Where rings pass narrow columns across the row near the border, from below.
 fn columns(rings: &[Vec<Point>], across: &Across) -> Vec<Vec<Pass>> {
     let along = across.along();
-    let column = |p: Point| floor((across.at(p) + 1.0) / (COLUMN_PX * across.step()));
-    let mut columns = vec![Vec::new(); floor(2.0 / (COLUMN_PX * across.step())) + 1];
+    let column = |p: Point| index((across.at(p) + 1.0) / (COLUMN_PX * across.step()));
+    let mut columns = vec![Vec::new(); index(2.0 / (COLUMN_PX * across.step())) + 1];
     for (r, points) in rings.iter().enumerate() {
         let n = points.len();
         for i in (0..n).filter(|&i| across.at(points[i]).abs() <= 1.0) {

@@ -23,8 +23,8 @@ mod shape;
 mod tests;
 
 use super::{Border, LEVEL, Parting};
+use crate::numeric::cast::index;
 use crate::scan::components::Component;
-use crate::scan::whole::floor;
 use crate::types::Gray;
 use edges::Edges;
 use kurbo::{Point, Rect};
@@ -69,8 +69,8 @@ impl Field {
     /// What is darker than paper and nobody else's.
     fn new(ink: &Component, page: &Gray) -> Self {
         let Rect { x0, y0, x1, y1 } = ink.bounds;
-        let [left, top] = [x0, y0].map(|v| floor(v).saturating_sub(MARGIN));
-        let [right, bottom] = [x1, y1].map(|v| floor(v) + MARGIN);
+        let [left, top] = [x0, y0].map(|v| index(v).saturating_sub(MARGIN));
+        let [right, bottom] = [x1, y1].map(|v| index(v) + MARGIN);
         let (width, height) = (right - left, bottom - top);
         let mut own = vec![0.0_f32; width * height];
         for r in &ink.runs {

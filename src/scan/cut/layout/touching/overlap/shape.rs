@@ -1,6 +1,6 @@
 //! Closed outlines → which pixels lie within, and which share of those along a hidden edge.
 
-use crate::scan::whole::{floor, narrow};
+use crate::numeric::cast::{index, single};
 use kurbo::Point;
 
 /// How far a hidden edge reaches, px: half a pixel is half a share.
@@ -48,7 +48,7 @@ impl Shape {
             let last = stretch.points().len().saturating_sub(1);
             for (k, p) in stretch.points().iter().enumerate() {
                 let within = matches!(stretch, Stretch::Hidden(_)) && k > 0 && k < last;
-                let (x, y) = (floor(p.x.max(0.0)), floor((height as f64 - p.y).max(0.0)));
+                let (x, y) = (index(p.x.max(0.0)), index((height as f64 - p.y).max(0.0)));
                 for y in y.saturating_sub(1)..(y + 2).min(height) {
                     for x in x.saturating_sub(1)..(x + 2).min(width) {
                         let centre = Point::new(x as f64 + 0.5, (height - y) as f64 - 0.5);
@@ -66,7 +66,7 @@ impl Shape {
             } else {
                 -nearest[i]
             };
-            shares[i] = narrow((REACH + off).clamp(0.0, 1.0));
+            shares[i] = single((REACH + off).clamp(0.0, 1.0));
         }
         let far = |i: usize| {
             let (x, y) = (i % width, i / width);
@@ -98,7 +98,7 @@ pub(super) fn filled(rings: &[Vec<Point>], (width, height): (usize, usize)) -> V
         .flat_map(|r| r.iter().zip(r.iter().cycle().skip(1)));
     for (a, b) in edges {
         let (low, high, up) = if a.y < b.y { (a, b, 1) } else { (b, a, -1) };
-        let first = floor((height as f64 - high.y).max(0.0));
+        let first = index((height as f64 - high.y).max(0.0));
         let rows = (first..height).map(|row| (row, (height - row) as f64 - 0.5));
         for (row, y) in rows
             .take_while(|(_, y)| *y >= low.y)
@@ -116,7 +116,7 @@ pub(super) fn filled(rings: &[Vec<Point>], (width, height): (usize, usize)) -> V
             around += pair[0].1;
             if around != 0 {
                 let ends = [pair[0].0, pair[1].0];
-                let [from, to] = ends.map(|x| floor((x + 0.5).max(0.0)).min(width));
+                let [from, to] = ends.map(|x| index((x + 0.5).max(0.0)).min(width));
                 inside[row * width + from..row * width + to].fill(true);
             }
         }
