@@ -12,7 +12,6 @@ use khatt::pipeline::{self, Built, Outputs, Report, Stage, Store, digest};
 use khatt::types::Files;
 use khatt::write::handwork;
 use serde_json::{Value, json};
-use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -126,7 +125,9 @@ impl Build {
         opened: &Opened,
         common: &Common,
     ) -> Result<(Vec<(PathBuf, Files)>, String), Failure> {
-        let last = opened.proof().and_then(|path| files::last(&path));
+        let last = opened
+            .output(|o| o.proof.as_ref())
+            .and_then(|path| files::last(&path));
         let ((built, outputs), total, times) =
             opened.work_with(store, common, |project, world| {
                 let built = pipeline::build(project, world)?;
@@ -186,7 +187,10 @@ impl Build {
         let mut files: Vec<(PathBuf, Files)> = files
             .map(|(path, files)| (opened.path(path), files.clone()))
             .collect();
-        if let Some((path, made)) = opened.report().zip(outputs.report.as_ref()) {
+        if let Some((path, made)) = opened
+            .output(|o| o.report.as_ref())
+            .zip(outputs.report.as_ref())
+        {
             let report = if self.report.timings {
                 timed(made, total, times)
             } else {
@@ -207,9 +211,8 @@ impl Build {
 /// Takes over what was done by hand to the UFO that lies where one is to be written; says what.
 fn keep_handwork(opened: &Opened, outputs: &mut [(PathBuf, Files)]) -> Result<String, Failure> {
     // a folder of other things is refused where it would be replaced
-    let ufo = opened
-        .ufo()
-        .filter(|path| path.join("metainfo.plist").is_file());
+    let ufo = opened.output(|o| o.ufo.as_ref());
+    let ufo = ufo.filter(|path| path.join("metainfo.plist").is_file());
     let Some((path, files)) = ufo.and_then(|path| outputs.iter_mut().find(|(p, _)| *p == path))
     else {
         return Ok(String::new());
@@ -266,19 +269,12 @@ fn rule<'a>(outputs: impl Iterator<Item = &'a Path>, inputs: &[PathBuf]) -> Stri
         let text = text.replace(' ', "\\ ").replace('#', "\\#");
         text.replace('$', "$$")
     };
-    let mut rule = outputs.map(word).collect::<Vec<_>>().join(" ");
-    rule.push(':');
-    inputs.iter().for_each(|path| {
-        rule.push(' ');
-        rule.push_str(&word(path));
-    });
-    rule.push('\n');
+    let outputs = outputs.map(word).collect::<Vec<_>>().join(" ");
+    let inputs: Vec<String> = inputs.iter().map(|path| word(path)).collect();
+    let all: String = inputs.iter().map(|input| format!(" {input}")).collect();
     // inputs that are gone are no reason to stop
-    for path in inputs {
-        let written = writeln!(rule, "{}:", word(path));
-        debug_assert!(written.is_ok(), "a String takes everything");
-    }
-    rule
+    let gone: String = inputs.iter().map(|input| format!("{input}:\n")).collect();
+    format!("{outputs}:{all}\n{gone}")
 }
 
 /// What could not be met and what to look at, a line each.

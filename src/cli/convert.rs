@@ -115,9 +115,7 @@ impl Convert {
             let name = self.input.display();
             let why =
                 format!("--face and --location are for TTF, OTF and WOFF2 files; {name} is none");
-            Khatt::command()
-                .error(ErrorKind::ArgumentConflict, why)
-                .exit();
+            conflict(why);
         }
     }
 
@@ -134,9 +132,7 @@ impl Convert {
             let Method::Rate(rate) = &mut options.quadratic else {
                 let key = options.quadratic.key();
                 let why = format!("--keep is for --quadratic rate, and {key} keeps nothing");
-                Khatt::command()
-                    .error(ErrorKind::ArgumentConflict, why)
-                    .exit();
+                conflict(why);
             };
             rate.keep = match keep.as_str() {
                 "corners" => Strictness::Corners,
@@ -149,6 +145,12 @@ impl Convert {
         }
         options
     }
+}
+
+/// Ends the program: the command line is wrong.
+fn conflict(why: String) -> ! {
+    let mut command = Khatt::command();
+    command.error(ErrorKind::ArgumentConflict, why).exit()
 }
 
 /// The SVG files of a folder, by name.

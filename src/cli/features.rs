@@ -1,14 +1,14 @@
 //! `khatt features`: the corners, straight runs and directions of a picture's contours, as a plot.
 
-use super::failure::{Failure, chain};
+use super::failure::Failure;
+use super::trace::{in_range, picture};
 use super::{Outcome, files};
 use clap::Args;
 use khatt::corner::angle::{Angle, Features as Found};
-use khatt::scan::{self, InkStreaks, Polarity};
+use khatt::scan::{self, InkStreaks, Tones};
 use khatt::trace::{self, trace};
 use khatt::types::Contour;
-use kurbo::{BezPath, Point, Rect, Shape};
-use std::fmt::Write as _;
+use kurbo::{Point, Rect};
 use std::path::PathBuf;
 use std::slice;
 
@@ -39,25 +39,16 @@ pub(crate) struct Features {
 impl Features {
     pub(crate) fn run(&self) -> Outcome {
         files::ends_in(&self.output, &["svg"])?;
-        let name = files::name(&self.picture);
-        let pages = scan::load(&files::read(&self.picture)?, &name, Polarity::Auto)
-            .map_err(|e| Failure::new(chain(&e)))?;
-        let [page] = pages.as_slice() else {
-            let several = format!("{name} holds {} pictures; give one at a time", pages.len());
-            return Err(Failure::new(several));
-        };
+        let gray = in_range(picture(&self.picture, Tones::default())?);
         let mut rule = Angle::default();
         rule.turn_deg = self.turn.unwrap_or(rule.turn_deg);
         rule.straight_deg = self.straight.unwrap_or(rule.straight_deg);
-        let dark = scan::is_all_dark(&page.gray).then(|| scan::full_range(&page.gray));
-        let dark = dark.flatten();
-        let gray = dark.as_ref().unwrap_or(&page.gray);
-        let averaged = scan::grained(gray).map(|(gray, _)| gray);
-        let gray = averaged.as_ref().unwrap_or(gray);
-        let even = scan::legible(gray, InkStreaks::default());
-        let coverage = trace::level(even.as_ref().map_or(gray, |even| &even.gray));
+        let gray = scan::grained(&gray).map_or(gray, |(even, _)| even);
+        let even = scan::legible(&gray, InkStreaks::default());
+        let coverage = trace::level(even.as_ref().map_or(&gray, |even| &even.gray));
         let contours = trace(&coverage, &trace::Options::default());
         if contours.is_empty() {
+            let name = files::name(&self.picture);
             return Err(Failure::new(format!("{name} has no ink to trace")));
         }
         let diagram = diagram(&contours, &rule);
@@ -91,11 +82,9 @@ fn diagram(contours: &[Contour], rule: &Angle) -> String {
 /// The contour in a square: straight runs wide and green, SC red dots, LN blue rings.
 fn shape(out: &mut String, contour: &Contour, found: &Found, at: Point) {
     let points = contour.points();
-    let path = BezPath::from_iter(points.iter().enumerate().map(|(i, &p)| match i {
-        0 => kurbo::PathEl::MoveTo(p),
-        _ => kurbo::PathEl::LineTo(p),
-    }));
-    let Rect { x0, y0, x1, y1 } = path.bounding_box();
+    let each = points.iter().map(|&p| Rect::from_points(p, p));
+    let bounds = each.reduce(|a, b| a.union(b)).unwrap_or(Rect::ZERO);
+    let Rect { x0, y0, x1, y1 } = bounds;
     let scale = SIDE / (x1 - x0).max(y1 - y0).max(1e-9);
     let place = |i: usize| {
         let p = points[i % points.len()];
@@ -160,39 +149,21 @@ fn plot(out: &mut String, found: &Found, at: Point) {
 fn marks(out: &mut String, found: &Found, place: impl Fn(usize) -> Point) {
     for (class, radius, points) in [("sc", 3.5, &found.corners), ("ln", 4.5, &found.joints)] {
         for &i in points {
-            let p = place(i);
-            push(
-                out,
-                format_args!(
-                    "<circle class=\"{class}\" cx=\"{:.1}\" cy=\"{:.1}\" r=\"{radius}\"/>\n",
-                    p.x, p.y
-                ),
+            let Point { x, y } = place(i);
+            *out += &format!(
+                "<circle class=\"{class}\" cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"{radius}\"/>\n"
             );
         }
     }
 }
 
 fn line(out: &mut String, style: &str, points: impl Iterator<Item = Point>) {
-    let mut all = String::new();
-    for p in points {
-        push(&mut all, format_args!("{:.1},{:.1} ", p.x, p.y));
-    }
+    let all: Vec<String> = points.map(|p| format!("{:.1},{:.1}", p.x, p.y)).collect();
     if !all.is_empty() {
-        push(
-            out,
-            format_args!("<polyline {style} points=\"{}\"/>\n", all.trim_end()),
-        );
+        *out += &format!("<polyline {style} points=\"{}\"/>\n", all.join(" "));
     }
 }
 
 fn text(out: &mut String, at: Point, words: &str) {
-    push(
-        out,
-        format_args!("<text x=\"{:.1}\" y=\"{:.1}\">{words}</text>\n", at.x, at.y),
-    );
-}
-
-fn push(out: &mut String, words: std::fmt::Arguments<'_>) {
-    let written = out.write_fmt(words);
-    debug_assert!(written.is_ok(), "a String takes everything");
+    *out += &format!("<text x=\"{:.1}\" y=\"{:.1}\">{words}</text>\n", at.x, at.y);
 }

@@ -46,17 +46,11 @@ pub(crate) fn files(built: &Built) -> Files {
 /// The contours as closed polygons.
 fn rings(letter: &Letter) -> Vec<BezPath> {
     let ring = |c: &Contour| {
-        let mut path: BezPath = (c.points().iter().enumerate())
-            .map(|(i, &p)| {
-                if i == 0 {
-                    PathEl::MoveTo(p)
-                } else {
-                    PathEl::LineTo(p)
-                }
-            })
-            .collect();
-        path.close_path();
-        path
+        let mut points = c.points().iter();
+        let first = points.next().map(|&p| PathEl::MoveTo(p));
+        let lines = points.map(|&p| PathEl::LineTo(p));
+        let ring = first.into_iter().chain(lines);
+        ring.chain([PathEl::ClosePath]).collect()
     };
     letter.edge.iter().map(ring).collect()
 }

@@ -5,6 +5,7 @@ use super::inputs::Digests;
 use super::progress::{Progress, Times};
 use super::staged::parent;
 use super::{Common, files};
+use khatt::pipeline::project::OutputTable;
 use khatt::pipeline::{Inputs, Nothing, Problem, Project, ProjectError, Store, World};
 use miette::{
     Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, NamedSource, SourceCode,
@@ -91,22 +92,9 @@ impl Opened {
         done.map(|value| (value, total, times)).map_err(failure)
     }
 
-    /// Where the report goes.
-    pub(crate) fn report(&self) -> Option<PathBuf> {
-        let path = self.project.output.report.as_ref()?;
-        Some(self.path(path))
-    }
-
-    /// Where the UFO goes.
-    pub(crate) fn ufo(&self) -> Option<PathBuf> {
-        let path = self.project.output.ufo.as_ref()?;
-        Some(self.path(path))
-    }
-
-    /// Where the proof goes.
-    pub(crate) fn proof(&self) -> Option<PathBuf> {
-        let path = self.project.output.proof.as_ref()?;
-        Some(self.path(path))
+    /// Where one of the project's outputs goes.
+    pub(crate) fn output(&self, which: fn(&OutputTable) -> Option<&PathBuf>) -> Option<PathBuf> {
+        which(&self.project.output).map(|path| self.path(path))
     }
 
     /// What the project file says.

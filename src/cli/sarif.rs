@@ -7,7 +7,6 @@ use super::project::Opened;
 use khatt::pipeline::{Built, Place};
 use khatt::types::Files;
 use serde_json::{Value, json};
-use std::fmt::Write;
 use std::path::Path;
 
 /// The rules: what a result is about, and how grave it is.
@@ -110,12 +109,12 @@ fn result(
         let logical = json!([{ "name": name, "fullyQualifiedName": cell, "kind": "glyph" }]);
         location.insert("logicalLocations".to_owned(), logical);
     }
-    let locations = if location.is_empty() {
-        Vec::new()
-    } else {
-        vec![Value::Object(location)]
-    };
-    in_words(rule, text, locations)
+    let location = Some(location).filter(|l| !l.is_empty());
+    in_words(
+        rule,
+        text,
+        location.map(Value::Object).into_iter().collect(),
+    )
 }
 
 fn in_words(rule: &str, text: &str, locations: Vec<Value>) -> Value {
@@ -135,18 +134,12 @@ fn physical(path: &Path) -> Value {
 
 /// A path as a relative reference (RFC 3986), or as a file: address where it is absolute.
 fn uri(path: &Path) -> String {
-    let mut out = String::new();
-    for byte in path.to_string_lossy().bytes() {
-        match byte {
-            b'a'..=b'z' | b'A'..=b'Z' | b'0'..=b'9' | b'-' | b'.' | b'_' | b'~' | b'/' => {
-                out.push(char::from(byte));
-            }
-            _ => {
-                let written = write!(out, "%{byte:02X}");
-                debug_assert!(written.is_ok(), "a String takes everything");
-            }
-        }
-    }
+    let plain = |byte: u8| byte.is_ascii_alphanumeric() || b"-._~/".contains(&byte);
+    let escaped = |byte: u8| match byte {
+        byte if plain(byte) => char::from(byte).to_string(),
+        byte => format!("%{byte:02X}"),
+    };
+    let out: String = path.to_string_lossy().bytes().map(escaped).collect();
     if path.is_absolute() {
         format!("file://{out}")
     } else {

@@ -8,10 +8,10 @@ use khatt::assemble::names;
 use khatt::pipeline::picture::{Options, trace_picture};
 use khatt::recognise;
 use khatt::scan::{self, InkGrain, InkStreaks, Reading, Tones};
-use khatt::types::{Gray, Label};
-use khatt::write::{centerline, picture};
+use khatt::types::{Gray, Label, Sheet};
+use khatt::write::{self, centerline};
 use khatt::{corner, fit};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::slice;
 
 /// Pixels of a picture that is traced as a whole: more would take over two gigabytes.
@@ -62,34 +62,23 @@ impl Trace {
             &["svg"]
         };
         files::ends_in(&self.output, kinds)?;
-        let bytes = files::read(&self.picture)?;
         let name = files::name(&self.picture);
-        let reading = Reading {
-            tones: named(Tones::ALL, self.tones.as_deref()),
-            ..Reading::default()
-        };
-        let pages = scan::load_as(&bytes, &name, reading).map_err(|e| Failure::new(chain(&e)))?;
-        let [page] = pages.as_slice() else {
-            let several = format!("{name} holds {} pictures; give one at a time", pages.len());
-            return Err(Failure::new(several));
-        };
-        if page.gray.samples().len() > LARGEST {
-            let (w, h) = (page.gray.width(), page.gray.height());
+        let seen = picture(&self.picture, named(Tones::ALL, self.tones.as_deref()))?;
+        if seen.samples().len() > LARGEST {
+            let (w, h) = (seen.width(), seen.height());
             let what = format!("{name} has {w} × {h} px, too many to be traced as one drawing");
             let remedy = "cut it into letters, or scan it at a lower resolution: 100 million pixels are taken";
             return Err(Failure::new(what).help(remedy));
         }
-        let dark = scan::is_all_dark(&page.gray).then(|| scan::full_range(&page.gray));
-        let dark = dark.flatten();
-        let gray = dark.as_ref().unwrap_or(&page.gray);
-        let averaged = self.averaged(gray);
+        let seen = in_range(seen);
+        let averaged = self.averaged(&seen);
         if let (Some((_, px)), false) = (&averaged, common.quiet) {
             eprintln!(
                 "note: the ink of {name} is grain, as of a pencil or a dry brush: it was averaged over {px:.1} px; \
                  --grain keep follows it instead, which takes long"
             );
         }
-        let gray = averaged.as_ref().map_or(gray, |(even, _)| even);
+        let gray = averaged.as_ref().map_or(&seen, |(even, _)| even);
         let streaks = named(InkStreaks::ALL, self.streaks.as_deref());
         let tell = |filled: bool| {
             if filled && !common.quiet {
@@ -117,8 +106,8 @@ impl Trace {
         if paths.is_empty() {
             eprintln!("warning: {name} has no ink to trace: the drawing is empty");
         }
-        let size = (page.gray.width(), page.gray.height());
-        self.write(&picture::svg(size, &paths))
+        let size = (seen.width(), seen.height());
+        self.write(&write::picture::svg(size, &paths))
     }
 
     /// The picture with its ink averaged, and over how many px, where that is grain that need not be kept.
@@ -175,6 +164,29 @@ impl Trace {
         }
         options
     }
+}
+
+/// The one picture of a file.
+pub(super) fn picture(path: &Path, tones: Tones) -> Result<Gray, Failure> {
+    let name = files::name(path);
+    let reading = Reading {
+        tones,
+        ..Reading::default()
+    };
+    let pages = scan::load_as(&files::read(path)?, &name, reading);
+    let pages = pages.map_err(|e| Failure::new(chain(&e)))?;
+    let several = |pages: Vec<Sheet>| {
+        let count = pages.len();
+        Failure::new(format!("{name} holds {count} pictures; give one at a time"))
+    };
+    let [page] = pages.try_into().map_err(several)?;
+    Ok(page.gray)
+}
+
+/// The picture in its own range where it is dark everywhere.
+pub(super) fn in_range(gray: Gray) -> Gray {
+    let light = scan::is_all_dark(&gray).then(|| scan::full_range(&gray));
+    light.flatten().unwrap_or(gray)
 }
 
 /// The value of this name; the default where none is given.

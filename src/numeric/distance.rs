@@ -1,6 +1,6 @@
-//! Distance from a point to a polyline, by a tree of boxes over its runs.
+//! Distance from a point to a polyline, by a tree of boxes over its runs; and the polyline of a path.
 
-use kurbo::{Point, Rect};
+use kurbo::{BezPath, Point, Rect, flatten};
 
 /// Segments in a leaf of the tree: below this, looking at all of them is faster than going deeper.
 const LEAF: usize = 8;
@@ -181,6 +181,22 @@ pub fn distances(points: impl IntoIterator<Item = Point>, lines: &[Polyline]) ->
         (p, least)
     });
     each.collect()
+}
+
+/// The largest finite distance of some rings' points, each with its own.
+#[must_use]
+pub fn largest(rings: &[Vec<(Point, f64)>]) -> f64 {
+    let all = rings.iter().flatten().map(|(_, d)| *d);
+    all.filter(|d| d.is_finite()).fold(0.0, f64::max)
+}
+
+/// The ends of the chords of a closed path, which they leave by no more than `tolerance`.
+#[must_use]
+pub fn chords(contour: &BezPath, tolerance: f64) -> Vec<Point> {
+    let mut points = Vec::new();
+    flatten(contour, tolerance, |el| points.extend(el.end_point()));
+    points.extend(points.first().copied());
+    points
 }
 
 #[cfg(test)]

@@ -4,9 +4,9 @@ use super::build::Built;
 use super::letter::Letter;
 use crate::assemble::names;
 use crate::finish::{place, round};
-use crate::numeric::distance::{Polyline, distances};
+use crate::numeric::distance::{Polyline, chords, distances, largest};
 use crate::types::{Contour, Font, Outline};
-use kurbo::{BezPath, Point, flatten};
+use kurbo::Point;
 use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -73,31 +73,15 @@ fn letter(font: &Font, compiled: &Font, letter: &Letter) -> Option<Measured> {
     })
 }
 
-/// The largest finite distance.
-pub(super) fn largest(edge: &[Vec<(Point, f64)>]) -> f64 {
-    let all = edge.iter().flatten().map(|(_, d)| *d);
-    all.filter(|d| d.is_finite()).fold(0.0, f64::max)
-}
-
 /// The largest distance of a point of one outline to the other.
 fn apart(a: &Outline, b: &Outline) -> f64 {
     let lines = lines(b);
-    let rings = a
-        .contours()
-        .iter()
-        .map(|c| distances(points(c, PROBE), &lines));
+    let rings = a.contours().iter();
+    let rings = rings.map(|c| distances(chords(c, PROBE), &lines));
     largest(&rings.collect::<Vec<_>>())
 }
 
 fn lines(outline: &Outline) -> Vec<Polyline> {
-    let rings = outline.contours().iter().map(|c| points(c, CHORD));
+    let rings = outline.contours().iter().map(|c| chords(c, CHORD));
     rings.filter_map(Polyline::new).collect()
-}
-
-/// The ends of the chords of a closed path, which they leave by no more than `tolerance`.
-fn points(contour: &BezPath, tolerance: f64) -> Vec<Point> {
-    let mut points = Vec::new();
-    flatten(contour, tolerance, |el| points.extend(el.end_point()));
-    points.extend(points.first().copied());
-    points
 }

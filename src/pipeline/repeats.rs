@@ -4,9 +4,8 @@ use super::average;
 use super::letter::Letter;
 use super::problem::Problem;
 use crate::assemble::{Note, names};
-use crate::numeric::distance::Polyline;
+use crate::numeric::distance::{Polyline, chords};
 use crate::types::{Cell, Label, Name};
-use kurbo::{BezPath, flatten};
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -144,18 +143,12 @@ fn rotation(rings: &[Vec<String>], letters: &[Letter]) -> String {
 
 /// Root mean square distance of the scanned edge from the outline, as a share of the em.
 fn noise(letter: &Letter) -> f64 {
-    let lines: Vec<Polyline> = letter.paths.iter().filter_map(chords).collect();
+    let rings = letter.paths.iter().map(|p| chords(p, CHORD_PX));
+    let lines: Vec<Polyline> = rings.filter_map(Polyline::new).collect();
     let distances = letter.edge.iter().flat_map(|c| c.points()).map(|&p| {
         let each = lines.iter().map(|l| l.nearest(p).distance);
         each.fold(f64::INFINITY, f64::min)
     });
     let (sum, n) = distances.fold((0.0, 0usize), |(s, n), d| (s + d * d, n + 1));
     (sum / n.max(1) as f64).sqrt() / letter.guides.px_per_em
-}
-
-fn chords(contour: &BezPath) -> Option<Polyline> {
-    let mut points = Vec::new();
-    flatten(contour, CHORD_PX, |el| points.extend(el.end_point()));
-    points.extend(points.first().copied());
-    Polyline::new(points)
 }

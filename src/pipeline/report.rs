@@ -1,6 +1,6 @@
 //! What was done and how well: a row a glyph.
 
-use super::budget::{self, Budget, Measured};
+use super::budget::{Budget, Measured};
 use super::build::Built;
 use super::letter::Letter;
 use super::page::Page;
@@ -9,6 +9,7 @@ use super::project::GateTable;
 use super::record::corners;
 use crate::assemble::words::Gap;
 use crate::assemble::{Note, names};
+use crate::numeric::distance::largest;
 use crate::template::Gain;
 use crate::types::Font;
 use kurbo::Point;
@@ -248,5 +249,5 @@ fn errors(edge: &[Vec<(Point, f64)>]) -> (f64, f64) {
     let all: Vec<f64> = all.filter(|d| d.is_finite()).collect();
     let squares: f64 = all.iter().map(|d| d * d).sum();
     let mean = squares / all.len().max(1) as f64;
-    (budget::largest(edge), mean.sqrt())
+    (largest(edge), mean.sqrt())
 }

@@ -4,10 +4,11 @@ use super::WriteError;
 use super::path::path_data;
 use super::picture::{pixels, to_picture};
 use super::ufo::files::bytes;
+use super::ufo::node;
 use super::ufo::states::sign;
 use crate::types::{Centerline, Files, PenDot, PenLine};
 use kurbo::{Affine, BezPath, PathEl, Point};
-use norad::{Codepoints, Contour, ContourPoint, PointType};
+use norad::{Codepoints, Contour, PointType};
 use plist::Value;
 
 /// Where a UFO's glyph keeps the ink's width: a list a contour, a number an on-curve point, in units.
@@ -92,12 +93,6 @@ fn contour(path: &BezPath) -> Contour {
 
 fn dot(dot: &PenDot, up: Affine) -> Contour {
     let at = up * dot.centre;
-    Contour::new(
-        vec![node(at, PointType::Move), node(at, PointType::Line)],
-        None,
-    )
-}
-
-fn node(p: Point, kind: PointType) -> ContourPoint {
-    ContourPoint::new(p.x, p.y, kind, false, None, None)
+    let ends = [PointType::Move, PointType::Line];
+    Contour::new(ends.map(|kind| node(at, kind)).to_vec(), None)
 }

@@ -1,6 +1,6 @@
 //! Kerning as a feature: which pairs read from the right, and in which order rules stand.
 
-use super::{SOURCE, compiled, push};
+use super::{SOURCE, compiled};
 use crate::types::Font;
 use read_fonts::collections::IntSet;
 use read_fonts::tables::gsub::Gsub;
@@ -19,10 +19,7 @@ pub(super) fn feature(font: &Font) -> String {
     for (number, groups) in [(1, &kerning.first), (2, &kerning.second)] {
         for (group, members) in groups {
             let members: Vec<&str> = members.iter().map(|m| m.as_str()).collect();
-            push(
-                &mut out,
-                format_args!("@kern{number}.{group} = [{}];\n", members.join(" ")),
-            );
+            out += &format!("@kern{number}.{group} = [{}];\n", members.join(" "));
         }
     }
     let mut rules = [String::new(), String::new()];
@@ -40,20 +37,17 @@ pub(super) fn feature(font: &Font) -> String {
         let (first, second, value) = (side(first, 1), side(second, 2), value.round());
         if from_right {
             // the first letter stands right of the second: it moves, and what came before it follows
-            let rule = format_args!("        {keyword} {first} {second} <{value} 0 {value} 0>;\n");
-            push(&mut rules[1], rule);
+            rules[1] += &format!("        {keyword} {first} {second} <{value} 0 {value} 0>;\n");
         } else {
-            let rule = format_args!("        {keyword} {first} {second} {value};\n");
-            push(&mut rules[0], rule);
+            rules[0] += &format!("        {keyword} {first} {second} {value};\n");
         }
     }
     out += "feature kern {\n";
     for (name, rules) in ["kern_rightward", "kern_leftward"].iter().zip(&rules) {
         if !rules.is_empty() {
-            let body = format_args!(
+            out += &format!(
                 "    lookup {name} {{\n        lookupflag IgnoreMarks;\n{rules}    }} {name};\n"
             );
-            push(&mut out, body);
         }
     }
     out + "} kern;\n"

@@ -1,6 +1,5 @@
 //! Where marks attach, by the anchors of glyphs: `mark`, `mkmk`, and the classes of glyphs; and `curs`.
 
-use super::push;
 use crate::types::{Anchor, Font, Glyph, label};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -10,6 +9,17 @@ pub(in crate::write) enum Class {
     Base,
     Ligature,
     Mark,
+}
+
+impl Class {
+    /// What feature files and UFOs call it.
+    pub(in crate::write) const fn word(self) -> &'static str {
+        match self {
+            Self::Base => "base",
+            Self::Ligature => "ligature",
+            Self::Mark => "mark",
+        }
+    }
 }
 
 /// A glyph's class, as its anchors tell it: none for one that has none.
@@ -96,10 +106,7 @@ impl<'a> Marks<'a> {
         let mut out = String::from("\n");
         for Attaching { label, marks } in self.attaching.values() {
             for (glyph, anchor) in marks {
-                push(
-                    &mut out,
-                    format_args!("markClass {} {} @mark.{label};\n", glyph.name, at(anchor)),
-                );
+                out += &format!("markClass {} {} @mark.{label};\n", glyph.name, at(anchor));
             }
         }
         out
@@ -114,16 +121,8 @@ impl<'a> Marks<'a> {
                 let rule = |g: &Glyph| rule(g, carrier, [name, label]);
                 let rules: String = glyphs.filter_map(|(g, _)| rule(g)).collect();
                 if !rules.is_empty() {
-                    let kind = match carrier {
-                        Class::Base => "base",
-                        Class::Ligature => "ligature",
-                        Class::Mark => "mark",
-                    };
-                    let label = format!("{tag}_{kind}_{label}");
-                    push(
-                        &mut body,
-                        format_args!("    lookup {label} {{\n{rules}    }} {label};\n"),
-                    );
+                    let label = format!("{tag}_{}_{label}", carrier.word());
+                    body += &format!("    lookup {label} {{\n{rules}    }} {label};\n");
                 }
             }
         }
@@ -136,24 +135,16 @@ impl<'a> Marks<'a> {
 
     pub(super) fn definitions(&self) -> String {
         let list = |class: Class| {
-            let names: Vec<&str> = self
-                .classed
-                .iter()
-                .filter(|(_, c)| *c == class)
-                .map(|(g, _)| g.name.as_str())
-                .collect();
+            let own = self.classed.iter().filter(|(_, c)| *c == class);
+            let names: Vec<&str> = own.map(|(g, _)| g.name.as_str()).collect();
             if names.is_empty() {
                 String::new()
             } else {
                 format!("[{}]", names.join(" "))
             }
         };
-        format!(
-            "\ntable GDEF {{\n    GlyphClassDef {}, {}, {}, ;\n}} GDEF;\n",
-            list(Class::Base),
-            list(Class::Ligature),
-            list(Class::Mark)
-        )
+        let [bases, ligatures, marks] = [Class::Base, Class::Ligature, Class::Mark].map(list);
+        format!("\ntable GDEF {{\n    GlyphClassDef {bases}, {ligatures}, {marks}, ;\n}} GDEF;\n")
     }
 }
 
@@ -165,32 +156,18 @@ fn at(anchor: &Anchor) -> String {
 fn rule(glyph: &Glyph, carrier: Class, [name, label]: [&str; 2]) -> Option<String> {
     if carrier != Class::Ligature {
         let anchor = glyph.anchors.iter().find(|a| a.name == name)?;
-        let kind = if carrier == Class::Mark {
-            "mark"
-        } else {
-            "base"
-        };
+        let (kind, name, at) = (carrier.word(), &glyph.name, at(anchor));
         return Some(format!(
-            "        pos {kind} {} {} mark @mark.{label};\n",
-            glyph.name,
-            at(anchor)
+            "        pos {kind} {name} {at} mark @mark.{label};\n"
         ));
     }
-    let parts: BTreeMap<usize, &Anchor> = glyph
-        .anchors
-        .iter()
-        .filter_map(|a| {
-            part(&a.name)
-                .filter(|(n, _)| *n == name)
-                .map(|(_, i)| (i, a))
-        })
-        .collect();
-    let last = glyph
-        .anchors
-        .iter()
-        .filter_map(|a| part(&a.name))
-        .map(|p| p.1)
-        .max()?;
+    let numbered = || {
+        let anchors = glyph.anchors.iter();
+        anchors.filter_map(|a| Some((a, part(&a.name)?)))
+    };
+    let own = numbered().filter(|(_, (n, _))| *n == name);
+    let parts: BTreeMap<usize, &Anchor> = own.map(|(a, (_, i))| (i, a)).collect();
+    let last = numbered().map(|(_, (_, i))| i).max()?;
     if parts.is_empty() {
         return None;
     }

@@ -19,7 +19,6 @@ use fea_rs::compile::{Compilation, NopFeatureProvider, NopVariationInfo, error::
 use fea_rs::{Compiler, GlyphMap};
 use marks::Marks;
 use source::Source;
-use std::fmt::Write;
 
 /// The name that messages give the feature text.
 const SOURCE: &str = "features.fea";
@@ -113,11 +112,6 @@ fn message(error: &CompilerError) -> String {
         | CompilerError::CompilationFail(d) => d.display().to_string(),
         other => other.to_string(),
     }
-}
-
-fn push(out: &mut String, text: std::fmt::Arguments<'_>) {
-    let done = out.write_fmt(text);
-    debug_assert!(done.is_ok(), "a string takes all that is written to it");
 }
 
 #[cfg(test)]

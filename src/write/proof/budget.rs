@@ -14,8 +14,7 @@ pub(super) fn length(units: f64, mm_per_unit: Option<f64>) -> String {
 
 /// The largest finite distance between a glyph's scanned edge and its compiled outline, font units.
 pub(super) fn worst(entry: &Entry) -> f64 {
-    let all = entry.edge.iter().flatten().map(|(_, d)| *d);
-    all.filter(|d| d.is_finite()).fold(0.0, f64::max)
+    numeric::distance::largest(&entry.edge)
 }
 
 /// The table, the worst glyph first.

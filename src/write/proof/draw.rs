@@ -7,7 +7,6 @@ use crate::write::picture::to_picture;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use kurbo::{Affine, BezPath, PathEl, Point};
-use std::fmt::Write;
 
 /// What an SVG of one glyph is made of.
 #[derive(Debug)]
@@ -78,10 +77,8 @@ fn view_box(entry: &Entry, info: &Info) -> String {
     let em = kurbo::Rect::new(0.0, -m.ascender, entry.glyph.advance, -m.descender);
     let ink = (entry.glyph.outline.bounds()).map(|b| Affine::FLIP_Y.transform_rect_bbox(b));
     let all = ink.map_or(em, |ink| em.union(ink));
-    let all = all.inflate(
-        MARGIN * f64::from(info.units_per_em),
-        MARGIN * f64::from(info.units_per_em),
-    );
+    let margin = MARGIN * f64::from(info.units_per_em);
+    let all = all.inflate(margin, margin);
     format!(
         "{:.0} {:.0} {:.0} {:.0}",
         all.x0,
@@ -112,19 +109,11 @@ fn guides(advance: f64, info: &Info) -> String {
 
 /// A point that a round line cap makes visible.
 pub(super) fn dot(out: &mut String, p: Point) {
-    push(out, format_args!("M{:.1} {:.1}h0", p.x, p.y));
+    *out += &format!("M{:.1} {:.1}h0", p.x, p.y);
 }
 
 pub(super) fn stroke(out: &mut String, a: Point, b: Point) {
-    push(
-        out,
-        format_args!("M{:.1} {:.1}L{:.1} {:.1}", a.x, a.y, b.x, b.y),
-    );
-}
-
-fn push(out: &mut String, text: std::fmt::Arguments<'_>) {
-    let written = out.write_fmt(text);
-    debug_assert!(written.is_ok(), "a String takes everything");
+    *out += &format!("M{:.1} {:.1}L{:.1} {:.1}", a.x, a.y, b.x, b.y);
 }
 
 /// Path data to a tenth of a unit: below what a screen shows.

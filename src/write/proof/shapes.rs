@@ -79,27 +79,26 @@ fn turn_deg(a: Vec2, b: Vec2) -> f64 {
     a.cross(b).atan2(a.dot(b)).abs().to_degrees()
 }
 
+/// A dot at each joint that is of a kind.
+fn dots(outline: &Outline, is: impl Fn(Vec2, Vec2) -> bool) -> String {
+    let mut out = String::new();
+    let joints = joints(outline).into_iter();
+    let such = joints.filter(|(_, come, go)| is(*come, *go));
+    such.for_each(|(p, ..)| dot(&mut out, down(p)));
+    out
+}
+
 /// Joints where the direction jumps.
 pub(super) fn corners(outline: &Outline) -> String {
-    let mut out = String::new();
-    for (p, come, go) in joints(outline) {
-        if turn_deg(come, go) > CORNER_DEG {
-            dot(&mut out, down(p));
-        }
-    }
-    out
+    dots(outline, |come, go| turn_deg(come, go) > CORNER_DEG)
 }
 
 /// Smooth joints whose tangent is level or upright.
 pub(super) fn extrema(outline: &Outline) -> String {
-    let mut out = String::new();
-    for (p, come, go) in joints(outline) {
+    dots(outline, |come, go| {
         let level = go.x.abs().min(go.y.abs()) <= LEVEL * go.hypot();
-        if level && turn_deg(come, go) <= CORNER_DEG {
-            dot(&mut out, down(p));
-        }
-    }
-    out
+        level && turn_deg(come, go) <= CORNER_DEG
+    })
 }
 
 /// The scanned edge in classes of its distance to the outline: what the style calls a class, and its path.

@@ -19,23 +19,15 @@ const SIZES: &[u16] = &[12, 16, 20, 28, 40, 56, 80];
 
 /// The language tag of a text by its first letter: Arabic joins and runs right to left.
 pub(super) fn language(text: &str) -> &'static str {
-    if text.chars().any(is_arabic) {
-        "ar"
-    } else {
-        "en"
-    }
+    if is_arabic(text) { "ar" } else { "en" }
 }
 
-fn is_arabic(c: char) -> bool {
-    bidi_class(c) == BidiClass::AL
+fn is_arabic(text: &str) -> bool {
+    text.chars().any(|c| bidi_class(c) == BidiClass::AL)
 }
 
 fn direction(text: &str) -> &'static str {
-    if text.chars().any(is_arabic) {
-        "rtl"
-    } else {
-        "ltr"
-    }
+    if is_arabic(text) { "rtl" } else { "ltr" }
 }
 
 /// The lines that the font can set, without the words that it cannot.

@@ -8,7 +8,7 @@ pub(super) mod files;
 pub(super) mod states;
 
 use super::WriteError;
-use super::layout::{self, Class};
+use super::layout;
 use crate::types::{Files, Font, Glyph, Info, Layer};
 use files::{bytes, failed};
 use kurbo::{BezPath, PathEl, Point, Vec2};
@@ -129,12 +129,8 @@ pub(super) fn has_layers(ufo: &norad::Font) -> bool {
 
 /// A glyph's name and what GDEF says of it.
 fn category(glyph: &Glyph) -> Option<(String, Value)> {
-    let word = match layout::class(glyph)? {
-        Class::Base => "base",
-        Class::Ligature => "ligature",
-        Class::Mark => "mark",
-    };
-    Some((glyph.name.to_string(), Value::from(word)))
+    let class = layout::class(glyph)?;
+    Some((glyph.name.to_string(), Value::from(class.word())))
 }
 
 fn info(info: &Info) -> FontInfo {
@@ -216,23 +212,15 @@ fn convert_glyph(glyph: &Glyph) -> Result<norad::Glyph, WriteError> {
             x_offset: dx,
             y_offset: dy,
         };
-        out.components.push(norad::Component::new(
-            name(part.base.as_str())?,
-            place,
-            None,
-        ));
+        let base = name(part.base.as_str())?;
+        let part = norad::Component::new(base, place, None);
+        out.components.push(part);
     }
     for anchor in &glyph.anchors {
-        let label = Some(name(&anchor.name)?);
-        out.anchors.push(norad::Anchor::new(
-            anchor.at.x,
-            anchor.at.y,
-            label,
-            None,
-            None,
-        ));
+        let (at, label) = (anchor.at, Some(name(&anchor.name)?));
+        let anchor = norad::Anchor::new(at.x, at.y, label, None, None);
+        out.anchors.push(anchor);
     }
-    out.lib = Dictionary::new();
     Ok(out)
 }
 
@@ -240,8 +228,7 @@ fn convert_glyph(glyph: &Glyph) -> Result<norad::Glyph, WriteError> {
 fn contour(path: &BezPath) -> Contour {
     let mut points: Vec<ContourPoint> = Vec::new();
     let mut start = None;
-    let mut add =
-        |p: Point, kind| points.push(ContourPoint::new(p.x, p.y, kind, false, None, None));
+    let mut add = |p: Point, kind| points.push(node(p, kind));
     for el in path.elements() {
         match *el {
             PathEl::MoveTo(p) => start = Some(p),
@@ -260,14 +247,7 @@ fn contour(path: &BezPath) -> Contour {
     }
     let at = |p: &ContourPoint| Point::new(p.x, p.y);
     if let Some(start) = start.filter(|s| points.last().is_none_or(|p| at(p) != *s)) {
-        points.push(ContourPoint::new(
-            start.x,
-            start.y,
-            PointType::Line,
-            false,
-            None,
-            None,
-        ));
+        points.push(node(start, PointType::Line));
     }
     // editors show the first point of the file as the start: let it be the path's own
     if !points.is_empty() {
@@ -275,6 +255,11 @@ fn contour(path: &BezPath) -> Contour {
     }
     mark_smooth(&mut points);
     Contour::new(points, None)
+}
+
+/// A point without a name of its own.
+pub(super) fn node(p: Point, kind: PointType) -> ContourPoint {
+    ContourPoint::new(p.x, p.y, kind, false, None, None)
 }
 
 /// Marks the points through which the curve runs without a corner, where a curve is on either side.

@@ -5,7 +5,6 @@ use crate::write::WriteError;
 use norad::{Contour, Font, Glyph, Name};
 use plist::{Dictionary, Value};
 use std::collections::BTreeMap;
-use std::fmt::Write;
 
 /// Lib key of what the last build wrote.
 const BUILT: &str = "khatt.built";
@@ -50,22 +49,18 @@ pub(in crate::write) const ANCHOR: &str = "anchor ";
 
 pub(in crate::write) fn glyph_states(glyph: &Glyph) -> States {
     let mut outline = format!("{}", glyph.width);
-    let mut add = |text: std::fmt::Arguments<'_>| {
-        let done = outline.write_fmt(text);
-        debug_assert!(done.is_ok(), "a string takes all that is written to it");
-    };
     for Contour { points, .. } in &glyph.contours {
-        add(format_args!("\n"));
-        points
-            .iter()
-            .for_each(|p| add(format_args!(" {:?} {} {}", p.typ, p.x, p.y)));
+        outline.push('\n');
+        for p in points {
+            outline += &format!(" {:?} {} {}", p.typ, p.x, p.y);
+        }
     }
     for part in &glyph.components {
         let t = part.transform;
         let numbers = [
             t.x_scale, t.xy_scale, t.yx_scale, t.y_scale, t.x_offset, t.y_offset,
         ];
-        add(format_args!("\n{} {numbers:?}", part.base));
+        outline += &format!("\n{} {numbers:?}", part.base);
     }
     let mut states = States::from([
         (OUTLINE.to_owned(), digest(&outline)),
