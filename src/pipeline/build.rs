@@ -13,7 +13,7 @@ use super::letters;
 use super::level;
 use super::page::{Page, Traced};
 use super::palette;
-use super::problem::{Problem, all, all_lists};
+use super::problem::{Problem, all, unless};
 use super::project::{Content, Project};
 use super::repeats::{self, Settled};
 use super::source::Source;
@@ -56,7 +56,7 @@ pub fn build(project: &Project, world: World<'_>) -> Result<Built, Vec<Problem>>
         words,
         pages,
     } = drawings(project, world)?;
-    doubts.extend(letters::doubts(project, &letters, world).map_err(|p| vec![p])?);
+    doubts.extend(letters::doubts(project, &letters, world)?);
     let corrections = Corrections::of(project)?;
     let draw = |sheet: &str, cell: Cell| {
         let options = corrections.trace(&cell.label, &project.trace);
@@ -67,7 +67,7 @@ pub fn build(project: &Project, world: World<'_>) -> Result<Built, Vec<Problem>>
         mut letters,
         notes: repeats,
         features,
-    } = repeats::settle(letters, project.repeated, draw).map_err(|p| vec![p])?;
+    } = repeats::settle(letters, project.repeated, draw)?;
     let _time = world.watch.enter(Stage::Assemble);
     let levelled = level::set(&mut letters, project, &corrections)?;
     let drawn = placed(&letters, project.font.units_per_em)?;
@@ -113,7 +113,7 @@ fn drawings(project: &Project, world: World<'_>) -> Result<Drawings, Vec<Problem
         let own = batches.by_ref().take(source.images().len());
         source.join(own.collect())
     });
-    let traced: Vec<Traced> = all_lists(pages.collect())?.into_iter().flatten().collect();
+    let traced: Vec<Traced> = all(pages.collect())?.into_iter().flatten().collect();
     let mut out = Drawings {
         letters: Vec::new(),
         words: Vec::new(),
@@ -217,10 +217,9 @@ pub fn sheet_letters(
     let named = labels::of(&project, world)?;
     let mut found = project.sheets.iter().zip(&named);
     let Some((table, labels)) = found.nth(number.wrapping_sub(1)) else {
-        return Err(vec![Problem::Sheet {
-            sheet: format!("sheet {number}"),
-            why: format!("the project has {} sheets", project.sheets.len()),
-        }]);
+        let (sheet, count) = (format!("sheet {number}"), project.sheets.len());
+        let why = format!("the project has {count} sheets");
+        return Err(Problem::Sheet { sheet, why }.into());
     };
     let source = [Source::new(&project, (number - 1, table, labels))?];
     let batches = batches(&source, &project, world);
@@ -264,18 +263,14 @@ pub fn pages<T>(
         let batches = images.map(|image| source.read(image, world).map(&work));
         source.join(batches.collect())
     });
-    Ok(all_lists(pages.collect())?.into_iter().flatten().collect())
+    Ok(all(pages.collect())?.into_iter().flatten().collect())
 }
 
 /// The labels of every table; corrections are all of labels that there are.
 fn labels(project: &Project, world: World<'_>) -> Result<Vec<Vec<Label>>, Vec<Problem>> {
     let named = labels::of(project, world)?;
     let unused = Corrections::of(project)?.unused(named.iter().flatten());
-    if unused.is_empty() {
-        Ok(named)
-    } else {
-        Err(unused)
-    }
+    unless(unused, named)
 }
 
 /// Where the pages of each table come from.
@@ -285,5 +280,5 @@ fn sources<'a>(
 ) -> Result<Vec<Source<'a>>, Vec<Problem>> {
     let tables = project.sheets.iter().zip(named).enumerate();
     let sources = tables.map(|(n, (table, labels))| Source::new(project, (n, table, labels)));
-    all_lists(sources.collect())
+    all(sources.collect())
 }

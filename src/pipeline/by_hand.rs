@@ -1,6 +1,6 @@
 //! What a user sets by hand: anchors, kerning and features win over what follows from the shapes.
 
-use super::problem::Problem;
+use super::problem::{Problem, unless};
 use super::project::Project;
 use super::world::World;
 use crate::types::{Anchor, Font};
@@ -15,18 +15,11 @@ const FURTHEST: f64 = 4.0;
 /// # Errors
 /// They name a glyph that is not there, an anchor lies far outside, or the features do not compile by themselves.
 pub(super) fn set(font: Font, project: &Project, world: World<'_>) -> Result<Font, Vec<Problem>> {
-    let problems = wrong(&font, project);
-    if !problems.is_empty() {
-        return Err(problems);
-    }
+    unless(wrong(&font, project), ())?;
     let mut font = font.map_glyphs(|glyph| {
         let mut glyph = glyph.clone();
-        for (name, &(x, y)) in project
-            .anchors
-            .get(glyph.name.as_str())
-            .into_iter()
-            .flatten()
-        {
+        let anchors = project.anchors.get(glyph.name.as_str());
+        for (name, &(x, y)) in anchors.into_iter().flatten() {
             glyph.anchors.retain(|a| a.name != *name);
             glyph.anchors.push(Anchor {
                 name: name.clone(),
@@ -42,7 +35,7 @@ pub(super) fn set(font: Font, project: &Project, world: World<'_>) -> Result<Fon
         }
     }
     if let Some(path) = &project.font.features {
-        let bytes = world.file(path).map_err(|p| vec![p])?;
+        let bytes = world.file(path)?;
         let text = String::from_utf8_lossy(&bytes);
         layout::check(&font, &path.display().to_string(), &text).map_err(|e| vec![e.into()])?;
         font.features = layout::with_features(&font, &text);
@@ -76,24 +69,16 @@ fn wrong(font: &Font, project: &Project) -> Vec<Problem> {
         }
     }
     for (pair, value) in &project.kerning {
+        let mut say = |why: String| say("kerning", pair, why);
         match pair.split_once(' ') {
-            None => say(
-                "kerning",
-                pair,
-                "write two glyph names with a space between".to_owned(),
-            ),
+            None => say("write two glyph names with a space between".to_owned()),
             Some((first, second)) => {
-                for why in [first, second.trim()].into_iter().filter_map(missing) {
-                    say("kerning", pair, why);
-                }
+                let both = [first, second.trim()].into_iter();
+                both.filter_map(missing).for_each(&mut say);
             }
         }
         if !is_near(value) {
-            say(
-                "kerning",
-                pair,
-                format!("{value} is out of range: {far} units at most"),
-            );
+            say(format!("{value} is out of range: {far} units at most"));
         }
     }
     problems

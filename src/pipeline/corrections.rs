@@ -2,7 +2,7 @@
 
 use super::labels::{SKIP, skips};
 use super::picture;
-use super::problem::Problem;
+use super::problem::{Problem, unless};
 use super::project::{CellTable, Cells, Project};
 use super::world::World;
 use crate::assemble::names;
@@ -48,11 +48,7 @@ impl Corrections {
                 Err(why) => problems.push(Problem::Correction { name: key, why }),
             }
         }
-        if problems.is_empty() {
-            Ok(out)
-        } else {
-            Err(problems)
-        }
+        unless(problems, out)
     }
 
     fn get(&self, label: &Label) -> Option<&(CellTable, Option<Region>)> {
@@ -95,10 +91,8 @@ impl Corrections {
 
     /// Where the cells of a page are said to be.
     pub(super) fn pins(&self, labels: &[Label]) -> Vec<Pin> {
-        let corrected = labels
-            .iter()
-            .enumerate()
-            .filter_map(|(i, l)| Some((i, self.get(l)?)));
+        let labels = labels.iter().enumerate();
+        let corrected = labels.filter_map(|(i, l)| Some((i, self.get(l)?)));
         let pins = corrected.map(|(index, (table, region))| Pin {
             index,
             region: region.clone(),

@@ -23,13 +23,11 @@ pub(super) fn remark(letters: &[Letter]) -> Option<Warning> {
     });
     let (px, em): (Vec<f64>, Vec<f64>) = blurs.unzip();
     let (px, em) = (median(px)?, median(em)?);
-    (px >= SHARP_PX && em >= MUCH).then(|| Warning {
-        index: None,
-        label: None,
-        message: format!(
+    (px >= SHARP_PX && em >= MUCH).then(|| {
+        Warning::of_page(format!(
             "the letters are out of focus: their edges are blurred by {px:.1} px, {:.0} thousandths of the em, and what is \
              smaller comes out round or is lost; take the picture again in focus, or scan the page",
             1000.0 * em
-        ),
+        ))
     })
 }

@@ -1,6 +1,6 @@
 //! The text of a project's `glyphs` → a label for each cell, checked before any page is read.
 
-use super::problem::{Place, Problem, all};
+use super::problem::{Place, Problem, all, unless};
 use super::project::{Content, Labels, Layout, Project, SheetTable};
 use super::repeats::Repeated;
 use super::world::World;
@@ -40,16 +40,12 @@ pub(super) fn of(project: &Project, world: World<'_>) -> Result<Vec<Vec<Label>>,
     let mut problems = check(letters.into_iter().map(|l| l.0));
     for ((name, words), sheet) in words {
         problems.extend(check_words(name, words));
-        problems.extend(unscaled(name, sheet));
+        problems.extend(unscaled(sheet));
     }
     if project.repeated != Repeated::Error {
         problems.retain(|p| !matches!(p, Problem::Twice { .. }));
     }
-    if problems.is_empty() {
-        Ok(pages)
-    } else {
-        Err(problems)
-    }
+    unless(problems, pages)
 }
 
 /// The labels as written.
@@ -85,11 +81,7 @@ pub(super) fn check<'a>(sheets: impl Iterator<Item = (&'a str, &'a [Label])>) ->
             if skips(label) {
                 continue;
             }
-            let place = Place {
-                sheet: sheet.to_owned(),
-                index,
-                label: Some(label.0.clone()),
-            };
+            let place = Place::new(sheet, index, label);
             match names::identify(label) {
                 Err(source) => problems.push(Problem::Label {
                     place,
@@ -111,23 +103,18 @@ pub(super) fn check<'a>(sheets: impl Iterator<Item = (&'a str, &'a [Label])>) ->
 }
 
 /// A page of words without a scale: no height in them tells it.
-fn unscaled(name: &str, sheet: &SheetTable) -> Option<Problem> {
+fn unscaled(sheet: &SheetTable) -> Option<Problem> {
     let told =
         sheet.layout == Layout::Template || sheet.pixels_per_em.is_some() || sheet.em_mm.is_some();
-    (!told).then(|| Problem::Sheet {
-        sheet: name.to_owned(),
-        why: "words do not tell how large the em is: write pixels_per_em or em_mm".to_owned(),
-    })
+    let why = "words do not tell how large the em is: write pixels_per_em or em_mm";
+    (!told).then(|| Problem::sheet(sheet, why))
 }
 
 /// What is wrong with the words of a page.
 fn check_words<'a>(sheet: &'a str, words: &'a [Label]) -> impl Iterator<Item = Problem> + 'a {
     let is_word = |word: &Label| {
-        word.0.chars().filter(|c| c.is_alphabetic()).count() > 1
-            && word
-                .0
-                .chars()
-                .all(|c| c.is_alphabetic() || is_combining_mark(c))
+        let letters = word.0.chars().filter(|c| c.is_alphabetic()).count();
+        letters > 1 && (word.0.chars()).all(|c| c.is_alphabetic() || is_combining_mark(c))
     };
     let wrong = words.iter().enumerate();
     let wrong = wrong.filter(move |(_, word)| !skips(word) && !is_word(word));

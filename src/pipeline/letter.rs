@@ -82,13 +82,8 @@ impl Letter {
     }
 
     /// Where it was drawn.
-    #[must_use]
     pub(super) fn spot(&self) -> Place {
-        Place {
-            sheet: self.sheet.clone(),
-            index: self.index,
-            label: Some(self.label.0.clone()),
-        }
+        Place::new(&self.sheet, self.index, &self.label)
     }
 
     /// From the curves' px to font units; x is the cell's own.

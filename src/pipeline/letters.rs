@@ -31,10 +31,10 @@ pub fn match_letters(
     project: &Project,
     world: World<'_>,
 ) -> Result<(Vec<Matched>, Vec<Doubt>), Vec<Problem>> {
-    let alphabet = alphabet(project, world).map_err(|p| vec![p])?;
+    let alphabet = alphabet(project, world)?;
     let (mut matched, mut remarks) = (Vec::new(), Vec::new());
     for sheet in of_letters(project) {
-        let labels = sheet_labels(sheet, world).map_err(|p| vec![p])?;
+        let labels = sheet_labels(sheet, world)?;
         let cells = source::cells(sheet, &labels, project, world)?;
         let guesses = guesses(&cells, seen(project), &alphabet);
         if !sheet.glyphs.is_auto() {
@@ -60,16 +60,16 @@ pub(super) fn resolve(
     project: &Project,
     world: World<'_>,
 ) -> Result<(Project, Vec<Doubt>), Vec<Problem>> {
-    let project = corrections::gathered(project, world).map_err(|p| vec![p])?;
+    let project = corrections::gathered(project, world)?;
     let (mut project, mut remarks) = (project, Vec::new());
     if !project.sheets.iter().any(|s| s.glyphs.is_auto()) {
         return Ok((project, remarks));
     }
-    let alphabet = alphabet(&project, world).map_err(|p| vec![p])?;
+    let alphabet = alphabet(&project, world)?;
     for i in 0..project.sheets.len() {
         let sheet = &project.sheets[i];
         if sheet.glyphs.is_auto() {
-            let labels = sheet_labels(sheet, world).map_err(|p| vec![p])?;
+            let labels = sheet_labels(sheet, world)?;
             let cells = source::cells(sheet, &labels, &project, world)?;
             let guesses = guesses(&cells, seen(&project), &alphabet);
             let (labels, unsure) = name(labels.len(), &cells, &guesses);
@@ -104,22 +104,19 @@ fn name(count: usize, cells: &[Cell], guesses: &[Vec<Guess>]) -> (Vec<String>, V
         });
         match (sure, labels.get_mut(cell.index), guesses.first()) {
             (Some(given), Some(label), _) => *label = given.label,
-            (_, _, Some(like)) => unsure.push(Finding::Unsure {
-                cell: cell.index,
-                like: like.label.clone(),
-                confidence: like.confidence,
-            }),
+            (_, _, Some(like)) => unsure.push((
+                cell.index,
+                Finding::Unsure {
+                    cell: cell.index,
+                    like: like.label.clone(),
+                    confidence: like.confidence,
+                },
+            )),
             _ => {}
         }
     }
-    unsure.sort_by_key(|f| {
-        if let Finding::Unsure { cell, .. } = f {
-            *cell
-        } else {
-            0
-        }
-    });
-    (labels, unsure)
+    unsure.sort_by_key(|u| u.0);
+    (labels, unsure.into_iter().map(|u| u.1).collect())
 }
 
 /// What speaks against the labels of letters already traced; nothing where the project names no reference.
@@ -165,10 +162,10 @@ fn sheet_labels(sheet: &SheetTable, world: World<'_>) -> Result<Vec<Label>, Prob
             Label("?".to_owned());
             rows.saturating_mul(columns).min(MOST_CELLS)
         ]),
-        (true, _) => Err(Problem::Sheet {
-            sheet: sheet.name(),
-            why: "glyphs = \"auto\" needs layout = { grid = [rows, columns] }".to_owned(),
-        }),
+        (true, _) => {
+            let why = "glyphs = \"auto\" needs layout = { grid = [rows, columns] }";
+            Err(Problem::sheet(sheet, why))
+        }
     }
 }
 

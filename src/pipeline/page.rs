@@ -61,7 +61,7 @@ pub(super) fn read(
         Err(problem) => !matches!(problem, Problem::Scan(_)),
     };
     if table.turn.is_some() || settled {
-        return first.map_err(|p| vec![p]);
+        return Ok(first?);
     }
     let turns = [Turn::Quarter, Turn::Half, Turn::ThreeQuarters].into_iter();
     let others = turns.filter_map(|turn| {
@@ -72,20 +72,14 @@ pub(super) fn read(
     match best.filter(|b| b.0 < limit) {
         Some((_, turn, mut page)) => {
             let degrees = u16::from(turn);
-            page.cut.warnings.insert(
-                0,
-                Warning {
-                    index: None,
-                    label: None,
-                    message: format!(
-                        "the letters stand for their names once the picture is turned by {degrees}° clockwise, and \
-                         so it was; write turn = {degrees}, or turn = 0 if that is wrong"
-                    ),
-                },
-            );
+            let turned = Warning::of_page(format!(
+                "the letters stand for their names once the picture is turned by {degrees}° clockwise, and \
+                 so it was; write turn = {degrees}, or turn = 0 if that is wrong"
+            ));
+            page.cut.warnings.insert(0, turned);
             Ok(page)
         }
-        None => first.map_err(|p| vec![p]),
+        None => Ok(first?),
     }
 }
 
@@ -95,15 +89,10 @@ fn read_turned(
     (labels, pins): (&[Label], &[Pin]),
     (project, world): (&Project, World<'_>),
 ) -> Result<Page, Problem> {
-    let wrong = |why| {
-        let sheet = table.name();
-        Problem::Sheet { sheet, why }
-    };
+    let options = table.cut_options(project.font.units_per_em);
     let options = Options {
         lines: labels::lines(table, world)?,
-        ..table
-            .cut_options(project.font.units_per_em)
-            .map_err(wrong)?
+        ..options.map_err(|why| Problem::sheet(table, why))?
     };
     let cut = |page: scan::Page| {
         let _time = world.watch.enter(Stage::Cut);
@@ -152,10 +141,7 @@ fn load(
     turn: Turn,
     (project, world): (&Project, World<'_>),
 ) -> Result<Sheet, Problem> {
-    let wrong = |why: String| Problem::Sheet {
-        sheet: table.name(),
-        why,
-    };
+    let wrong = |why: String| Problem::sheet(table, why);
     let [image] = table.image.as_slice() else {
         let why = "give one image; only layout = \"template\" takes several, or none before it is scanned";
         return Err(wrong(why.to_owned()));

@@ -3,7 +3,7 @@
 use super::batch::{self, Batch};
 use super::labels::{self, skips};
 use super::page::Page;
-use super::problem::Problem;
+use super::problem::{Problem, unless};
 use super::project::{Layout, Project, SheetTable};
 use super::watch::Stage;
 use super::world::World;
@@ -42,10 +42,10 @@ pub fn sheets(project: &Project, world: World<'_>) -> Result<Vec<template::Page>
             &project.font.family,
             &captions,
         );
-        printed.map_err(|e| vec![Problem::from(e)])
+        Ok(printed.map_err(Problem::from)?)
     });
-    let pages: Result<Vec<_>, _> = pages.collect();
-    Ok(pages?.into_iter().flatten().collect())
+    let pages: Result<Vec<_>, Vec<Problem>> = pages.collect();
+    Ok(pages?.concat())
 }
 
 const fn direction(table: &SheetTable) -> template::Direction {
@@ -92,20 +92,14 @@ impl<'a> Printing<'a> {
             table.ascender_to_descender,
         ];
         if scales.iter().any(Option::is_some) || table.order != Order::Rows {
-            return Err(Problem::Sheet {
-                sheet: table.name(),
-                why: "a template's pages say themselves how large letters are and in which order: take \
-                      the scale and the order away"
-                    .to_owned(),
-            });
+            let why = "a template's pages say themselves how large letters are and in which order: take \
+                       the scale and the order away";
+            return Err(Problem::sheet(table, why));
         }
         if !table.ink.layers().is_empty() {
-            return Err(Problem::Sheet {
-                sheet: table.name(),
-                why: "layers of several inks are made from pages of your own (grid, free or boxes): give one ink to a \
-                      template, or draw on other pages"
-                    .to_owned(),
-            });
+            let why = "layers of several inks are made from pages of your own (grid, free or boxes): give one ink to a \
+                       template, or draw on other pages";
+            return Err(Problem::sheet(table, why));
         }
         let names: Vec<String> = labels.iter().map(|l| l.0.clone()).collect();
         let pages = layout.places(&names, direction(table));
@@ -146,11 +140,7 @@ impl<'a> Printing<'a> {
         if seen.len() + problems.len() < self.pages.len() || problems.is_empty() {
             problems.extend(self.missing(&seen));
         }
-        if problems.is_empty() {
-            Ok(made.into_values().collect())
-        } else {
-            Err(problems)
-        }
+        unless(problems, made.into_values().collect())
     }
 
     /// The pages of a file, or the one that the table names.

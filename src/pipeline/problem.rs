@@ -1,5 +1,6 @@
 //! What went wrong where, and what to do about it.
 
+use super::project::SheetTable;
 use super::reference::ReferenceError;
 use crate::{
     assemble::{AssembleError, names::LabelError},
@@ -7,7 +8,7 @@ use crate::{
     quadratic::QuadraticError,
     scan::ScanError,
     template::TemplateError,
-    types::{Cell, OutlineError},
+    types::{Cell, Label, OutlineError},
     write::WriteError,
 };
 use std::fmt;
@@ -25,14 +26,18 @@ pub struct Place {
 }
 
 impl Place {
-    /// Where a cell lies.
-    #[must_use]
-    pub fn of(sheet: &str, cell: &Cell) -> Self {
+    /// The cell of a label.
+    pub(super) fn new(sheet: &str, index: usize, label: &Label) -> Self {
         Self {
             sheet: sheet.to_owned(),
-            index: cell.index,
-            label: Some(cell.label.0.clone()),
+            index,
+            label: Some(label.0.clone()),
         }
+    }
+
+    /// Where a cell lies.
+    pub(super) fn of(sheet: &str, cell: &Cell) -> Self {
+        Self::new(sheet, cell.index, &cell.label)
     }
 }
 
@@ -164,7 +169,21 @@ pub enum Problem {
     Write(#[from] WriteError),
 }
 
+impl From<Problem> for Vec<Problem> {
+    fn from(one: Problem) -> Self {
+        vec![one]
+    }
+}
+
 impl Problem {
+    /// What a table says does not fit its page.
+    pub(super) fn sheet(table: &SheetTable, why: impl Into<String>) -> Self {
+        Self::Sheet {
+            sheet: table.name(),
+            why: why.into(),
+        }
+    }
+
     /// What to do about it.
     #[must_use]
     pub fn help(&self) -> Option<&'static str> {
@@ -194,26 +213,23 @@ impl Problem {
 }
 
 /// All values, or all problems.
-pub(super) fn all<T>(results: Vec<Result<T, Problem>>) -> Result<Vec<T>, Vec<Problem>> {
-    all_lists(
-        results
-            .into_iter()
-            .map(|r| r.map_err(|p| vec![p]))
-            .collect(),
-    )
-}
-
-/// All values, or all problems.
-pub(super) fn all_lists<T>(results: Vec<Result<T, Vec<Problem>>>) -> Result<Vec<T>, Vec<Problem>> {
+pub(super) fn all<T, P: Into<Vec<Problem>>>(
+    results: Vec<Result<T, P>>,
+) -> Result<Vec<T>, Vec<Problem>> {
     let (mut values, mut problems) = (Vec::with_capacity(results.len()), Vec::new());
     for result in results {
         match result {
             Ok(value) => values.push(value),
-            Err(more) => problems.extend(more),
+            Err(more) => problems.extend(more.into()),
         }
     }
+    unless(problems, values)
+}
+
+/// A value, or the problems where there are any.
+pub(super) fn unless<T>(problems: Vec<Problem>, value: T) -> Result<T, Vec<Problem>> {
     if problems.is_empty() {
-        Ok(values)
+        Ok(value)
     } else {
         Err(problems)
     }

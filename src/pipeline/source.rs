@@ -6,7 +6,7 @@ use super::labels::is_space;
 use super::page::{self, Page};
 use super::picture;
 use super::printing::Printing;
-use super::problem::{Place, Problem};
+use super::problem::{Place, Problem, unless};
 use super::project::{Cells, Layout, Project, SheetTable};
 use super::world::World;
 use crate::assemble::names;
@@ -49,10 +49,9 @@ impl<'a> Source<'a> {
         let mut printing = None;
         if table.layout == Layout::Template {
             if let Some(problem) = corrections.unfit(labels.iter()) {
-                return Err(vec![problem]);
+                return Err(problem.into());
             }
-            let printed = Printing::new(project, table, labels);
-            printing = Some(printed.map_err(|p| vec![p])?);
+            printing = Some(Printing::new(project, table, labels)?);
         }
         Ok(Self {
             number,
@@ -119,14 +118,8 @@ impl<'a> Source<'a> {
                 ),
             });
         }
-        if problems.is_empty() {
-            Ok(Page {
-                table: self.number,
-                ..page
-            })
-        } else {
-            Err(problems)
-        }
+        page.table = self.number;
+        unless(problems, page)
     }
 
     /// How a letter is traced.
@@ -156,11 +149,7 @@ impl<'a> Source<'a> {
             return printing.join(batches);
         }
         let (made, _, problems) = batch::join(batches);
-        if problems.is_empty() {
-            Ok(made.into_values().collect())
-        } else {
-            Err(problems)
-        }
+        unless(problems, made.into_values().collect())
     }
 }
 
@@ -175,7 +164,7 @@ pub(super) fn cells(
     world: World<'_>,
 ) -> Result<Vec<Cell>, Vec<Problem>> {
     if table.layout == Layout::Template {
-        let printing = Printing::new(project, table, labels).map_err(|p| vec![p])?;
+        let printing = Printing::new(project, table, labels)?;
         let images = table.image.iter();
         let pages = printing.join(images.map(|i| printing.read(i, world)).collect())?;
         return Ok(pages.into_iter().flat_map(|p| p.cut.cells).collect());
@@ -217,12 +206,6 @@ fn clear_spaces(cut: &mut Cut) {
 /// Names without a letter.
 fn gaps<'a>(page: &Page, wanted: impl Iterator<Item = &'a (usize, Label)>) -> Vec<Problem> {
     let empty = page::empty(&page.cut, wanted.map(|(index, label)| (*index, label)));
-    let empty = empty.map(|(index, label)| {
-        Problem::Empty(Place {
-            sheet: page.name.clone(),
-            index,
-            label: Some(label.0.clone()),
-        })
-    });
+    let empty = empty.map(|(index, label)| Problem::Empty(Place::new(&page.name, index, label)));
     empty.collect()
 }

@@ -13,16 +13,8 @@ pub enum Stage {
     Clean,
     /// Upright page and its cells.
     Cut,
-    /// Contours of a cell.
+    /// A cell to curves.
     Trace,
-    /// Corners of the contours.
-    Corner,
-    /// Curves.
-    Fit,
-    /// Curves to the grey.
-    Refine,
-    /// Font units.
-    Place,
     /// Names, metrics, spacing, joining.
     Assemble,
     /// TrueType's curves.
@@ -40,10 +32,6 @@ impl fmt::Display for Stage {
             Self::Clean => "clean",
             Self::Cut => "cut",
             Self::Trace => "trace",
-            Self::Corner => "corner",
-            Self::Fit => "fit",
-            Self::Refine => "refine",
-            Self::Place => "place",
             Self::Assemble => "assemble",
             Self::Quadratic => "quadratic",
             Self::Measure => "measure",

@@ -3,13 +3,17 @@
 use super::SheetTable;
 use serde::de::Error;
 use serde::{Deserialize, Deserializer};
-use std::ops::RangeInclusive;
 use std::path::PathBuf;
 
-/// Units an em that the OpenType specification allows.
-const UNITS_PER_EM: RangeInclusive<u16> = 16..=16384;
-/// Weight classes that the OpenType specification allows.
-const WEIGHT: RangeInclusive<u16> = 1..=1000;
+/// A value that must be `fine`; the error says what it must be.
+fn checked<'de, D: Deserializer<'de>, T: Deserialize<'de>>(
+    from: D,
+    fine: impl Fn(&T) -> bool,
+    must: &str,
+) -> Result<T, D::Error> {
+    let value = Some(T::deserialize(from)?).filter(fine);
+    value.ok_or_else(|| D::Error::custom(must))
+}
 
 pub(super) fn named<'de, D: Deserializer<'de>>(from: D) -> Result<String, D::Error> {
     let text = String::deserialize(from)?;
@@ -39,94 +43,56 @@ pub(super) fn paths<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<PathBuf>, 
 }
 
 pub(super) fn version<'de, D: Deserializer<'de>>(from: D) -> Result<String, D::Error> {
-    let text = String::deserialize(from)?;
-    match version_numbers(&text) {
-        Some(_) => Ok(text),
-        None => Err(D::Error::custom(
-            "must be a whole number, a dot, and one to three digits, such as \"1.002\"",
-        )),
-    }
+    let must = "must be a whole number, a dot, and one to three digits, such as \"1.002\"";
+    checked(from, |text: &String| version_numbers(text).is_some(), must)
 }
 
+/// Units an em that the OpenType specification allows.
 pub(super) fn units_per_em<'de, D: Deserializer<'de>>(from: D) -> Result<u16, D::Error> {
-    within(u16::deserialize(from)?, &UNITS_PER_EM)
+    let must = "must be between 16 and 16384";
+    checked(from, |units| (16..=16384).contains(units), must)
 }
 
+/// Weight classes that the OpenType specification allows.
 pub(super) fn weight<'de, D: Deserializer<'de>>(from: D) -> Result<u16, D::Error> {
-    within(u16::deserialize(from)?, &WEIGHT)
-}
-
-fn within<E: Error>(value: u16, range: &RangeInclusive<u16>) -> Result<u16, E> {
-    if range.contains(&value) {
-        Ok(value)
-    } else {
-        let (low, high) = (range.start(), range.end());
-        Err(E::custom(format!("must be between {low} and {high}")))
-    }
+    let must = "must be between 1 and 1000";
+    checked(from, |weight| (1..=1000).contains(weight), must)
 }
 
 pub(super) fn vendor<'de, D: Deserializer<'de>>(from: D) -> Result<String, D::Error> {
-    let text = String::deserialize(from)?;
-    let legal = |b: u8| (0x20..0x7f).contains(&b);
-    if (1..=4).contains(&text.len()) && text.bytes().all(legal) {
-        Ok(text)
-    } else {
-        Err(D::Error::custom("must be one to four ASCII characters"))
-    }
+    let legal = |text: &String| {
+        (1..=4).contains(&text.len()) && text.bytes().all(|b| (0x20..0x7f).contains(&b))
+    };
+    checked(from, legal, "must be one to four ASCII characters")
 }
 
 /// Degrees from upright, either way.
 pub(super) fn slant<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
-    let angle = f64::deserialize(from)?;
-    if angle.abs() < 90.0 {
-        Ok(angle)
-    } else {
-        Err(D::Error::custom("must be between -90 and 90 degrees"))
-    }
+    let must = "must be between -90 and 90 degrees";
+    checked(from, |angle: &f64| angle.abs() < 90.0, must)
 }
 
-/// Largest size in px or font units: what a font file's 16 bits hold.
-const LARGEST: f64 = 32767.0;
-/// Smallest size: below, coordinates leave these bits by far.
-const SMALLEST: f64 = 0.001;
-
+/// A size in px or font units, of what a font file's 16 bits hold.
 pub(super) fn optional_size<'de, D: Deserializer<'de>>(from: D) -> Result<Option<f64>, D::Error> {
-    let size = f64::deserialize(from)?;
-    if (SMALLEST..=LARGEST).contains(&size) {
-        Ok(Some(size))
-    } else {
-        Err(D::Error::custom(
-            "must be above 0, at least 0.001, and at most 32767",
-        ))
-    }
+    let must = "must be above 0, at least 0.001, and at most 32767";
+    checked(from, |size| (0.001..=32767.0).contains(size), must).map(Some)
 }
 
 /// Degrees of a turn.
 pub(super) fn optional_angle<'de, D: Deserializer<'de>>(from: D) -> Result<Option<f64>, D::Error> {
-    let angle = f64::deserialize(from)?;
-    if angle.abs() <= 360.0 {
-        Ok(Some(angle))
-    } else {
-        Err(D::Error::custom("must be between -360 and 360 degrees"))
-    }
+    let must = "must be between -360 and 360 degrees";
+    checked(from, |angle: &f64| angle.abs() <= 360.0, must).map(Some)
 }
 
 /// A contour's coverage.
 pub(super) fn optional_level<'de, D: Deserializer<'de>>(from: D) -> Result<Option<f64>, D::Error> {
-    let level = f64::deserialize(from)?;
-    if (0.1..=0.9).contains(&level) {
-        Ok(Some(level))
-    } else {
-        Err(D::Error::custom("must be between 0.1 and 0.9"))
-    }
+    let must = "must be between 0.1 and 0.9";
+    checked(from, |level| (0.1..=0.9).contains(level), must).map(Some)
 }
 
 pub(super) fn some_sheets<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<SheetTable>, D::Error> {
-    let sheets = Vec::deserialize(from)?;
-    if sheets.is_empty() {
-        return Err(D::Error::custom("a font needs at least one [[sheet]]"));
-    }
-    Ok(sheets)
+    let must = "a font needs at least one [[sheet]]";
+    checked(from, |sheets: &Vec<_>| !sheets.is_empty(), must)
 }
 
 /// Major number and thousandths of a version such as `1.002` or `1.5`.

@@ -159,6 +159,16 @@ impl Rejected {
 }
 
 impl Warning {
+    /// About a page as a whole.
+    #[must_use]
+    pub fn of_page(message: impl Into<String>) -> Self {
+        Self {
+            index: None,
+            label: None,
+            message: message.into(),
+        }
+    }
+
     fn of(slot: &Slot, message: impl Into<String>) -> Self {
         Self {
             index: Some(slot.index),

@@ -124,16 +124,11 @@ impl Stance {
         } else {
             ("after", "is there a name too many")
         };
-        (gain > SHIFTED).then(|| Warning {
-            index: None,
-            label: None,
-            message: format!(
-                "cells {} “{}” to {} “{}” look as if each had the name {side} its own: {why}? look at the proof",
-                first + 1,
-                name(first),
-                last + 1,
-                name(last)
-            ),
+        let [from, to] = [first, last].map(|i| format!("{} “{}”", i + 1, name(i)));
+        (gain > SHIFTED).then(|| {
+            Warning::of_page(format!(
+                "cells {from} to {to} look as if each had the name {side} its own: {why}? look at the proof"
+            ))
         })
     }
 

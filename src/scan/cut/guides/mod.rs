@@ -130,14 +130,7 @@ fn scale(
                 "no scale is given: {px:.1} pixels an em are taken from the letters' usual heights; \
                  give pixels_per_em, em_mm, x_height, cap_height or ascender_to_descender"
             );
-            return Ok((
-                px,
-                Some(Warning {
-                    index: None,
-                    label: None,
-                    message,
-                }),
-            ));
+            return Ok((px, Some(Warning::of_page(message))));
         }
     };
     Ok((px, None))

@@ -20,14 +20,10 @@ impl Warning {
     /// What is to be said of a page whose ink was averaged over so many px.
     #[must_use]
     pub fn of_averaged(px: f64) -> Self {
-        Self {
-            index: None,
-            label: None,
-            message: format!(
-                "the ink is grain, as of a pencil or a dry brush: it was averaged over {px:.1} px; grain = \"keep\" \
-                 under [[sheet]] has it followed instead, which takes long"
-            ),
-        }
+        Self::of_page(format!(
+            "the ink is grain, as of a pencil or a dry brush: it was averaged over {px:.1} px; grain = \"keep\" \
+             under [[sheet]] has it followed instead, which takes long"
+        ))
     }
 }
 
@@ -36,12 +32,7 @@ pub(super) fn warning(page: &Page) -> Option<Warning> {
     if page.averaged_px > 0.0 {
         return Some(Warning::of_averaged(page.averaged_px));
     }
-    let message = followed(&page.sheet.gray, page.texture.grain)?;
-    Some(Warning {
-        index: None,
-        label: None,
-        message,
-    })
+    followed(&page.sheet.gray, page.texture.grain).map(Warning::of_page)
 }
 
 /// What is said of a page, paper 0 and ink 1, much of whose ink is grain that outlines follow.

@@ -144,25 +144,17 @@ impl Warning {
     /// What is to be said of a page in whose ink pale streaks were filled.
     #[must_use]
     pub fn of_filled() -> Self {
-        Self {
-            index: None,
-            label: None,
-            message: "the ink has pale streaks, as of a ballpoint: they were filled; streaks = \"keep\" under [[sheet]] \
-                      leaves them"
-                .to_owned(),
-        }
+        Self::of_page(
+            "the ink has pale streaks, as of a ballpoint: they were filled; streaks = \"keep\" under [[sheet]] leaves them",
+        )
     }
 }
 
 /// A remark where inks are to be told apart in a picture without colours.
 fn colourless(page: &Page, options: &Options) -> Option<Warning> {
     let useless = options.ink.choose() && page.sheet.colours.is_none();
-    useless.then(|| Warning {
-        index: None,
-        label: None,
-        message: "the picture has no colours, so `ink` tells nothing apart; scan it in colour, or leave `ink` out"
-            .to_owned(),
-    })
+    let message = "the picture has no colours, so `ink` tells nothing apart; scan it in colour, or leave `ink` out";
+    useless.then(|| Warning::of_page(message))
 }
 
 /// Warns of the letters whose names are hardly likelier than the ones beside them.
