@@ -152,7 +152,20 @@ fn listed(what: &str, all: &[String]) -> Option<String> {
     (!all.is_empty()).then(|| format!("{} {what}: {some}{more}", all.len()))
 }
 
-/// An empty `.notdef`.
-fn notdef() -> Glyph {
-    Glyph::new(Name::notdef(), Vec::new(), 500.0)
+/// Puts `.notdef` first: the one that is there, or an empty one.
+fn begin_with_notdef(glyphs: &mut Vec<Glyph>) {
+    match glyphs.iter().position(|g| g.name == Name::notdef()) {
+        Some(i) => glyphs[..=i].rotate_right(1),
+        None => glyphs.insert(0, Glyph::new(Name::notdef(), Vec::new(), 500.0)),
+    }
+}
+
+/// A whole number of 16 bits.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "clamped to 16 bits before"
+)]
+fn whole(v: f64) -> u16 {
+    v.round().clamp(0.0, 65535.0) as u16
 }

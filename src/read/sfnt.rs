@@ -1,7 +1,7 @@
 //! TTF, OTF, WOFF2 → Font, with every table that is not an outline carried along.
 
 use super::{Names, ReadError, Reading, cff::Charstrings, instance::Place, pen::Pen};
-use super::{collection, names};
+use super::{collection, names, whole};
 use crate::types::{Component, Font, Glyph, Info, Metrics, Outline};
 use kurbo::{Affine, BezPath};
 use skrifa::instance::{Location, Size};
@@ -101,23 +101,15 @@ fn glyphs(font: &FontRef<'_>, at: &Location, names: &mut Names) -> Result<Vec<Gl
     };
     let glyph = |n: u16| {
         let id = GlyphId::from(n);
-        let wanted = given
-            .get(id)
-            .map(|s| s.as_str().to_owned())
-            .unwrap_or_default();
-        let wanted = if n == 0 {
-            ".notdef"
-        } else if wanted == ".notdef" {
-            ""
-        } else {
-            &wanted
+        let given = given.get(id);
+        let wanted = match given.as_ref().map(|s| s.as_str()) {
+            _ if n == 0 => ".notdef",
+            None | Some(".notdef") => "",
+            Some(name) => name,
         };
         let name = names.claim(wanted, usize::from(n));
-        let mut glyph = Glyph::new(
-            name,
-            chars.remove(&id).unwrap_or_default(),
-            advance(&metrics, id),
-        );
+        let own = chars.remove(&id).unwrap_or_default();
+        let mut glyph = Glyph::new(name, own, advance(&metrics, id));
         glyph.outline = match &charstrings {
             Some(all) => closed(all.draw(id, at.coords())?.into_iter(), id)?,
             None => outline(&outlines, id, at)?,
@@ -155,24 +147,14 @@ fn compose(font: &FontRef<'_>, glyphs: &mut [Glyph]) {
             let simple = matches!(stored(base), Some(Stored::Simple(_)));
             let t = c.transform;
             let f = |v: F2Dot14| f64::from(v.to_f32());
-            let place = Affine::new([
-                f(t.xx),
-                f(t.yx),
-                f(t.xy),
-                f(t.yy),
-                f64::from(x),
-                f64::from(y),
-            ]);
-            let plain = simple
-                && !c
-                    .flags
-                    .contains(CompositeGlyphFlags::SCALED_COMPONENT_OFFSET);
-            plain.then(|| {
-                Some(Component {
-                    base: glyphs.get(base)?.name.clone(),
-                    place,
-                })
-            })?
+            let [xx, yx, xy, yy] = [t.xx, t.yx, t.xy, t.yy].map(f);
+            let place = Affine::new([xx, yx, xy, yy, x.into(), y.into()]);
+            let scaled = CompositeGlyphFlags::SCALED_COMPONENT_OFFSET;
+            let base = glyphs
+                .get(base)
+                .filter(|_| simple && !c.flags.contains(scaled))?;
+            let base = base.name.clone();
+            Some(Component { base, place })
         };
         let parts: Option<Vec<Component>> = composite.components().map(part).collect();
         if let Some(parts) = parts {
@@ -247,17 +229,9 @@ fn info(font: &FontRef<'_>, at: &Location) -> Info {
 }
 
 /// Major version and thousandths.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "clamped to 16 bits before"
-)]
 fn version(revision: f64) -> (u16, u16) {
     let r = revision.clamp(0.0, 32767.0);
-    (
-        r.trunc() as u16,
-        (r.fract() * 1000.0).round().min(999.0) as u16,
-    )
+    (whole(r.trunc()), whole(r.fract() * 1000.0).min(999))
 }
 
 fn carried(font: &FontRef<'_>) -> BTreeMap<[u8; 4], Vec<u8>> {

@@ -5,7 +5,7 @@ mod positions;
 #[cfg(test)]
 mod tests;
 
-use super::{ReadError, names};
+use super::{ReadError, names, whole};
 use crate::numeric::cast::single;
 use crate::types::{Glyph, Info};
 use names::text;
@@ -187,16 +187,9 @@ impl Place {
     pub(super) fn lay_out(&self, font: &FontRef<'_>, all: &mut Tables) -> Option<String> {
         let coords = self.location.coords();
         positions::settle(font, coords, all);
-        let vary = [
-            (
-                b"GSUB",
-                font.gsub().ok().and_then(|t| t.feature_variations()),
-            ),
-            (
-                b"GPOS",
-                font.gpos().ok().and_then(|t| t.feature_variations()),
-            ),
-        ];
+        let gsub = font.gsub().ok().and_then(|t| t.feature_variations());
+        let gpos = font.gpos().ok().and_then(|t| t.feature_variations());
+        let vary = [(b"GSUB", gsub), (b"GPOS", gpos)];
         let mut lost = None;
         for (tag, vary) in vary {
             if let (Some(table), Some(Ok(vary))) = (all.get_mut(tag), vary)
@@ -243,15 +236,9 @@ impl Place {
             (1 << 6, plain),
         ];
         let mac = [(1, style.is_bold), (2, style.is_italic), (0, true)];
-        let advances: Vec<f64> = glyphs
-            .iter()
-            .map(|g| g.advance)
-            .filter(|a| *a > 0.0)
-            .collect();
-        let count: f64 = advances.iter().map(|_| 1.0).sum();
-        change(all, b"OS/2", 2, |_| {
-            whole(advances.iter().sum::<f64>() / count)
-        });
+        let advances = glyphs.iter().map(|g| g.advance).filter(|a| *a > 0.0);
+        let mean = advances.clone().sum::<f64>() / advances.count() as f64;
+        change(all, b"OS/2", 2, |_| whole(mean));
         change(all, b"OS/2", 4, |_| info.weight);
         change(all, b"OS/2", 6, |old| width.unwrap_or(old));
         change(all, b"OS/2", 62, |old| bits(old, selection));
@@ -294,14 +281,4 @@ fn change(all: &mut Tables, table: &[u8; 4], at: usize, new: impl FnOnce(u16) ->
 fn moved_by(old: u16, delta: f64) -> u16 {
     let new = f64::from(old.cast_signed()) + delta;
     (new.clamp(-32768.0, 32767.0) as i16).cast_unsigned()
-}
-
-/// A whole number of 16 bits.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "clamped to 16 bits before"
-)]
-fn whole(v: f64) -> u16 {
-    v.round().clamp(0.0, 65535.0) as u16
 }

@@ -1,5 +1,6 @@
 //! Contours cut at a clip path.
 
+use super::farthest;
 use kurbo::{BezPath, PathEl, Point, Shape};
 use linesweeper::topology::{BinaryWindingNumber, Topology};
 use std::collections::BTreeMap;
@@ -26,9 +27,7 @@ pub(super) fn within(contours: &[BezPath], clip: &[BezPath]) -> Option<Vec<BezPa
     if is_frame && all == frame {
         return Some(contours.to_vec());
     }
-    let far = [all.x0, all.y0, all.x1, all.y1];
-    let far = far.iter().fold(0.0, |far: f64, v| far.max(v.abs()));
-    let eps = ACCURACY.max(far * PRECISION);
+    let eps = ACCURACY.max(farthest(all) * PRECISION);
     let cut = Topology::from_paths_binary(&settled(&ink), &settled(&area), eps).ok()?;
     let inside = |w: &BinaryWindingNumber| w.shape_a != 0 && w.shape_b != 0;
     let cut = is_sound(&cut).then(|| cut.contours(inside))?;

@@ -3,10 +3,10 @@
 mod clip;
 mod unread;
 
-use super::{Names, ReadError, Reading, listed, notdef};
+use super::{Names, ReadError, Reading, begin_with_notdef, listed};
 use crate::types::{Font, Glyph, Info, Metrics, Outline, characters};
 use clip::within;
-use kurbo::{Affine, BezPath, Point, Rect, Shape};
+use kurbo::{Affine, BezPath, PathEl, Point, Rect, Shape};
 use std::collections::BTreeSet;
 use std::path::Path as FilePath;
 use unread::unread;
@@ -60,23 +60,17 @@ pub fn svg(files: &[(String, Vec<u8>)]) -> Result<Reading, ReadError> {
     if glyphs.iter().all(|g| g.outline.is_empty()) {
         return Err(ReadError::Empty);
     }
-    let first = notdef();
-    match glyphs.iter().position(|g| g.name == first.name) {
-        Some(i) => glyphs[..=i].rotate_right(1),
-        None => glyphs.insert(0, first),
-    }
+    begin_with_notdef(&mut glyphs);
     let metrics = Metrics {
         ascender: reach.0,
         descender: reach.1,
         ..Metrics::default()
     };
-    let font = Font::new(
-        Info {
-            metrics,
-            ..Info::default()
-        },
-        glyphs,
-    )?;
+    let info = Info {
+        metrics,
+        ..Info::default()
+    };
+    let font = Font::new(info, glyphs)?;
     lost.extend(listed(
         "characters that names do not tell, or that another drawing has",
         &mute,
@@ -278,17 +272,11 @@ fn contours(path: &Path, place: Affine, rule: FillRule) -> Vec<BezPath> {
         }
         FillRule::EvenOdd => (0..out.len())
             .map(|i| {
-                let start = out[i]
-                    .elements()
-                    .first()
-                    .and_then(kurbo::PathEl::end_point)
-                    .unwrap_or_default();
-                let inside = out
-                    .iter()
-                    .enumerate()
-                    .filter(|(j, c)| *j != i && c.winding(start) != 0)
-                    .count();
-                (out[i].area() < 0.0) != (inside % 2 == 1)
+                let start = out[i].elements().first().and_then(PathEl::end_point);
+                let start = start.unwrap_or_default();
+                let others = out.iter().enumerate().filter(|(j, _)| *j != i);
+                let around = others.filter(|(_, c)| c.winding(start) != 0);
+                (out[i].area() < 0.0) != (around.count() % 2 == 1)
             })
             .collect(),
     };

@@ -1,5 +1,6 @@
 //! What a UFO says about itself.
 
+use crate::read::whole;
 use crate::types::{Info, Metrics};
 use plist::Value;
 
@@ -33,6 +34,14 @@ pub(super) fn info(source: &norad::FontInfo) -> Info {
     let em = source.units_per_em.as_ref().map_or(1000.0, |v| **v);
     let number = |v: Option<f64>| v.unwrap_or(0.0);
     let either = |first: &Option<String>, second: &Option<String>| first.clone().or(second.clone());
+    let hhea = source.open_type_hhea_ascender;
+    let ascender = hhea.or(source.open_type_os2_typo_ascender);
+    let ascender = height(source.ascender, ascender);
+    let hhea = source.open_type_hhea_descender;
+    let descender = hhea.or(source.open_type_os2_typo_descender);
+    let descender = height(source.descender, descender);
+    let hhea = source.open_type_hhea_line_gap;
+    let line_gap = hhea.or(source.open_type_os2_typo_line_gap).map(f64::from);
     Info {
         family: either(
             &source.open_type_name_preferred_family_name,
@@ -68,39 +77,18 @@ pub(super) fn info(source: &norad::FontInfo) -> Info {
             .and_then(vendor)
             .unwrap_or(default.vendor_id),
         metrics: Metrics {
-            ascender: height(
-                source.ascender,
-                [
-                    source.open_type_hhea_ascender,
-                    source.open_type_os2_typo_ascender,
-                ],
-            )
-            .unwrap_or(0.8 * em),
-            descender: height(
-                source.descender,
-                [
-                    source.open_type_hhea_descender,
-                    source.open_type_os2_typo_descender,
-                ],
-            )
-            .unwrap_or(-0.2 * em)
-            .min(0.0),
-            line_gap: number(height(
-                None,
-                [
-                    source.open_type_hhea_line_gap,
-                    source.open_type_os2_typo_line_gap,
-                ],
-            )),
+            ascender: ascender.unwrap_or(0.8 * em),
+            descender: descender.unwrap_or(-0.2 * em).min(0.0),
+            line_gap: number(line_gap),
             x_height: number(source.x_height),
             cap_height: number(source.cap_height),
         },
     }
 }
 
-/// A height: the first one that is said for OpenType. Those are whole, so that a fraction beside it says more.
-fn height(own: Option<f64>, opentype: [Option<i32>; 2]) -> Option<f64> {
-    let whole = opentype.into_iter().flatten().next().map(f64::from);
+/// A height, and that which is said for OpenType. Those are whole, so that a fraction beside it says more.
+fn height(own: Option<f64>, opentype: Option<i32>) -> Option<f64> {
+    let whole = opentype.map(f64::from);
     let own = own.filter(|v| whole.is_none_or(|w| (w - v).abs() < WHOLE));
     own.or(whole)
 }
@@ -161,11 +149,6 @@ pub(super) fn unread(source: &norad::FontInfo, info: &Info) -> Option<String> {
 }
 
 /// A whole number of 16 bits, or what stands for a missing one.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "clamped to 16 bits before"
-)]
 fn small(v: Option<f64>, missing: u16) -> u16 {
-    v.map_or(missing, |v| v.round().clamp(0.0, 65535.0) as u16)
+    v.map_or(missing, whole)
 }

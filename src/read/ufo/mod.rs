@@ -4,13 +4,14 @@ mod damage;
 mod info;
 mod kerning;
 
-use super::{Names, ReadError, Reading, listed, notdef};
+use super::{Names, ReadError, Reading, begin_with_notdef, listed};
 use crate::types::{Anchor, Component, Font, Glyph, Name, Outline};
 use damage::damage;
 use info::{info, unread};
 use kerning::kerning;
 use kurbo::{PathEl, Point};
 use norad::{ContourPoint, PointType};
+use plist::Value;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
@@ -35,10 +36,7 @@ pub fn ufo(folder: &Path) -> Result<Reading, ReadError> {
     let named: Named<'_> = named.collect();
     let glyphs = all.iter().map(|g| glyph(g, &named, &mut lost));
     let mut glyphs = glyphs.collect::<Result<Vec<Glyph>, _>>()?;
-    match glyphs.iter().position(|g| g.name == Name::notdef()) {
-        Some(i) => glyphs[..=i].rotate_right(1),
-        None => glyphs.insert(0, notdef()),
-    }
+    begin_with_notdef(&mut glyphs);
     if glyphs.iter().all(|g| g.outline.is_empty()) {
         return Err(ReadError::Empty);
     }
@@ -104,14 +102,9 @@ fn beside(source: &norad::Font, all: &[&norad::Glyph]) -> Vec<String> {
 
 /// Glyph names in the order the UFO gives, then the others by name.
 fn order(source: &norad::Font) -> Vec<String> {
-    let given = source
-        .lib
-        .get("public.glyphOrder")
-        .and_then(|v| v.as_array());
-    let given = given
-        .into_iter()
-        .flatten()
-        .filter_map(|v| v.as_string().map(str::to_owned));
+    let given = source.lib.get("public.glyphOrder");
+    let given = given.and_then(Value::as_array).into_iter().flatten();
+    let given = given.filter_map(|v| v.as_string().map(str::to_owned));
     let all: BTreeSet<String> = source.iter_names().map(|n| n.to_string()).collect();
     let mut seen = BTreeSet::new();
     let once = given.chain(all).filter(|name| seen.insert(name.clone()));
