@@ -21,6 +21,7 @@ pub mod refit;
 pub mod shortest;
 pub mod side;
 pub mod skyline;
+pub mod svg;
 pub mod tone;
 pub mod turns;
 pub mod view;

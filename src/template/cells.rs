@@ -109,10 +109,7 @@ fn touches(ink: Rect, field: Rect, joins: &Joins) -> bool {
 
 /// A rectangle of the page at `px_per_mm`.
 fn resample(sheet: &Sheet, view: &View, field: Rect, px_per_mm: f64) -> Tile {
-    let (w, h) = (
-        index(field.width() * px_per_mm),
-        index(field.height() * px_per_mm),
-    );
+    let [w, h] = [field.width(), field.height()].map(|side| index(side * px_per_mm));
     let page = |p: Point| field.origin() + p.to_vec2() / px_per_mm;
     let mut samples = Vec::with_capacity(w * h);
     for y in 0..h {

@@ -131,11 +131,11 @@ fn dark(gray: &Gray) -> GrayImage {
     })
 }
 
-/// A blot of the reduced picture.
+/// Connected pixels of a picture of bits.
 #[derive(Debug, Clone, Copy)]
-struct Blot {
-    bounds: Rect,
-    area: f64,
+pub(super) struct Blot {
+    pub(super) bounds: Rect,
+    pub(super) area: f64,
 }
 
 impl Blot {
@@ -148,29 +148,22 @@ impl Blot {
     }
 }
 
-fn blots(gray: &Gray) -> Vec<Blot> {
-    let labels = connected_components(&dark(gray), Connectivity::Eight, Luma([0]));
+/// The blots of a picture of bits.
+pub(super) fn blots(bits: &GrayImage) -> Vec<Blot> {
+    let labels = connected_components(bits, Connectivity::Eight, Luma([0]));
     let mut blots: Vec<Blot> = Vec::new();
     for (x, y, Luma([label])) in labels.enumerate_pixels() {
         let Some(i) = (*label as usize).checked_sub(1) else {
             continue;
         };
-        let pixel = Rect::from_origin_size((f64::from(x), f64::from(y)), (1.0, 1.0));
-        if i >= blots.len() {
-            blots.resize(
-                i + 1,
-                Blot {
-                    bounds: pixel,
-                    area: 0.0,
-                },
-            );
-            blots[i].bounds = pixel;
-        }
+        let bounds = Rect::from_origin_size((f64::from(x), f64::from(y)), (1.0, 1.0));
+        let none = Blot { bounds, area: 0.0 };
+        blots.resize(blots.len().max(i + 1), none);
         let blot = &mut blots[i];
         blot.bounds = if blot.area > 0.0 {
-            blot.bounds.union(pixel)
+            blot.bounds.union(bounds)
         } else {
-            pixel
+            bounds
         };
         blot.area += 1.0;
     }
@@ -183,7 +176,7 @@ fn rings(gray: &Gray) -> Vec<Point> {
         let (w, h) = (b.bounds.width(), b.bounds.height());
         w >= 3.0 && h >= 3.0 && (0.55..1.8).contains(&(w / h))
     };
-    let all = blots(gray);
+    let all = blots(&dark(gray));
     let discs: Vec<&Blot> = all
         .iter()
         .filter(round)

@@ -3,10 +3,10 @@
 use super::TemplateError;
 use super::draw::Page;
 use crate::numeric::cast::single;
+use crate::numeric::svg::path_data;
 use kurbo::PathEl;
 use pdf_writer::{Content, Finish, Pdf, Rect, Ref};
 use resvg::tiny_skia::{Color, Pixmap};
-use std::fmt::Write;
 use usvg::{Options, Transform, Tree};
 
 /// Millimetres an inch.
@@ -24,25 +24,10 @@ pub fn svg(page: &Page) -> String {
     );
     for paint in &page.paints {
         let [r, g, b] = paint.ink.rgb();
-        // a String takes all that is written to it
-        let _ = write!(out, "<path fill=\"#{r:02x}{g:02x}{b:02x}\" d=\"");
-        for el in paint.path.elements() {
-            let _ = match *el {
-                PathEl::MoveTo(p) => write!(out, "M{:.3} {:.3}", p.x, p.y),
-                PathEl::LineTo(p) => write!(out, "L{:.3} {:.3}", p.x, p.y),
-                PathEl::QuadTo(a, p) => write!(out, "Q{:.3} {:.3} {:.3} {:.3}", a.x, a.y, p.x, p.y),
-                PathEl::CurveTo(a, b, p) => write!(
-                    out,
-                    "C{:.3} {:.3} {:.3} {:.3} {:.3} {:.3}",
-                    a.x, a.y, b.x, b.y, p.x, p.y
-                ),
-                PathEl::ClosePath => write!(out, "Z"),
-            };
-        }
-        out.push_str("\"/>\n");
+        let d = path_data(&paint.path, |v| format!("{v:.3}"));
+        out += &format!("<path fill=\"#{r:02x}{g:02x}{b:02x}\" d=\"{d}\"/>\n");
     }
-    out.push_str("</svg>\n");
-    out
+    out + "</svg>\n"
 }
 
 /// All pages as one PDF file.
@@ -78,6 +63,10 @@ fn points(mm: f64) -> f32 {
 fn drawing(page: &Page) -> Vec<u8> {
     let mut c = Content::new();
     let y = |v: f64| points(page.size.height - v);
+    let curve = |c: &mut Content, [a, b, p]: [kurbo::Point; 3]| {
+        let [(ax, ay), (bx, by), (x, y)] = [a, b, p].map(|p| (points(p.x), y(p.y)));
+        c.cubic_to(ax, ay, bx, by, x, y);
+    };
     for paint in &page.paints {
         let [r, g, b] = paint.ink.rgb().map(|v| f32::from(v) / 255.0);
         c.set_fill_rgb(r, g, b);
@@ -87,26 +76,9 @@ fn drawing(page: &Page) -> Vec<u8> {
                 PathEl::MoveTo(p) => drop(c.move_to(points(p.x), y(p.y))),
                 PathEl::LineTo(p) => drop(c.line_to(points(p.x), y(p.y))),
                 PathEl::QuadTo(a, p) => {
-                    let (a1, a2) = (last.lerp(a, 2.0 / 3.0), p.lerp(a, 2.0 / 3.0));
-                    c.cubic_to(
-                        points(a1.x),
-                        y(a1.y),
-                        points(a2.x),
-                        y(a2.y),
-                        points(p.x),
-                        y(p.y),
-                    );
+                    curve(&mut c, [last.lerp(a, 2.0 / 3.0), p.lerp(a, 2.0 / 3.0), p]);
                 }
-                PathEl::CurveTo(a, b, p) => {
-                    c.cubic_to(
-                        points(a.x),
-                        y(a.y),
-                        points(b.x),
-                        y(b.y),
-                        points(p.x),
-                        y(p.y),
-                    );
-                }
+                PathEl::CurveTo(a, b, p) => curve(&mut c, [a, b, p]),
                 PathEl::ClosePath => drop(c.close_path()),
             }
             last = el.end_point().unwrap_or(last);

@@ -1,12 +1,11 @@
 //! Ink that lies outside all fields of a recognised page.
 
-use super::find::{Found, sample};
+use super::find::{Blot, Found, blots, sample};
 use super::layout::{Layout, Place};
 use crate::numeric::cast::index;
 use crate::numeric::median::quantile;
 use crate::types::Sheet;
 use image::{GrayImage, Luma};
-use imageproc::region_labelling::{Connectivity, connected_components};
 use kurbo::{Point, Rect};
 use rayon::prelude::*;
 
@@ -69,34 +68,12 @@ pub fn stray(sheet: &Sheet, layout: &Layout, found: &Found, places: &[Place]) ->
     let bits = GrayImage::from_fn(w as u32, h as u32, |x, y| {
         Luma([u8::from(inked(x as usize, y as usize))])
     });
-    pieces(&bits)
-        .into_iter()
-        .filter(|(_, count)| count / (PER_MM * PER_MM) > DUST)
-        .map(|(r, count)| {
-            let there = Rect::from_points(page(r.x0, r.y0), page(r.x1, r.y1));
-            let scale = found.view.scale(there.center()) / PER_MM;
-            (found.view.bounds(there), count * scale * scale)
-        })
-        .collect()
-}
-
-/// Connected pieces: rectangle and count of pixels.
-fn pieces(bits: &GrayImage) -> Vec<(Rect, f64)> {
-    let labels = connected_components(bits, Connectivity::Eight, Luma([0]));
-    let mut out: Vec<(Rect, f64)> = Vec::new();
-    for (x, y, Luma([label])) in labels.enumerate_pixels() {
-        let Some(i) = (*label as usize).checked_sub(1) else {
-            continue;
-        };
-        let pixel = Rect::from_origin_size((f64::from(x), f64::from(y)), (1.0, 1.0));
-        out.resize(out.len().max(i + 1), (Rect::ZERO, 0.0));
-        let (bounds, count) = &mut out[i];
-        *bounds = if *count > 0.0 {
-            bounds.union(pixel)
-        } else {
-            pixel
-        };
-        *count += 1.0;
-    }
-    out
+    let large = |b: &Blot| b.area / (PER_MM * PER_MM) > DUST;
+    let pieces = blots(&bits).into_iter().filter(large);
+    let there = pieces.map(|Blot { bounds: r, area }| {
+        let there = Rect::from_points(page(r.x0, r.y0), page(r.x1, r.y1));
+        let scale = found.view.scale(there.center()) / PER_MM;
+        (found.view.bounds(there), area * scale * scale)
+    });
+    there.collect()
 }

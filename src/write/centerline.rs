@@ -1,11 +1,11 @@
 //! Lines that a pen drew, as SVG strokes or as the open contours of a UFO.
 
 use super::WriteError;
-use super::path::path_data;
 use super::picture::{pixels, to_picture};
 use super::ufo::files::bytes;
 use super::ufo::node;
 use super::ufo::states::sign;
+use crate::numeric::svg::path_data;
 use crate::types::{Centerline, Files, PenDot, PenLine};
 use kurbo::{Affine, BezPath, PathEl, Point};
 use norad::{Codepoints, Contour, PointType};

@@ -1,9 +1,8 @@
 //! Layers and palette: COLR version 0 and CPAL.
 
 use super::WriteError;
-use super::numbers::count;
+use super::numbers::{count, ids};
 use crate::types::Font;
-use std::collections::BTreeMap;
 use write_fonts::tables::colr::{BaseGlyph, Colr, Layer};
 use write_fonts::tables::cpal::{ColorRecord, Cpal};
 use write_fonts::types::GlyphId16;
@@ -15,11 +14,7 @@ const FOREGROUND: u16 = 0xFFFF;
 /// Both tables, of a font with layers.
 pub(super) fn tables(font: &Font) -> Result<Option<(Colr, Cpal)>, WriteError> {
     let glyphs = font.glyphs();
-    let ids: BTreeMap<&str, usize> = glyphs
-        .iter()
-        .zip(0..)
-        .map(|(g, i)| (g.name.as_str(), i))
-        .collect();
+    let ids = ids(font);
     let (mut bases, mut layers) = (Vec::new(), Vec::new());
     for (i, glyph) in glyphs
         .iter()

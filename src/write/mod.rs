@@ -13,7 +13,6 @@ mod names;
 mod numbers;
 mod os2;
 mod otf;
-mod path;
 pub mod picture;
 pub mod proof;
 mod sfnt;
@@ -58,6 +57,13 @@ pub enum WriteError {
 }
 
 impl WriteError {
+    fn range(what: impl Into<String>, value: impl ToString) -> Self {
+        Self::Range {
+            what: what.into(),
+            value: value.to_string(),
+        }
+    }
+
     fn table(table: &str, error: impl ToString) -> Self {
         Self::Table {
             table: table.to_owned(),

@@ -1,6 +1,9 @@
 //! Font units to the integers of a font file, checked.
 
 use super::WriteError;
+use crate::types::Font;
+use kurbo::Rect;
+use std::collections::BTreeMap;
 
 /// A number of font units as a signed 16-bit integer, rounded half up as FontTools does.
 #[expect(
@@ -9,14 +12,9 @@ use super::WriteError;
 )]
 pub(super) fn to_i16(value: f64, what: impl FnOnce() -> String) -> Result<i16, WriteError> {
     let rounded = (value + 0.5).floor();
-    if rounded >= f64::from(i16::MIN) && rounded <= f64::from(i16::MAX) {
-        Ok(rounded as i16)
-    } else {
-        Err(WriteError::Range {
-            what: what(),
-            value: format!("{value}"),
-        })
-    }
+    let fits = rounded >= f64::from(i16::MIN) && rounded <= f64::from(i16::MAX);
+    let rounded = fits.then_some(rounded as i16);
+    rounded.ok_or_else(|| WriteError::range(what(), value))
 }
 
 /// A number of font units as an unsigned 16-bit integer.
@@ -27,20 +25,24 @@ pub(super) fn to_i16(value: f64, what: impl FnOnce() -> String) -> Result<i16, W
 )]
 pub(super) fn to_u16(value: f64, what: impl FnOnce() -> String) -> Result<u16, WriteError> {
     let rounded = (value + 0.5).floor();
-    if rounded >= 0.0 && rounded <= f64::from(u16::MAX) {
-        Ok(rounded as u16)
-    } else {
-        Err(WriteError::Range {
-            what: what(),
-            value: format!("{value}"),
-        })
-    }
+    let fits = rounded >= 0.0 && rounded <= f64::from(u16::MAX);
+    let rounded = fits.then_some(rounded as u16);
+    rounded.ok_or_else(|| WriteError::range(what(), value))
+}
+
+/// The glyphs' numbers by their names.
+pub(super) fn ids(font: &Font) -> BTreeMap<&str, usize> {
+    let names = font.glyphs().iter().map(|g| g.name.as_str());
+    names.zip(0..).collect()
+}
+
+/// The box around all of some, of nothing where there is none.
+pub(super) fn around(boxes: &[Option<Rect>]) -> Rect {
+    let all = boxes.iter().flatten().copied().reduce(|a, b| a.union(b));
+    all.unwrap_or(Rect::ZERO)
 }
 
 /// A count as a 16-bit number.
 pub(super) fn count(n: usize, what: &str) -> Result<u16, WriteError> {
-    u16::try_from(n).map_err(|_| WriteError::Range {
-        what: what.to_owned(),
-        value: n.to_string(),
-    })
+    u16::try_from(n).map_err(|_| WriteError::range(what, n))
 }

@@ -1,7 +1,7 @@
 //! The OS/2 table: weight, heights, and the blocks and code pages that the font covers.
 
 use super::WriteError;
-use super::numbers::{to_i16, to_u16};
+use super::numbers::{around, to_i16, to_u16};
 use crate::types::{Font, Info};
 use kurbo::Rect;
 use std::collections::BTreeSet;
@@ -103,8 +103,7 @@ pub(super) fn table(
     let part = |share: f64| to_i16(share * em, || "a part of the em".to_owned());
     let m = info.metrics;
     let height = |v: f64, what: &str| to_i16(v, || what.to_owned());
-    let all = extents.iter().flatten().copied().reduce(|a, b| a.union(b));
-    let all = all.unwrap_or(Rect::ZERO);
+    let all = around(extents);
     let chars: BTreeSet<char> = font
         .glyphs()
         .iter()
@@ -150,13 +149,9 @@ pub(super) fn table(
 
 /// Mean of the advances that are not zero.
 fn average(advances: &[u16]) -> i16 {
-    let wide: Vec<u64> = advances
-        .iter()
-        .filter(|&&a| a > 0)
-        .map(|&a| u64::from(a))
-        .collect();
-    let count = u64::try_from(wide.len()).unwrap_or(0).max(1);
-    let mean = (wide.iter().sum::<u64>() + count / 2) / count;
+    let wide = advances.iter().filter(|a| **a > 0).map(|a| usize::from(*a));
+    let count = wide.clone().count().max(1);
+    let mean = (wide.sum::<usize>() + count / 2) / count;
     i16::try_from(mean).unwrap_or(i16::MAX)
 }
 

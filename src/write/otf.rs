@@ -1,6 +1,6 @@
 //! OpenType with CFF outlines: cubics as they were fitted.
 
-use super::numbers::{to_i16, to_u16};
+use super::numbers::{around, to_i16, to_u16};
 use super::{WriteError, cff, sfnt};
 use crate::types::Font;
 use kurbo::{BezPath, PathEl, Point, Rect, Shape};
@@ -19,10 +19,8 @@ pub(super) fn bytes(font: &Font) -> Result<Vec<u8>, WriteError> {
         })?));
     }
     let extents: Vec<Option<Rect>> = shapes.iter().map(extent).collect();
-    let bounds = extents.iter().flatten().copied().reduce(|a, b| a.union(b));
     let mut common = sfnt::common(font, &extents)?;
-    let bounds = bounds.unwrap_or(Rect::ZERO);
-    let cff = cff::table(font, &common.post, (&shapes, &advances), bounds)?;
+    let cff = cff::table(font, &common.post, (&shapes, &advances), around(&extents))?;
     // the names stand in the CFF table
     common.post.version = Version16Dot16::VERSION_3_0;
     common.post.num_glyphs = None;

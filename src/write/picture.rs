@@ -1,6 +1,6 @@
 //! One picture's curves as SVG, in its own px.
 
-use super::path::path_data;
+use crate::numeric::svg::path_data;
 use kurbo::{Affine, BezPath};
 
 /// Decimals of a coordinate, px.

@@ -1,6 +1,6 @@
 //! The tables that TrueType and CFF fonts share.
 
-use super::numbers::{count, to_i16, to_u16};
+use super::numbers::{around, count, to_i16, to_u16};
 use super::{WriteError, colour, layout, names, os2};
 use crate::types::{Font, Glyph, Info};
 use kurbo::Rect;
@@ -240,8 +240,7 @@ fn cmap(font: &Font) -> Result<Cmap, WriteError> {
 }
 
 fn head(font: &Font, extents: &[Option<Rect>]) -> Result<Head, WriteError> {
-    let all = extents.iter().flatten().copied().reduce(|a, b| a.union(b));
-    let all = all.unwrap_or(Rect::ZERO);
+    let all = around(extents);
     let edge = |v: f64| to_i16(v, || "the edge of a glyph".to_owned());
     let own = carried(font, b"head").unwrap_or_else(|| description(&font.info));
     let instructed =

@@ -2,7 +2,7 @@
 //! advance; where that is 0 the box is as wide as the ink, and `data-advance` says so.
 
 use super::WriteError;
-use super::path::path_data;
+use crate::numeric::svg::path_data;
 use crate::types::{Files, Font, Glyph, Layer, Name};
 use kurbo::Affine;
 use std::collections::BTreeSet;

@@ -1,6 +1,6 @@
 //! TrueType: quadratic outlines, composites, and no instructions.
 
-use super::numbers::{count, to_i16};
+use super::numbers::{count, ids, to_i16};
 use super::{WriteError, sfnt};
 use crate::numeric::cast::single;
 use crate::types::{Component, Font, Glyph};
@@ -47,13 +47,8 @@ pub(super) fn bytes(font: &Font) -> Result<Vec<u8>, WriteError> {
 
 fn extent(glyph: &Written) -> Option<Rect> {
     let b = glyph.bbox()?;
-    let edge = |v: i16| f64::from(v);
-    Some(Rect::new(
-        edge(b.x_min),
-        edge(b.y_min),
-        edge(b.x_max),
-        edge(b.y_max),
-    ))
+    let [x0, y0, x1, y1] = [b.x_min, b.y_min, b.x_max, b.y_max].map(f64::from);
+    Some(Rect { x0, y0, x1, y1 })
 }
 
 /// Every glyph as the file holds it, in glyph-id order.
@@ -64,35 +59,22 @@ struct Glyphs<'a> {
 
 impl<'a> Glyphs<'a> {
     fn of(font: &'a Font) -> Result<Self, WriteError> {
-        let ids: BTreeMap<&str, usize> = font
-            .glyphs()
-            .iter()
-            .zip(0..)
-            .map(|(g, i)| (g.name.as_str(), i))
-            .collect();
-        let simple: Vec<Written> = font
-            .glyphs()
-            .iter()
-            .map(|g| {
-                if is_composite(font, g) {
-                    Ok(Written::Empty)
-                } else {
-                    simple(font, g)
-                }
-            })
-            .collect::<Result<_, _>>()?;
-        let written = font
-            .glyphs()
-            .iter()
-            .zip(&simple)
-            .map(|(g, s)| {
-                if is_composite(font, g) {
-                    composite(g, &ids, &simple)
-                } else {
-                    Ok(s.clone())
-                }
-            })
-            .collect::<Result<_, _>>()?;
+        let ids = ids(font);
+        let glyphs = || font.glyphs().iter();
+        let alone = |g: &Glyph| {
+            if is_composite(font, g) {
+                return Ok(Written::Empty);
+            }
+            simple(font, g)
+        };
+        let simple: Vec<Written> = glyphs().map(alone).collect::<Result<_, _>>()?;
+        let whole = |(g, s): (&Glyph, &Written)| {
+            if is_composite(font, g) {
+                return composite(g, &ids, &simple);
+            }
+            Ok(s.clone())
+        };
+        let written = glyphs().zip(&simple).map(whole).collect::<Result<_, _>>()?;
         Ok(Self { font, written })
     }
 
@@ -100,27 +82,26 @@ impl<'a> Glyphs<'a> {
     fn maxp(&self) -> Result<Maxp, WriteError> {
         let mut max = [0_usize; 5];
         for (written, glyph) in self.written.iter().zip(self.font.glyphs()) {
+            let size = |glyph: &Written| match glyph {
+                Written::Simple(s) => {
+                    let points = s.contours.iter().map(|c| c.len());
+                    (points.sum::<usize>(), s.contours.len())
+                }
+                _ => (0, 0),
+            };
             let counts = match written {
                 Written::Empty => [0; 5],
-                Written::Simple(s) => [
-                    s.contours.iter().map(|c| c.len()).sum(),
-                    s.contours.len(),
-                    0,
-                    0,
-                    0,
-                ],
+                Written::Simple(_) => {
+                    let (points, contours) = size(written);
+                    [points, contours, 0, 0, 0]
+                }
                 Written::Composite(c) => {
                     let bases = glyph.components.iter().filter_map(|p| {
                         let at = self.font.glyphs().iter().position(|g| g.name == p.base)?;
                         self.written.get(at)
                     });
-                    let (points, contours) = bases.fold((0, 0), |(p, c), base| match base {
-                        Written::Simple(s) => (
-                            p + s.contours.iter().map(|c| c.len()).sum::<usize>(),
-                            c + s.contours.len(),
-                        ),
-                        _ => (p, c),
-                    });
+                    let sizes = bases.map(size);
+                    let (points, contours) = sizes.fold((0, 0), |a, b| (a.0 + b.0, a.1 + b.1));
                     [0, 0, points, contours, c.components().len()]
                 }
             };

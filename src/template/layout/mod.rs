@@ -371,16 +371,23 @@ impl Layout {
     }
 
     fn place(&self, page: usize, i: usize, label: &str, direction: Direction) -> Place {
-        if let Some(cell) = self.cells.get(i) {
-            let field = cell.rect();
-            return Place {
-                label: label.to_owned(),
-                index: page * self.per_page() + i,
-                field,
-                caption: Point::new(field.x0, field.y0 - CAPTION + 0.2),
-                baseline: cell.baseline.unwrap_or_else(|| self.line(field)),
-            };
+        let cell = self.cells.get(i);
+        let (field, caption) = match cell.map(Field::rect) {
+            Some(r) => (r, Point::new(r.x0, r.y0 - CAPTION + 0.2)),
+            None => self.lattice(i, direction),
+        };
+        let baseline = cell.and_then(|c| c.baseline);
+        Place {
+            label: label.to_owned(),
+            index: page * self.per_page() + i,
+            field,
+            caption,
+            baseline: baseline.unwrap_or_else(|| self.line(field)),
         }
+    }
+
+    /// A field of rows and columns, and its caption's corner.
+    fn lattice(&self, i: usize, direction: Direction) -> (Rect, Point) {
         let columns = self.columns();
         let (row, column) = (i / columns, i % columns);
         let column = match direction {
@@ -393,13 +400,7 @@ impl Layout {
             HEAD + row as f64 * pitch.height,
         );
         let field = Rect::from_origin_size(corner + (GAP / 2.0, CAPTION + GAP / 2.0), size);
-        Place {
-            label: label.to_owned(),
-            index: page * self.per_page() + i,
-            field,
-            caption: corner + (GAP / 2.0, 0.6),
-            baseline: self.line(field),
-        }
+        (field, corner + (GAP / 2.0, 0.6))
     }
 
     /// The baseline of a field: what the em leaves of it lies half above and half below.

@@ -1,8 +1,8 @@
 //! A glyph over its cell as SVG, user space in font units with y down.
 
 use super::Entry;
+use crate::numeric::svg;
 use crate::types::{Info, Png};
-use crate::write::path;
 use crate::write::picture::to_picture;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
@@ -118,7 +118,7 @@ pub(super) fn stroke(out: &mut String, a: Point, b: Point) {
 
 /// Path data to a tenth of a unit: below what a screen shows.
 pub(super) fn path_data(path: &BezPath) -> String {
-    path::path_data(path, |v| format!("{v:.1}"))
+    svg::path_data(path, |v| format!("{v:.1}"))
 }
 
 /// The cell's picture in a data URI.

@@ -3,7 +3,8 @@
 use kurbo::{BezPath, PathEl, Point};
 
 /// Path data, absolute, with numbers as `number` writes them.
-pub(super) fn path_data(path: &BezPath, number: impl Fn(f64) -> String) -> String {
+#[must_use]
+pub fn path_data(path: &BezPath, number: impl Fn(f64) -> String) -> String {
     let p = |p: Point| format!("{} {}", number(p.x), number(p.y));
     let step = |el: &PathEl| match *el {
         PathEl::MoveTo(a) => format!("M{}", p(a)),
