@@ -33,34 +33,28 @@ pub(super) fn glyphs(drafts: &[Draft], info: &Info, options: &Options) -> Vec<Gl
     let glyph = |name: &str, chars: Vec<char>, advance: f64| {
         Name::new(name).ok().map(|n| Glyph::new(n, chars, advance))
     };
-    let notdef = match drawn(".notdef") {
-        Some(d) => glyph(".notdef", Vec::new(), d.advance).map(|g| Glyph {
-            outline: d.outline.clone(),
-            ..g
-        }),
-        None => glyph(".notdef", Vec::new(), (NOTDEF.0 * em).round()).map(|g| Glyph {
-            outline: frame(em, info.metrics.cap_height),
-            ..g
-        }),
+    let (outline, advance) = match drawn(".notdef") {
+        Some(d) => (d.outline.clone(), d.advance),
+        None => (frame(em, info.metrics.cap_height), (NOTDEF.0 * em).round()),
+    };
+    let notdef = Glyph {
+        outline,
+        ..Glyph::new(Name::notdef(), Vec::new(), advance)
     };
     let spaces = [
         glyph("space", vec![' '], space),
         glyph("uni00A0", vec!['\u{a0}'], space),
     ];
-    notdef
-        .into_iter()
-        .chain(spaces.into_iter().flatten())
-        .collect()
+    [Some(notdef)].into_iter().chain(spaces).flatten().collect()
 }
 
 fn space(drafts: &[Draft], em: f64) -> f64 {
     let is_small = |d: &&Draft| d.codepoints.first().is_some_and(|c| c.is_lowercase());
     let small: Vec<f64> = drafts.iter().filter(is_small).map(|d| d.advance).collect();
-    let count = small.iter().map(|_| 1.0).sum::<f64>();
-    if count > 0.0 {
-        SPACE_OF_LETTER * small.iter().sum::<f64>() / count
-    } else {
+    if small.is_empty() {
         SPACE_OF_EM * em
+    } else {
+        SPACE_OF_LETTER * small.iter().sum::<f64>() / small.len() as f64
     }
 }
 

@@ -7,7 +7,6 @@
 use super::names::Form;
 use super::{Draft, Note};
 use std::collections::BTreeMap;
-use std::fmt::Write;
 use unicode_joining_type::{JoiningType, get_joining_type};
 use unicode_normalization::UnicodeNormalization;
 
@@ -41,8 +40,7 @@ fn feature(out: &mut String, tag: &str, flag: &str, rules: &[String]) {
         return;
     }
     let body: String = rules.iter().map(|r| format!("    sub {r};\n")).collect();
-    let done = write!(out, "\nfeature {tag} {{\n{flag}{body}}} {tag};\n");
-    debug_assert!(done.is_ok(), "a string takes all that is written to it");
+    *out += &format!("\nfeature {tag} {{\n{flag}{body}}} {tag};\n");
 }
 
 /// The scripts of the drawn letters, the default first as the syntax asks.
@@ -175,17 +173,12 @@ impl<'a> Glyphs<'a> {
         let mut notes = Vec::new();
         for draft in self.drafts {
             for tag in draft.id.alternates().filter(|t| is_tag(t)) {
-                let rest: Vec<&str> = draft
-                    .id
-                    .suffixes
-                    .iter()
-                    .map(String::as_str)
-                    .filter(|s| *s != tag)
-                    .collect();
-                let from = self
-                    .drafts
-                    .iter()
-                    .find(|d| d.id.chars == draft.id.chars && d.id.suffixes == rest);
+                let suffixes = draft.id.suffixes.iter();
+                let rest: Vec<&String> = suffixes.filter(|s| *s != tag).collect();
+                let is_plain = |d: &&Draft| {
+                    d.id.chars == draft.id.chars && d.id.suffixes.iter().eq(rest.iter().copied())
+                };
+                let from = self.drafts.iter().find(is_plain);
                 let name = draft.id.name.to_string();
                 match from {
                     Some(from) => {

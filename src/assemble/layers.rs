@@ -2,22 +2,14 @@
 
 use super::{Draft, Part};
 use crate::types::{Glyph, Layer, Name, Outline};
-use kurbo::{Affine, Vec2};
+use kurbo::Affine;
 use std::collections::BTreeSet;
 
 /// A glyph for every colour of every draft, and in `glyphs` the layers that they are. What is composed of drafts has
 /// their colours; parts without one are in the text's.
 pub(super) fn add(glyphs: &mut Vec<Glyph>, drafts: &[Draft]) {
     for (i, draft) in drafts.iter().enumerate() {
-        let whole = [Part {
-            draft: i,
-            shift: Vec2::ZERO,
-        }];
-        let parts: &[Part] = if draft.parts.is_empty() {
-            &whole
-        } else {
-            &draft.parts
-        };
+        let parts = super::parts(drafts, i);
         let plates = || parts.iter().flat_map(|part| plates(drafts, part));
         let colours: BTreeSet<Option<usize>> = plates().map(|p| p.0).collect();
         let own = glyphs.iter().position(|g| g.name == draft.id.name);
@@ -47,14 +39,12 @@ fn plates(drafts: &[Draft], part: &Part) -> Vec<(Option<usize>, Outline)> {
     let Some(draft) = drafts.get(part.draft) else {
         return Vec::new();
     };
-    let coloured = draft.plates.iter();
-    let coloured = coloured.map(|(colour, outline)| (Some(*colour), outline.transformed(shift)));
-    let plain = || vec![(None, draft.outline.transformed(shift))];
     if draft.plates.is_empty() {
-        plain()
-    } else {
-        coloured.collect()
+        return vec![(None, draft.outline.transformed(shift))];
     }
+    let plates = draft.plates.iter();
+    let placed = plates.map(|(colour, own)| (Some(*colour), own.transformed(shift)));
+    placed.collect()
 }
 
 /// The glyph's name and its colour; its number in place of a name that is too long.

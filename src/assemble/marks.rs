@@ -112,7 +112,7 @@ fn of_letter(draft: &Draft, stretch: (f64, f64), em: f64, suffix: &str) -> Vec<A
 fn of_ligature(draft: &Draft, ink: Rect, em: f64) -> Vec<Anchor> {
     let chars = &draft.id.chars;
     let leftward = chars.iter().any(|&c| is_arabic(c));
-    let share = ink.width() / chars.iter().map(|_| 1.0).sum::<f64>();
+    let share = ink.width() / chars.len() as f64;
     let mut out = Vec::new();
     let mut from = 0.0;
     for (part, _) in (1..).zip(chars) {

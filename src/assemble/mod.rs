@@ -31,6 +31,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use thiserror::Error;
+use unicode_joining_type::{JoiningType, get_joining_type};
 use unicode_normalization::char::is_combining_mark;
 
 /// Why drawn shapes make no font.
@@ -180,6 +181,18 @@ impl Draft {
         }
     }
 
+    /// Whether it is an Arabic letter, or a ligature that begins with one.
+    fn is_arabic_letter(&self) -> bool {
+        let is_letter = |c: &char| features::is_arabic(*c) && c.is_alphabetic();
+        !self.is_mark() && self.id.chars.first().is_some_and(is_letter)
+    }
+
+    /// Whether its last letter never joins the next.
+    fn never_joins(&self) -> bool {
+        let last = self.id.chars.last();
+        last.is_some_and(|c| get_joining_type(*c) == JoiningType::RightJoining)
+    }
+
     /// Whether it is a sign that stands above or below letters.
     fn is_mark(&self) -> bool {
         matches!(self.id.chars[..], [c] if is_combining_mark(c))
@@ -289,6 +302,17 @@ fn drafts(drawn: Vec<Drawn>, inks: &[(String, [u8; 3])]) -> Result<Vec<Draft>, A
         });
     }
     Ok(out)
+}
+
+/// A draft as parts of another: itself, or what it is composed of.
+fn parts(drafts: &[Draft], draft: usize) -> Vec<Part> {
+    match drafts.get(draft) {
+        Some(d) if !d.parts.is_empty() => d.parts.clone(),
+        _ => vec![Part {
+            draft,
+            shift: Vec2::ZERO,
+        }],
+    }
 }
 
 /// The plain drawing of these characters in a form.

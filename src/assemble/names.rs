@@ -131,12 +131,7 @@ pub fn identify(label: &Label) -> Result<Identity, LabelError> {
         }
         _ => Err(LabelError::Unknown {
             label: text.to_owned(),
-            nearest: nearest::name(base).map(|n| {
-                std::iter::once(n)
-                    .chain(suffixes)
-                    .collect::<Vec<_>>()
-                    .join(".")
-            }),
+            nearest: nearest::name(base).map(|n| [vec![n], suffixes].concat().join(".")),
         }),
     }
 }
@@ -195,18 +190,21 @@ pub fn name_of(chars: &[char]) -> String {
     }
 }
 
+/// The name of these characters in a form, which the isolated one is without a suffix.
+#[must_use]
+pub fn name_in(chars: &[char], form: Form) -> String {
+    match form {
+        Form::Isol => name_of(chars),
+        form => format!("{}.{}", name_of(chars), form.tag()),
+    }
+}
+
 fn hexadecimal(chars: &[char]) -> String {
+    let digits = chars.iter().map(|&c| format!("{:04X}", u32::from(c)));
     if chars.iter().all(|&c| u32::from(c) <= 0xFFFF) {
-        let digits: String = chars
-            .iter()
-            .map(|&c| format!("{:04X}", u32::from(c)))
-            .collect();
-        format!("uni{digits}")
+        format!("uni{}", digits.collect::<String>())
     } else {
-        let parts: Vec<String> = chars
-            .iter()
-            .map(|&c| format!("u{:04X}", u32::from(c)))
-            .collect();
+        let parts: Vec<String> = digits.map(|d| format!("u{d}")).collect();
         parts.join("_")
     }
 }

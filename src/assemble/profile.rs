@@ -62,16 +62,14 @@ impl Profile {
 
     /// Distance from the left extreme to the ink on every row of the zone; none where there is no ink.
     pub(super) fn left(&self, zone: (f64, f64)) -> Vec<Option<f64>> {
-        self.zone(zone)
-            .map(|(_, xs)| xs.first().map(|x| x - self.extremes.0))
-            .collect()
+        let rows = self.zone(zone).map(|(_, xs)| xs.first());
+        rows.map(|x| Some(x? - self.extremes.0)).collect()
     }
 
     /// Distance from the ink to the right extreme on every row of the zone.
     pub(super) fn right(&self, zone: (f64, f64)) -> Vec<Option<f64>> {
-        self.zone(zone)
-            .map(|(_, xs)| xs.last().map(|x| self.extremes.1 - x))
-            .collect()
+        let rows = self.zone(zone).map(|(_, xs)| xs.last());
+        rows.map(|x| Some(self.extremes.1 - x?)).collect()
     }
 
     /// The places among all rows of those between two heights.
@@ -121,12 +119,8 @@ impl Profile {
 /// White of one side from its distances; rows without ink count as deep as is looked.
 pub(super) fn white(distances: &[Option<f64>], depths: (f64, f64)) -> White {
     let mean = |depth: f64| {
-        let sum: f64 = distances
-            .iter()
-            .map(|d| d.map_or(depth, |d| d.min(depth)))
-            .sum();
-        let count: f64 = distances.iter().map(|_| 1.0).sum();
-        if count > 0.0 { sum / count } else { 0.0 }
+        let each = distances.iter().map(|d| d.map_or(depth, |d| d.min(depth)));
+        each.sum::<f64>() / distances.len().max(1) as f64
     };
     let least = distances.iter().flatten().copied().reduce(f64::min);
     White {

@@ -109,7 +109,7 @@ impl Rhythm {
         if found.is_empty() {
             found = counters("hmodbqpUHON", (0.3, 0.7));
         }
-        let mean = found.iter().map(|f| f.0).sum::<f64>() / found.iter().map(|_| 1.0).sum::<f64>();
+        let mean = found.iter().map(|f| f.0).sum::<f64>() / found.len() as f64;
         let stem = median(found.iter().map(|f| f.1))?;
         Some(Self {
             counter: mean,
@@ -127,9 +127,10 @@ impl Rhythm {
 
     /// The heights between which a character's sides are looked at.
     pub(super) fn zone(&self, c: char) -> (f64, f64) {
+        let small = c.is_lowercase();
         (
             0.0,
-            if c.is_lowercase() {
+            if small {
                 self.x_height
             } else {
                 self.cap_height

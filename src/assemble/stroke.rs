@@ -267,25 +267,19 @@ pub(super) fn square(path: &BezPath, end: &End, side: Side, tab: Tab) -> Option<
     let start = Point::new(x(end.cut), after.at.y);
     let stop = Point::new(x(end.cut), before.at.y);
     out.move_to(start);
-    let n = walk.segments.len();
+    let (n, first) = (walk.segments.len(), walk.segments.get(after.segment)?);
     if after.segment == before.segment && after.t < before.t {
-        append(
-            &mut out,
-            walk.segments
-                .get(after.segment)?
-                .subsegment(after.t..before.t),
-        );
+        let part = first.subsegment(after.t..before.t);
+        out.push(part.as_path_el());
     } else {
-        append(
-            &mut out,
-            walk.segments.get(after.segment)?.subsegment(after.t..1.0),
-        );
+        out.push(first.subsegment(after.t..1.0).as_path_el());
         let mut i = (after.segment + 1) % n;
         while i != before.segment {
-            append(&mut out, *walk.segments.get(i)?);
+            out.push(walk.segments.get(i)?.as_path_el());
             i = (i + 1) % n;
         }
-        append(&mut out, walk.segments.get(i)?.subsegment(0.0..before.t));
+        let last = walk.segments.get(i)?;
+        out.push(last.subsegment(0.0..before.t).as_path_el());
     }
     set_end(&mut out, stop);
     let corner = |p: Point| {
@@ -315,14 +309,6 @@ fn set_end(path: &mut BezPath, at: Point) {
     let last = path.elements_mut().last_mut();
     if let Some(PathEl::LineTo(p) | PathEl::QuadTo(_, p) | PathEl::CurveTo(_, _, p)) = last {
         *p = at;
-    }
-}
-
-fn append(path: &mut BezPath, segment: PathSeg) {
-    match segment {
-        PathSeg::Line(l) => path.line_to(l.p1),
-        PathSeg::Quad(q) => path.quad_to(q.p1, q.p2),
-        PathSeg::Cubic(c) => path.curve_to(c.p1, c.p2, c.p3),
     }
 }
 

@@ -5,9 +5,7 @@
 //! takes none. Tails and tops stay clear of every letter that can follow, which is looked at row by row.
 
 use super::Draft;
-use super::features::is_arabic;
 use super::profile::Profile;
-use unicode_joining_type::{JoiningType, get_joining_type};
 
 /// Rows above and below that count as level: ink that passes so near is felt as beside. em
 const NEAR: f64 = 0.03;
@@ -38,14 +36,7 @@ pub(super) struct Ends {
 pub(super) fn ends(drafts: &[Draft], side: f64, alef: Option<f64>, em: f64) -> Vec<Ends> {
     let body = alef.map_or(f64::INFINITY, |height| BODY * height);
     let profile = |d: &Draft| Profile::of(&d.outline, em, 0.0, 0.0);
-    let follows = |d: &&Draft| {
-        let first = d.id.chars.first().filter(|c| is_arabic(**c));
-        d.joint.1.is_none() && !d.is_mark() && first.is_some_and(|c| c.is_alphabetic())
-    };
-    let never_joins = |d: &Draft| {
-        let last = d.id.chars.last();
-        last.is_some_and(|c| get_joining_type(*c) == JoiningType::RightJoining)
-    };
+    let follows = |d: &&Draft| d.joint.1.is_none() && d.is_arabic_letter();
     let near = super::profile::rows(NEAR);
     let right = |p: &Profile| {
         let edge = p.extremes.1;
@@ -64,7 +55,7 @@ pub(super) fn ends(drafts: &[Draft], side: f64, alef: Option<f64>, em: f64) -> V
         .map(beside)
         .collect();
     let left = |d: &Draft| {
-        let profile = profile(d).filter(|_| never_joins(d))?;
+        let profile = profile(d).filter(|_| d.never_joins())?;
         let rows = profile.lefts();
         // the least sum of both sides' distances, were the follower's advance to end at 0
         let least = |follower: &Vec<Option<f64>>| {

@@ -129,21 +129,13 @@ pub(super) fn learn(
         }
         let (usual, sides) = room(&own, side);
         for (i, draft) in drafts.iter_mut().enumerate() {
-            let add = |side| 0.5 * usual + sides.get(&(i, side)).copied().unwrap_or(0.0);
             let own = draft.id.chars.first().map(|c| Script::of(*c));
             if draft.is_mark() || own != Some(script) {
                 continue;
             }
-            let left = if is_free(draft, Side::Left) {
-                add(Side::Left)
-            } else {
-                0.0
-            };
-            let right = if is_free(draft, Side::Right) {
-                add(Side::Right)
-            } else {
-                0.0
-            };
+            let add = |side| 0.5 * usual + sides.get(&(i, side)).copied().unwrap_or(0.0);
+            let [left, right] = [Side::Left, Side::Right]
+                .map(|side| if is_free(draft, side) { add(side) } else { 0.0 });
             draft.shift(left);
             draft.advance = (draft.advance + left + right).max(0.0).round();
         }
@@ -287,17 +279,10 @@ fn pieces(drafts: &[Draft], text: &str) -> Result<Vec<Vec<usize>>, String> {
         .chars()
         .filter(|c| get_joining_type(*c) != JoiningType::Transparent)
         .collect();
-    let after = |i: usize| {
-        letters
-            .get(i)
-            .is_some_and(|c| get_joining_type(*c) == JoiningType::DualJoining)
-    };
-    let before = |i: usize| {
-        let joins = [JoiningType::DualJoining, JoiningType::RightJoining];
-        letters
-            .get(i)
-            .is_some_and(|c| joins.contains(&get_joining_type(*c)))
-    };
+    use JoiningType::{DualJoining, RightJoining};
+    let kind = |i: usize| letters.get(i).map(|c| get_joining_type(*c));
+    let after = |i: usize| kind(i) == Some(DualJoining);
+    let before = |i: usize| matches!(kind(i), Some(DualJoining | RightJoining));
     // whether the letter at i joins the one before it
     let joined = |i: usize| i > 0 && after(i - 1) && before(i);
     let mut out: Vec<Vec<usize>> = Vec::new();
@@ -344,14 +329,11 @@ fn find(drafts: &[Draft], chars: &[char], form: Form) -> Option<usize> {
 fn ink(drafts: &[Draft], piece: &[usize], script: Script, pen: &mut f64) -> Option<Rect> {
     let mut whole: Option<Rect> = None;
     for draft in piece.iter().filter_map(|&d| drafts.get(d)) {
-        let origin = match script {
-            Script::Rightward => *pen,
-            Script::Leftward => *pen - draft.advance,
+        let (origin, next) = match script {
+            Script::Rightward => (*pen, *pen + draft.advance),
+            Script::Leftward => (*pen - draft.advance, *pen - draft.advance),
         };
-        *pen = match script {
-            Script::Rightward => origin + draft.advance,
-            Script::Leftward => origin,
-        };
+        *pen = next;
         let body = *bodies(&draft.outline).first()? + Vec2::new(origin, 0.0);
         whole = Some(whole.map_or(body, |w| w.union(body)));
     }

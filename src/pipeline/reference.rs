@@ -76,17 +76,12 @@ impl Script {
 }
 
 fn arabic() -> Vec<String> {
-    let name = |chars: &[char], form: Form| match form {
-        Form::Isol => names::name_of(chars),
-        form => format!("{}.{}", names::name_of(chars), form.tag()),
-    };
+    const ENDS: [Form; 2] = [Form::Isol, Form::Fina];
+    let name = names::name_in;
     let dual = DUAL.chars().flat_map(|c| Form::ALL.map(|f| name(&[c], f)));
-    let right = RIGHT
-        .chars()
-        .flat_map(|c| [Form::Isol, Form::Fina].map(|f| name(&[c], f)));
-    let pairs = LAM_ALEF
-        .chars()
-        .flat_map(|c| [Form::Isol, Form::Fina].map(|f| name(&['ل', c], f)));
+    let right = RIGHT.chars().flat_map(|c| ENDS.map(|f| name(&[c], f)));
+    let pairs = LAM_ALEF.chars();
+    let pairs = pairs.flat_map(|c| ENDS.map(|f| name(&['ل', c], f)));
     let alone = ALONE.chars().map(|c| names::name_of(&[c]));
     dual.chain(right).chain(pairs).chain(alone).collect()
 }
@@ -98,10 +93,7 @@ pub fn spelling(label: &Label) -> String {
     let Ok(id) = names::identify(label) else {
         return label.0.clone();
     };
-    match id.form() {
-        None | Some(Form::Isol) => names::name_of(&id.chars),
-        Some(form) => format!("{}.{}", names::name_of(&id.chars), form.tag()),
-    }
+    names::name_in(&id.chars, id.form().unwrap_or(Form::Isol))
 }
 
 /// Pictures of the letters that the font has, in order: one of each label, and a second with the joins drawn out

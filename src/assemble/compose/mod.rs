@@ -230,12 +230,7 @@ impl Work<'_> {
         form: Form,
         signs: &[char],
     ) -> Result<Option<Draft>, char> {
-        let suffix = if form == Form::Isol {
-            String::new()
-        } else {
-            format!(".{}", form.tag())
-        };
-        let label = Label(format!("{}{suffix}", names::name_of(chars)));
+        let label = Label(names::name_in(chars, form));
         let (Ok(id), Some(base)) = (names::identify(&label), self.drafts.get(body)) else {
             return Ok(None);
         };
@@ -247,16 +242,10 @@ impl Work<'_> {
             };
             above.push(placed.ok_or(sign)?);
         }
-        let mut parts = self.parts(body);
+        let mut parts = super::parts(self.drafts, body);
         parts.extend(above.iter().flat_map(|s| s.parts.iter().copied()));
         // a sign keeps inside the advance where nothing joins
-        let out = |joined: Option<f64>, by: f64| {
-            if joined.is_none() {
-                by.max(0.0).ceil()
-            } else {
-                0.0
-            }
-        };
+        let out = |joined: Option<f64>, by: f64| joined.map_or(by.max(0.0).ceil(), |_| 0.0);
         let ink = above.iter().map(|s| s.ink).reduce(|a, b| a.union(b));
         let (left, right) = ink.map_or((0.0, 0.0), |ink| {
             (
@@ -273,17 +262,6 @@ impl Work<'_> {
             parts,
             ..base.clone()
         }))
-    }
-
-    /// A draft as parts of another: itself, or what it is composed of.
-    fn parts(&self, draft: usize) -> Vec<Part> {
-        match self.drafts.get(draft) {
-            Some(d) if !d.parts.is_empty() => d.parts.clone(),
-            _ => vec![Part {
-                draft,
-                shift: Vec2::ZERO,
-            }],
-        }
     }
 
     fn outline(&self, parts: &[Part]) -> Outline {
@@ -333,7 +311,7 @@ impl Work<'_> {
     fn group(&self, dots: Dots) -> Option<Vec<Part>> {
         let find = |chars: &[char]| chars.iter().find_map(|&c| self.find(c, Form::Isol));
         if let Some(drawn) = find(dots.drawn) {
-            return Some(self.parts(drawn));
+            return Some(super::parts(self.drafts, drawn));
         }
         let single = find(&recipes::SINGLE).filter(|_| !dots.places.is_empty())?;
         let size = self.drafts.get(single)?.outline.bounds()?.size() * (1.0 + self.options.between);
@@ -365,7 +343,7 @@ impl Work<'_> {
         let draft = self.drafts.get(drawn)?;
         let ink = draft.outline.bounds()?;
         let sign = Sign {
-            parts: self.parts(drawn),
+            parts: super::parts(self.drafts, drawn),
             ink,
             side: place,
         };

@@ -3,11 +3,9 @@
 use super::groups::group;
 use super::{Options, WINDOW, least, reach};
 use crate::assemble::Draft;
-use crate::assemble::features::is_arabic;
 use crate::assemble::profile::Profile;
 use crate::numeric::median::median;
 use crate::types::{Kerning, Name};
-use unicode_joining_type::{JoiningType, get_joining_type};
 
 /// Arabic letters stand at most so many times the usual apart.
 const FURTHEST: f64 = 2.0;
@@ -36,18 +34,8 @@ impl<'d> Edge<'d> {
 
 /// Adds them.
 pub(super) fn add<'d>(drafts: &'d [Draft], em: f64, options: &Options, out: &mut Kerning) {
-    let letters = || {
-        let is_one = |d: &&Draft| {
-            let first = d.id.chars.first().copied().filter(|c| is_arabic(*c));
-            first.is_some_and(char::is_alphabetic) && !d.is_mark()
-        };
-        drafts.iter().filter(is_one)
-    };
-    let never_joins = |d: &&Draft| {
-        let last = d.id.chars.last();
-        last.is_some_and(|c| get_joining_type(*c) == JoiningType::RightJoining)
-    };
-    let ends = letters().filter(never_joins);
+    let letters = || drafts.iter().filter(|d| d.is_arabic_letter());
+    let ends = letters().filter(|d| d.never_joins());
     let firsts: Vec<Edge<'_>> = ends
         .filter_map(|d| Edge::of(d, em, Profile::lefts))
         .collect();
