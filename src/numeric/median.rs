@@ -29,6 +29,31 @@ pub fn quantile<T: Copy>(values: &mut [T], share: f64, order: fn(&T, &T) -> Orde
     Some(*values.select_nth_unstable_by(place, order).1)
 }
 
+/// The value in the middle, of two the later one in this order; `None` of no values.
+#[must_use]
+pub fn middle<T: Copy>(
+    values: impl IntoIterator<Item = T>,
+    order: fn(&T, &T) -> Ordering,
+) -> Option<T> {
+    let mut values: Vec<T> = values.into_iter().collect();
+    let place = values.len() / 2;
+    (!values.is_empty()).then(|| *values.select_nth_unstable_by(place, order).1)
+}
+
+/// The value with half of all weights before it, where each comes with one; `None` of no weights.
+#[must_use]
+pub fn weighted(values: impl IntoIterator<Item = (f64, usize)>) -> Option<f64> {
+    let mut values: Vec<(f64, usize)> = values.into_iter().collect();
+    values.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let half = values.iter().map(|v| v.1).sum::<usize>() / 2;
+    let mut sum = 0;
+    let middle = values.iter().find(|v| {
+        sum += v.1;
+        sum > half
+    });
+    middle.map(|v| v.0)
+}
+
 /// The least and the greatest value; of no values infinity and its negative.
 #[must_use]
 pub fn range<'a>(values: impl IntoIterator<Item = &'a f32>) -> (f32, f32) {

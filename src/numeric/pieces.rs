@@ -26,6 +26,18 @@ pub fn taken<T: Copy + Default + PartialOrd>(
     out
 }
 
+/// Indices of the pixels of a map of so many columns and rows that lie no more than `reach` beside one or above or
+/// below it, with its own, row by row.
+pub fn around(
+    (x, y): (usize, usize),
+    reach: usize,
+    (width, height): (usize, usize),
+) -> impl Iterator<Item = usize> {
+    let near = |at: usize, count: usize| at.saturating_sub(reach)..(at + reach + 1).min(count);
+    let columns = near(x, width);
+    near(y, height).flat_map(move |y| columns.clone().map(move |x| y * width + x))
+}
+
 /// The larger side of the box around a piece, px.
 #[must_use]
 pub fn extent<T>(piece: &[(usize, T)], width: usize) -> usize {

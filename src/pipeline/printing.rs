@@ -9,7 +9,7 @@ use super::watch::Stage;
 use super::world::World;
 use crate::assemble::names;
 use crate::numeric::cast::index;
-use crate::numeric::median::median;
+use crate::numeric::median::{median, middle};
 use crate::scan::{
     self, Cut, Direction, InkGrain, Order, Polarity, Reading, Reason, Rejected, Warning,
 };
@@ -271,9 +271,7 @@ fn warnings(drawings: &[Drawing]) -> Vec<Warning> {
             sizes.push((drawing.size_em, of(scan::SMALL_LETTER.to_owned())));
         }
     }
-    let mut all: Vec<f64> = sizes.iter().map(|s| s.0).collect();
-    all.sort_by(f64::total_cmp);
-    let usual = all.get(all.len() / 2).copied().unwrap_or(0.0);
+    let usual = middle(sizes.iter().map(|s| s.0), f64::total_cmp).unwrap_or(0.0);
     let small = sizes.into_iter().filter(|s| s.0 < scan::SMALL * usual);
     out.extend(small.map(|s| s.1));
     out.sort_by_key(|w| w.index);

@@ -5,6 +5,7 @@ use crate::numeric::view::View;
 use crate::types::Gray;
 use kurbo::{Affine, Point, Rect};
 use rayon::prelude::*;
+use std::iter;
 
 /// Ink from column `start` to before `end` of row `y`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -18,6 +19,19 @@ impl Run {
     /// Column and row of its pixels.
     pub(super) fn pixels(self) -> impl Iterator<Item = (usize, usize)> {
         (self.start..self.end).map(move |x| (x, self.y))
+    }
+
+    /// Its stretches outside and inside of something, and whether each is inside.
+    fn cut(self, inside: impl Fn(usize, usize) -> bool) -> impl Iterator<Item = (bool, Self)> {
+        let mut start = self.start;
+        iter::from_fn(move || {
+            let side = (start < self.end).then(|| inside(start, self.y))?;
+            let end = (start + 1..self.end).find(|&x| inside(x, self.y) != side);
+            let end = end.unwrap_or(self.end);
+            let run = Self { start, end, ..self };
+            start = end;
+            Some((side, run))
+        })
     }
 }
 
@@ -77,7 +91,7 @@ impl Component {
         let boxes = centres.map(|p| Rect::from_points(p, p).inflate(0.5, 0.5));
         let rim = self.rim();
         let ink = boxes.reduce(|a, b| a.union(b)).unwrap_or(Rect::ZERO);
-        self.upright = if ink.width().min(ink.height()) > 4.0 * rim {
+        self.upright = if ink.size().min_side() > 4.0 * rim {
             ink.inset(-rim)
         } else {
             ink
@@ -134,25 +148,21 @@ impl Component {
         let some = self.pixels().map(of).filter(|p| p.2 < 1.0);
         let shares: Vec<(usize, usize, f32)> = some.collect();
         let mut pieces = self.without(|x, y| share(x, y) <= 0.0);
-        for piece in &mut pieces {
-            let own = shares.iter().copied();
-            piece.shares = own.filter(|(x, y, _)| piece.covers(*x, *y)).collect();
-        }
+        pieces.iter_mut().for_each(|p| p.take(&shares));
         pieces
+    }
+
+    /// Takes what shares are its.
+    fn take(&mut self, shares: &[(usize, usize, f32)]) {
+        let own = shares.iter().filter(|(x, y, _)| self.covers(*x, *y));
+        self.shares = own.copied().collect();
     }
 
     /// Its runs outside and inside of something.
     fn sides(&self, inside: impl Fn(usize, usize) -> bool) -> [Vec<Run>; 2] {
         let mut sides = [Vec::new(), Vec::new()];
-        for r in &self.runs {
-            let mut start = r.start;
-            while start < r.end {
-                let side = inside(start, r.y);
-                let end = (start + 1..r.end).find(|&x| inside(x, r.y) != side);
-                let end = end.unwrap_or(r.end);
-                sides[usize::from(side)].push(Run { y: r.y, start, end });
-                start = end;
-            }
+        for (side, run) in self.runs.iter().flat_map(|r| r.cut(&inside)) {
+            sides[usize::from(side)].push(run);
         }
         sides
     }
@@ -165,8 +175,7 @@ impl Component {
             let runs: Vec<Run> = g.into_iter().map(|i| runs[i]).collect();
             let area: usize = runs.iter().map(|r| r.end - r.start).sum();
             let mut piece = Self::new(runs, index(full * area as f64));
-            let own = self.shares.iter().copied();
-            piece.shares = own.filter(|(x, y, _)| piece.covers(*x, *y)).collect();
+            piece.take(&self.shares);
             piece
         });
         pieces.collect()
@@ -281,9 +290,15 @@ enum Touch {
 }
 
 /// Connected paper that does not reach the border of a picture of `width` × `height` px.
-pub(super) fn enclosed(paper: &[Run], width: usize, height: usize) -> Vec<Component> {
+pub(super) fn enclosed(
+    (width, height): (usize, usize),
+    is_paper: impl Fn(usize, usize) -> bool,
+) -> Vec<Component> {
+    let rows = (0..height).map(|y| (y, 0, width));
+    let runs = rows.flat_map(|(y, start, end)| Run { y, start, end }.cut(&is_paper));
+    let paper: Vec<Run> = runs.filter(|r| r.0).map(|r| r.1).collect();
     let free = |r: &Run| r.start == 0 || r.end >= width || r.y == 0 || r.y + 1 >= height;
-    let groups = group(paper, Touch::Sides).into_iter();
+    let groups = group(&paper, Touch::Sides).into_iter();
     let pieces = groups.map(|g| g.into_iter().map(|i| paper[i]).collect::<Vec<Run>>());
     let inside = pieces.filter(|runs| !runs.iter().any(free));
     inside

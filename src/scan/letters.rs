@@ -189,36 +189,20 @@ impl Shape {
         let forms = [["init", "medi"], ["medi", "fina"]];
         let arabic = letter.is_some_and(|c| ('\u{600}'..'\u{700}').contains(&c));
         let joined = forms.map(|f| (arabic || ligature) && f.contains(&form));
-        if arabic {
-            let foot = match () {
-                () if joined[0] && !any(letter, ARABIC_HANGING) => Foot::Flat,
-                () if !joined[0] && any(letter, ARABIC_STANDING) => Foot::Flat,
-                () if !joined[0] && any(letter, ARABIC_BOWLS) => Foot::Round,
-                () => Foot::None,
-            };
-            let alef = letter == Some('ا');
-            let body = BODIES.iter().position(|set| any(letter, set));
-            let place = FORMS.iter().position(|f| *f == form);
-            return Self {
-                below,
-                body: body.zip(place).map(|(b, f)| b * FORMS.len() + f),
-                foot,
-                head: if alef { Head::Alef } else { Head::None },
-                kind: Kind::Arabic,
-                pieces,
-                dots,
-                joined,
-                full,
-                heavy,
-            };
-        }
+        let body = BODIES.iter().position(|set| arabic && any(letter, set));
+        let place = FORMS.iter().position(|f| *f == form);
         let foot = match () {
+            () if arabic && joined[0] && any(letter, ARABIC_HANGING) => Foot::None,
+            () if arabic && (joined[0] || any(letter, ARABIC_STANDING)) => Foot::Flat,
+            () if arabic && any(letter, ARABIC_BOWLS) => Foot::Round,
+            () if arabic => Foot::None,
             () if any(base, FLAT) => Foot::Flat,
             () if any(base, ROUND) => Foot::Round,
             () if plain && any(base, TAILED) => Foot::Tail,
             () => Foot::None,
         };
         let heads = [
+            ("ا", Head::Alef),
             (CAP_HEADS, Head::Cap),
             (CAP_BOWS, Head::CapBow),
             (X_HEADS, Head::X),
@@ -227,10 +211,11 @@ impl Shape {
         let head = heads.iter().find(|(set, _)| plain && any(base, set));
         Self {
             below,
-            body: None,
+            body: body.zip(place).map(|(b, f)| b * FORMS.len() + f),
             foot,
             head: head.map_or(Head::None, |h| h.1),
             kind: match letter {
+                Some(_) if arabic => Kind::Arabic,
                 Some(c) if c.is_lowercase() => Kind::Small,
                 Some(c) if c.is_uppercase() => Kind::Capital,
                 Some(c) if c.is_ascii_digit() => Kind::Figure,
@@ -252,11 +237,6 @@ impl Shape {
             Pieces::One | Pieces::Bare | Pieces::Unknown => 1,
             _ => 1 + self.dots.max(1),
         }
-    }
-
-    /// The same number for Arabic letters that differ by their signs alone.
-    pub(super) const fn alike(&self) -> Option<usize> {
-        self.body
     }
 
     /// The same number for Arabic letters that differ by their signs and forms alone.

@@ -3,6 +3,8 @@
 //! Light changes slowly on paper and at once where it ends. Blocks whose paper levels hardly differ from their
 //! neighbours' grow together; of these regions the one that is large and light, with the holes in it, is the page.
 
+use crate::numeric::pieces::around;
+
 /// Neighbouring blocks of one sheet of paper differ by less than this, of black against white.
 const STEP: f32 = 0.03;
 /// The page covers at least this share of the picture.
@@ -68,12 +70,8 @@ impl Paper {
     pub(super) fn rim(&self) -> Self {
         let (columns, inside) = (self.columns, &self.inside);
         let rows = inside.len() / columns.max(1);
-        let near = |at: usize, count: usize| at.saturating_sub(RIM)..(at + RIM + 1).min(count);
-        let beside = |i: usize| {
-            let (x, y) = (i % columns, i / columns);
-            let mut blocks = near(y, rows).flat_map(|y| near(x, columns).map(move |x| (x, y)));
-            blocks.any(|(x, y)| inside[y * columns + x])
-        };
+        let beside =
+            |i: usize| around((i % columns, i / columns), RIM, (columns, rows)).any(|j| inside[j]);
         let rim = (0..inside.len()).map(|i| !inside[i] && beside(i));
         let rim: Vec<bool> = rim.collect();
         let share = rim.iter().filter(|r| **r).count() as f64 / rim.len().max(1) as f64;

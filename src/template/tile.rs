@@ -2,6 +2,7 @@
 
 use crate::numeric::cast::index;
 use crate::numeric::median::quantile;
+use crate::numeric::pieces::around;
 use image::{GrayImage, Luma};
 use imageproc::region_labelling::{Connectivity, connected_components};
 use kurbo::{Line, Rect, Vec2};
@@ -18,7 +19,7 @@ const LOW: f64 = 0.33;
 /// Ink smaller than a square of this many stroke widths is dust: a dot is at least a disc of one.
 const DUST: f64 = 0.7;
 /// How far the blurred edge of dust reaches. px
-const RIM: u32 = 2;
+const RIM: usize = 2;
 
 /// Samples of a field, row by row.
 pub(super) struct Tile {
@@ -97,22 +98,17 @@ impl Tile {
             .map_or(0.0, |p| (DUST * p.stroke()).powi(2))
             .max(2.0);
         let (kept, dust): (Vec<Piece>, Vec<Piece>) = pieces.iter().partition(|p| p.area >= least);
-        let kept_at = |x: u32, y: u32| {
-            let near = |v: u32, n: u32| v.saturating_sub(RIM)..(v + RIM + 1).min(n);
-            let around = near(y, h).flat_map(|b| near(x, w).map(move |a| (a, b)));
-            let labels = around.map(|(a, b)| labels.get_pixel(a, b).0[0] as usize);
-            labels
-                .filter_map(|l| l.checked_sub(1))
-                .any(|i| pieces[i].area >= least)
+        let kept_at = |x: usize, y: usize| {
+            let labels = around((x, y), RIM, (self.w, self.h)).map(|i| labels.as_raw()[i] as usize);
+            let mut pieces = labels.filter_map(|l| Some(&pieces[l.checked_sub(1)?]));
+            pieces.any(|p| p.area >= least)
         };
         let mut cleared = Vec::new();
         for piece in &dust {
-            let rim = piece.bounds.inflate(f64::from(RIM), f64::from(RIM));
+            let rim = piece.bounds.inflate(RIM as f64, RIM as f64);
             for y in index(rim.y0.max(0.0))..index(rim.y1).min(self.h) {
                 for x in index(rim.x0.max(0.0))..index(rim.x1).min(self.w) {
-                    #[expect(clippy::cast_possible_truncation, reason = "inside the field")]
-                    let kept = kept_at(x as u32, y as u32);
-                    cleared.extend((!kept).then_some(y * self.w + x));
+                    cleared.extend((!kept_at(x, y)).then_some(y * self.w + x));
                 }
             }
         }

@@ -5,6 +5,7 @@ use super::picture::{pixels, to_picture};
 use super::ufo::files::bytes;
 use super::ufo::node;
 use super::ufo::states::sign;
+use crate::numeric::median::middle;
 use crate::numeric::svg::path_data;
 use crate::types::{Centerline, Files, PenDot, PenLine};
 use kurbo::{Affine, BezPath, PathEl, Point};
@@ -24,9 +25,7 @@ pub fn svg((w, h): (usize, usize), drawn: &Centerline) -> String {
     );
     for line in &drawn.lines {
         let d = path_data(&line.path, pixels);
-        let mut sorted = line.widths.clone();
-        sorted.sort_by(f64::total_cmp);
-        let middle = sorted.get(sorted.len() / 2).copied().unwrap_or_default();
+        let middle = middle(line.widths.iter().copied(), f64::total_cmp).unwrap_or_default();
         let widths: Vec<String> = line.widths.iter().map(|w| format!("{w:.2}")).collect();
         let widths = widths.join(" ");
         out +=

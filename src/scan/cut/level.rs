@@ -51,31 +51,25 @@ fn fragments(all: &[Component]) -> Vec<&Component> {
         return Vec::new();
     }
     let is_part = |c: &&Component| {
-        let (long, short) = sides(c);
-        long > FRAGMENT * side && (short < LINE.1 * side || is_hollow(c))
+        let size = c.bounds.size();
+        let thin = size.min_side() < LINE.1 * side;
+        size.max_side() > FRAGMENT * side && (thin || is_hollow(c))
     };
     all.iter().filter(is_part).collect()
 }
 
 fn is_lattice(c: &Component, side: f64) -> bool {
-    let (_, short) = sides(c);
-    short > LINE.0 * side && is_hollow(c)
+    c.bounds.size().min_side() > LINE.0 * side && is_hollow(c)
 }
 
 fn is_hollow(c: &Component) -> bool {
     (c.area as f64) < LATTICE_COVER * c.bounds.area()
 }
 
-/// The longer side of a piece's box and the shorter one, px.
-fn sides(c: &Component) -> (f64, f64) {
-    let (w, h) = (c.bounds.width(), c.bounds.height());
-    (w.max(h), w.min(h))
-}
-
 /// The longer side of all ink, px.
 fn side(all: &[Component]) -> f64 {
     let ink = all.iter().map(|c| c.bounds).reduce(|a, b| a.union(b));
-    ink.map_or(0.0, |b| b.width().max(b.height()))
+    ink.map_or(0.0, |b| b.size().max_side())
 }
 
 #[cfg(test)]

@@ -273,7 +273,14 @@ fn cut_page(
     pins::stand(&mut all, &claims, pins, &upright);
 
     let whole = all.len();
-    let mut layer = layout::place(&mut all, labels, (page, low, upright), options, &claims)?;
+    let task = layout::Task {
+        page,
+        low,
+        upright,
+        options,
+        claims: &claims,
+    };
+    let mut layer = layout::place(&mut all, labels, &task)?;
     pins::settle(&mut layer, &claims);
     let stroke = stroke_width(&all);
     marks::reclaim(&mut layer, &all);
@@ -288,14 +295,9 @@ fn cut_page(
     let mut warnings = guides.warnings;
     warnings.extend(remarks::of_picture(page, options));
     warnings.extend(stance.shifted(labels));
-    let picture = Rect::new(0.0, 0.0, gray.width() as f64, gray.height() as f64);
-    warnings.extend(remarks::warnings(
-        &layer,
-        &all,
-        picture,
-        freed,
-        &guides.drop,
-    ));
+    let size = (gray.width(), gray.height());
+    let odd = remarks::warnings(&layer, &all, size, freed, &guides.drop);
+    warnings.extend(odd);
     let shutter = window::Shutter {
         page,
         low,
@@ -326,6 +328,17 @@ fn cut_page(
         colours: separation.map_or_else(Vec::new, |s| s.colours()),
         misfit: stance.misfit(),
     })
+}
+
+/// The largest of some pieces of ink.
+fn largest(all: &[Component], parts: &[usize]) -> Option<usize> {
+    parts.iter().copied().max_by_key(|&i| all[i].area)
+}
+
+/// The box around some pieces of ink, upright px.
+fn bounds(all: &[Component], parts: &[usize]) -> Option<Rect> {
+    let boxes = parts.iter().map(|&i| all[i].upright);
+    boxes.reduce(|a, b| a.union(b))
 }
 
 /// Distance of two boxes, px.

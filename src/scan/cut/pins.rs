@@ -3,7 +3,7 @@
 use super::{Layer, Reason};
 use crate::numeric::view::View;
 use crate::scan::components::{Component, Run};
-use kurbo::{BezPath, Point, Rect, Shape, Vec2};
+use kurbo::{BezPath, PathEl, Point, Rect, Shape, Vec2};
 
 /// Share of a piece of ink that a box must hold to take it.
 const MOST: f64 = 0.5;
@@ -34,10 +34,8 @@ pub struct Pin {
 /// The pieces of ink that regions take, by the cell's index. Pieces that a polygon's edge cuts become two.
 pub(super) fn claim(all: &mut Vec<Component>, pins: &[Pin]) -> Vec<(usize, Vec<usize>)> {
     for pin in pins {
-        match &pin.region {
-            Some(Region::Polygon(points)) => split(all, points),
-            Some(Region::Quad(points)) => split(all, points),
-            Some(Region::Box(_)) | None => {}
+        if let Some(path) = pin.region.as_ref().and_then(Region::path) {
+            split(all, &path);
         }
     }
     let regions = pins
@@ -55,6 +53,19 @@ pub(super) fn claim(all: &mut Vec<Component>, pins: &[Pin]) -> Vec<(usize, Vec<u
 }
 
 impl Region {
+    /// The edge that cuts ink.
+    fn path(&self) -> Option<BezPath> {
+        let points = match self {
+            Self::Box(_) => return None,
+            Self::Polygon(points) => points.as_slice(),
+            Self::Quad(points) => points,
+        };
+        let start = points.first().map(|&p| PathEl::MoveTo(p));
+        let lines = points.iter().skip(1).map(|&p| PathEl::LineTo(p));
+        let end = start.map(|_| PathEl::ClosePath);
+        Some(start.into_iter().chain(lines).chain(end).collect())
+    }
+
     /// Share of a piece of ink inside it.
     fn share(&self, c: &Component) -> f64 {
         let inside = match self {
@@ -67,47 +78,27 @@ impl Region {
                 };
                 c.runs.iter().filter(|r| middle(r)).map(across).sum::<f64>()
             }
-            Self::Polygon(points) => held(points, c),
-            Self::Quad(points) => held(points, c),
+            Self::Polygon(_) | Self::Quad(_) => {
+                let path = self.path().unwrap_or_default();
+                c.pixels().filter(|&(x, y)| holds(&path, x, y)).count() as f64
+            }
         };
         inside / c.area.max(1) as f64
     }
 }
 
-/// Pixels of a piece of ink inside a polygon.
-fn held(points: &[Point], c: &Component) -> f64 {
-    let path = path(points);
-    c.pixels().filter(|&(x, y)| holds(&path, x, y)).count() as f64
-}
-
 /// Cuts the pieces of ink that lie across the edge of a polygon.
-fn split(all: &mut Vec<Component>, points: &[Point]) {
-    let path = path(points);
+fn split(all: &mut Vec<Component>, path: &BezPath) {
     let around = path.bounding_box();
     let mut out = Vec::with_capacity(all.len());
     for c in all.drain(..) {
         if c.bounds.overlaps(around) {
-            out.extend(c.parted(|x, y| holds(&path, x, y)));
+            out.extend(c.parted(|x, y| holds(path, x, y)));
         } else {
             out.push(c);
         }
     }
     *all = out;
-}
-
-fn path(points: &[Point]) -> BezPath {
-    let mut path = BezPath::new();
-    for (i, &p) in points.iter().enumerate() {
-        if i == 0 {
-            path.move_to(p);
-        } else {
-            path.line_to(p);
-        }
-    }
-    if !points.is_empty() {
-        path.close_path();
-    }
-    path
 }
 
 fn holds(path: &BezPath, x: usize, y: usize) -> bool {
@@ -119,16 +110,11 @@ pub(super) fn settle(layer: &mut Layer, claims: &[(usize, Vec<usize>)]) {
     let claimed = |i: &usize| claims.iter().any(|(_, parts)| parts.contains(i));
     for slot in &mut layer.slots {
         let own = claims.iter().find(|(index, _)| *index == slot.index);
-        let (taken, left): (Vec<usize>, Vec<usize>) = slot.parts.drain(..).partition(claimed);
-        drop(taken);
-        match own {
-            Some((_, parts)) => {
-                slot.parts = parts.clone();
-                layer
-                    .rejected
-                    .extend(left.into_iter().map(|i| (i, Reason::Overridden)));
-            }
-            None => slot.parts = left,
+        slot.parts.retain(|i| !claimed(i));
+        if let Some((_, parts)) = own {
+            let left = slot.parts.drain(..).map(|i| (i, Reason::Overridden));
+            layer.rejected.extend(left);
+            slot.parts.clone_from(parts);
         }
     }
     layer.rejected.retain(|(i, _)| !claimed(i));

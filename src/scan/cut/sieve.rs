@@ -1,6 +1,7 @@
 //! A page's pieces of ink → those that may be letters, what cannot be, and what is too small.
 
 use super::{Reason, Rejected};
+use crate::numeric::median::weighted;
 use crate::scan::clean::Page;
 use crate::scan::components::{Component, Run};
 use crate::scan::error::ScanError;
@@ -103,7 +104,7 @@ fn take_rims(found: Vec<Component>, page: &Page, beyond: &mut Vec<Component>) ->
             continue;
         }
         let mut rest = c.without(|x, y| rim.holds(x, y));
-        rest.retain(|c| c.bounds.width().min(c.bounds.height()) > rim.block_px());
+        rest.retain(|c| c.bounds.size().min_side() > rim.block_px());
         kept.extend(rest);
         beyond.push(c);
     }
@@ -141,25 +142,15 @@ pub(super) fn dot_limit(stroke: f64) -> f64 {
 /// ink than all letters, so what is long for the page and hollow or thin does not count.
 pub(super) fn stroke_width(all: &[Component]) -> f64 {
     let page = all.iter().map(|c| c.bounds).reduce(|a, b| a.union(b));
-    let side = page.map_or(0.0, |p| p.width().max(p.height()));
+    let side = page.map_or(0.0, |p| p.size().max_side());
     let is_line = |c: &Component| {
-        let (long, short) = (
-            c.bounds.width().max(c.bounds.height()),
-            c.bounds.width().min(c.bounds.height()),
-        );
+        let size = c.bounds.size();
+        let (long, short) = (size.max_side(), size.min_side());
         long > LINE.0 * side
             && (short < LINE.1 * side || (c.area as f64) < LATTICE_COVER * long * short)
     };
     let letters = all.iter().filter(|c| !is_line(c));
-    let mut widths: Vec<(f64, usize)> = letters.map(|c| (c.stroke(), c.area)).collect();
-    widths.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let half = widths.iter().map(|w| w.1).sum::<usize>() / 2;
-    let mut sum = 0;
-    let middle = widths.iter().find(|w| {
-        sum += w.1;
-        sum > half
-    });
-    middle.map_or(1.0, |w| w.0)
+    weighted(letters.map(|c| (c.stroke(), c.area))).unwrap_or(1.0)
 }
 
 /// Takes out ink that touches the picture's border and reaches along half of a side.
@@ -174,7 +165,7 @@ fn take_borders(all: &mut Vec<Component>, size: (usize, usize)) -> Vec<Component
 }
 
 /// Whether a piece of ink touches the border of a picture of this size.
-fn at_edge(c: &Component, (width, height): (usize, usize)) -> bool {
+pub(super) fn at_edge(c: &Component, (width, height): (usize, usize)) -> bool {
     let Rect { x0, y0, x1, y1 } = c.bounds;
     x0 <= 0.0 || y0 <= 0.0 || x1 >= width as f64 || y1 >= height as f64
 }

@@ -213,7 +213,7 @@ impl Patch {
                 0.0
             }
         });
-        let long = |c: &Component| c.bounds.width().max(c.bounds.height()) > MARGIN;
+        let long = |c: &Component| c.bounds.size().max_side() > MARGIN;
         let far = |c: &Component| c.pixels().any(|(x, y)| beyond(HALO, x, y));
         let lines = components(&passing, least, least).into_iter();
         for r in lines.filter(|c| long(c) && far(c)).flat_map(|c| c.runs) {
@@ -223,19 +223,9 @@ impl Patch {
 
     /// Fills the paper that ink encloses where it lies within a square of that side, px.
     fn heal(&mut self, side: f64) {
-        let mut paper = Vec::new();
-        for (y, row) in self.samples.chunks(self.width.max(1)).enumerate() {
-            let mut start = 0;
-            for run in row.chunk_by(|a, b| (*a < HALF) == (*b < HALF)) {
-                let end = start + run.len();
-                if run[0] < HALF {
-                    paper.push(Run { y, start, end });
-                }
-                start = end;
-            }
-        }
-        let holes = enclosed(&paper, self.width, self.height).into_iter();
-        let is_pinhole = |c: &Component| c.bounds.width().max(c.bounds.height()) < side;
+        let is_paper = |x: usize, y: usize| self.samples[y * self.width + x] < HALF;
+        let holes = enclosed((self.width, self.height), is_paper).into_iter();
+        let is_pinhole = |c: &Component| c.bounds.size().max_side() < side;
         for r in holes.filter(is_pinhole).flat_map(|c| c.runs) {
             self.samples[r.y * self.width..][r.start..r.end].fill(1.0);
         }

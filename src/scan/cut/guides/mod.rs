@@ -12,6 +12,7 @@ use crate::numeric::median::median;
 use crate::numeric::view::View;
 use crate::scan::clean::Page;
 use crate::scan::components::Component;
+use crate::scan::cut::largest;
 use crate::scan::error::ScanError;
 use crate::scan::letters::{Head, Kind, Shape};
 use crate::scan::options::{Options, Scale};
@@ -54,8 +55,8 @@ pub(super) fn measure(
             (all[*i].area, Rect::new(rough.x0, top, rough.x1, bottom))
         };
         let mut letter = letter(s, &s.parts.iter().map(exact).collect::<Vec<_>>(), &names)?;
-        let largest = s.parts.iter().max_by_key(|&&i| all[i].area)?;
-        letter.joins = joins(&all[*largest], letter.shape.joined, &view);
+        let body = &all[largest(all, &s.parts)?];
+        letter.joins = joins(body, letter.shape.joined, &view);
         Some(letter)
     };
     let mut letters: Vec<Letter> = layer.slots.iter().filter_map(letter).collect();

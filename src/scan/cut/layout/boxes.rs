@@ -3,15 +3,15 @@
 //! A box is seen by its inside: paper that ink encloses. Slanted, warped and touched boxes enclose their
 //! paper all the same; gaps in a line close at the reduced size at which they are looked for.
 
-use super::listed;
 use super::named::{Place, named};
 use super::rows::rows;
+use super::{Task, listed};
 use crate::numeric::view::View;
-use crate::scan::components::{Component, Run, enclosed};
+use crate::scan::components::{Component, enclosed};
 use crate::scan::cut::{Layer, Levels, Reason};
 use crate::scan::error::ScanError;
-use crate::scan::options::{Direction, Options};
-use crate::types::{Gray, Label};
+use crate::scan::options::Direction;
+use crate::types::Label;
 use kurbo::{Affine, Rect};
 use std::mem;
 
@@ -29,30 +29,20 @@ const RIM: f64 = 0.07;
 /// in them.
 const HELD: f64 = 0.25;
 
-/// What the page of boxes is cut by.
-pub(super) struct Plan<'a> {
-    pub(super) gray: &'a Gray,
-    /// Coverage from which pixels are ink.
-    pub(super) low: f32,
-    pub(super) upright: View,
-    pub(super) options: &'a Options,
-    pub(super) source: &'a str,
-}
-
 /// Shares the ink out to the boxes. Pieces of ink that a letter forms with its box are cut free and appended
 /// to `all`.
 pub(super) fn place(
     all: &mut Vec<Component>,
     labels: &[Label],
-    plan: &Plan<'_>,
+    task: &Task<'_>,
 ) -> Result<Layer, ScanError> {
-    let frames = frames(plan);
+    let frames = frames(task);
     let mut order = rows(&frames);
-    if plan.options.direction == Direction::Rtl {
+    if task.options.direction == Direction::Rtl {
         order.iter_mut().for_each(|r| r.reverse());
     }
     let rows: Vec<usize> = order.iter().map(Vec::len).collect();
-    listed::check(&plan.options.lines, &rows, plan.source)?;
+    listed::check(&task.options.lines, &rows, task.source())?;
     let mut rejected = Vec::new();
     let mut inside: Vec<Vec<usize>> = vec![Vec::new(); frames.len()];
     let mut freed = Vec::new();
@@ -70,7 +60,7 @@ pub(super) fn place(
                 freed.extend(
                     touched
                         .into_iter()
-                        .map(|f| (f, c.within(&plan.upright, free(frames[f])))),
+                        .map(|f| (f, c.within(&task.upright, free(frames[f])))),
                 );
             }
         }
@@ -85,7 +75,7 @@ pub(super) fn place(
         let held = inside.iter().flatten().map(|&i| all[i].area).sum();
         let outside = rejected.iter().filter(|r| r.1 == Reason::Outside);
         let outside = outside.map(|r| all[r.0].area).sum();
-        return Err(too_many(plan, frames.len(), labels, (held, outside)));
+        return Err(too_many(task, frames.len(), labels, (held, outside)));
     }
     let boxes = order.iter().enumerate();
     let boxes = boxes.flat_map(|(r, row)| row.iter().enumerate().map(move |(c, &f)| (r, c, f)));
@@ -96,7 +86,12 @@ pub(super) fn place(
         level: frames[f].y1,
         parts: mem::take(&mut inside[f]),
     });
-    let slots = named(all, places.collect(), (labels, plan.source), &mut rejected)?;
+    let slots = named(
+        all,
+        places.collect(),
+        (labels, task.source()),
+        &mut rejected,
+    )?;
     Ok(Layer {
         slots,
         rows: order.len(),
@@ -109,12 +104,12 @@ pub(super) fn place(
 
 /// Why there are more names than boxes: too many names, or no boxes.
 fn too_many(
-    plan: &Plan<'_>,
+    task: &Task<'_>,
     found: usize,
     labels: &[Label],
     (held, outside): (usize, usize),
 ) -> ScanError {
-    let (source_name, names) = (plan.source.to_owned(), labels.len());
+    let (source_name, names) = (task.source().to_owned(), labels.len());
     match labels.get(found) {
         Some(extra) if held as f64 > HELD * outside as f64 => ScanError::TooManyNames {
             source_name,
@@ -132,7 +127,7 @@ fn too_many(
 
 /// What a box holds besides its rim.
 fn free(frame: Rect) -> Rect {
-    frame.inset(-RIM * frame.width().min(frame.height()))
+    frame.inset(-RIM * frame.size().min_side())
 }
 
 /// Whether a piece of ink reaches from a box's inside, or around it, to its line.
@@ -147,17 +142,22 @@ fn in_rim(ink: Rect, frame: Rect) -> bool {
 }
 
 /// Insides of the boxes that are most alike, upright px.
-fn frames(plan: &Plan<'_>) -> Vec<Rect> {
-    let (w, h) = (plan.gray.width(), plan.gray.height());
+fn frames(task: &Task<'_>) -> Vec<Rect> {
+    let (w, h) = (task.gray().width(), task.gray().height());
     let step = w.max(h).div_ceil(REDUCED).max(1);
     let least = LEAST_SIDE * w.min(h) as f64;
     let middle = |c: &Component| {
-        let scaled = plan.upright * View::from(Affine::scale(step as f64));
+        let scaled = task.upright * View::from(Affine::scale(step as f64));
         let mut turned = c.clone();
         turned.stand(&scaled);
         turned.upright
     };
-    let papers = enclosed(&paper_runs(plan, step), w / step, h / step);
+    // blocks of the reduced picture without any ink
+    let is_paper = |x: usize, y: usize| {
+        let mut rows = (y * step..(y + 1) * step).map(|row| task.gray().row(row));
+        !rows.any(|row| row[x * step..(x + 1) * step].iter().any(|&v| v >= task.low))
+    };
+    let papers = enclosed((w / step, h / step), is_paper);
     let boxes: Vec<Rect> = papers
         .iter()
         .filter(|c| c.area as f64 > PAPER * c.bounds.area())
@@ -172,29 +172,4 @@ fn frames(plan: &Plan<'_>) -> Vec<Rect> {
     usual.map_or_else(Vec::new, |u| {
         boxes.iter().filter(|b| alike(b, u)).copied().collect()
     })
-}
-
-/// Paper of the reduced picture: blocks without any ink.
-fn paper_runs(plan: &Plan<'_>, step: usize) -> Vec<Run> {
-    let (w, h) = (plan.gray.width() / step, plan.gray.height() / step);
-    let mut runs = Vec::new();
-    for y in 0..h {
-        let mut ink = vec![false; w];
-        for row in y * step..(y + 1) * step {
-            let blocks = plan.gray.row(row).chunks_exact(step);
-            ink.iter_mut()
-                .zip(blocks)
-                .for_each(|(i, b)| *i |= b.iter().any(|&v| v >= plan.low));
-        }
-        let mut x = 0;
-        while let Some(start) = ink[x..].iter().position(|i| !i).map(|s| s + x) {
-            let end = ink[start..]
-                .iter()
-                .position(|i| *i)
-                .map_or(w, |e| e + start);
-            runs.push(Run { y, start, end });
-            x = end;
-        }
-    }
-    runs
 }

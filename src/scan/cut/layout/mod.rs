@@ -16,47 +16,46 @@ use crate::scan::clean::Page;
 use crate::scan::components::Component;
 use crate::scan::error::ScanError;
 use crate::scan::options::{Direction, Layout, Options, Order};
-use crate::types::Label;
+use crate::types::{Gray, Label};
 
-/// Where the layout puts the pieces of a page that is seen as `upright` says.
+/// A page to be laid out, and how.
+pub(super) struct Task<'a> {
+    pub(super) page: &'a Page,
+    /// Coverage from which pixels are ink.
+    pub(super) low: f32,
+    pub(super) upright: View,
+    pub(super) options: &'a Options,
+    /// The letters whose places a user says, and their ink.
+    pub(super) claims: &'a [(usize, Vec<usize>)],
+}
+
+impl<'a> Task<'a> {
+    const fn gray(&self) -> &'a Gray {
+        &self.page.sheet.gray
+    }
+
+    fn source(&self) -> &'a str {
+        &self.page.sheet.source
+    }
+}
+
+/// Where the layout puts the pieces of a page.
 pub(super) fn place(
     all: &mut Vec<Component>,
     labels: &[Label],
-    (page, low, upright): (&Page, f32, View),
-    options: &Options,
-    claims: &[(usize, Vec<usize>)],
+    task: &Task<'_>,
 ) -> Result<Layer, ScanError> {
-    let source = page.sheet.source.as_str();
     if !labels.is_empty() && labels.iter().all(|l| l.0 == "_") {
         return Err(ScanError::NoNames {
-            source_name: source.to_owned(),
+            source_name: task.source().to_owned(),
         });
     }
-    match options.layout {
+    match task.options.layout {
         Layout::Grid(rows, columns) => {
-            let plan = grid::Plan::new(page, options, (rows, columns), (upright, claims))?;
-            grid::place(all, labels, &plan)
+            grid::place(all, labels, &grid::Plan::new(task, rows, columns)?)
         }
-        Layout::Free => {
-            let plan = free::Plan {
-                gray: &page.sheet.gray,
-                upright,
-                claims,
-                options,
-                source,
-            };
-            free::place(all, labels, &plan)
-        }
-        Layout::Boxes => {
-            let plan = boxes::Plan {
-                gray: &page.sheet.gray,
-                low,
-                upright,
-                options,
-                source,
-            };
-            boxes::place(all, labels, &plan)
-        }
+        Layout::Free => free::place(all, labels, task),
+        Layout::Boxes => boxes::place(all, labels, task),
     }
 }
 

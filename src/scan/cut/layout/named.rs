@@ -1,5 +1,6 @@
 //! Places on a page and the ink in them → letters with their labels.
 
+use crate::numeric::median::middle;
 use crate::scan::components::Component;
 use crate::scan::cut::{Reason, Slot};
 use crate::scan::error::ScanError;
@@ -7,6 +8,11 @@ use crate::types::Label;
 
 /// Ink in a place without a name counts from this share of a usual place's ink.
 pub(super) const COUNTS: f64 = 0.1;
+
+/// Ink of a place that counts, px², where all places have so much.
+pub(super) fn least(inks: impl Iterator<Item = usize>) -> f64 {
+    COUNTS * middle(inks.filter(|&ink| ink > 0), usize::cmp).unwrap_or(0) as f64
+}
 
 /// A cell of a grid, or a box.
 pub(super) struct Place {
@@ -32,13 +38,7 @@ pub(super) fn named(
     rejected: &mut Vec<(usize, Reason)>,
 ) -> Result<Vec<Slot>, ScanError> {
     let ink = |parts: &[usize]| parts.iter().map(|&i| all[i].area).sum::<usize>();
-    let mut usual: Vec<usize> = places
-        .iter()
-        .map(|p| ink(&p.parts))
-        .filter(|&a| a > 0)
-        .collect();
-    usual.sort_unstable();
-    let least = COUNTS * usual.get(usual.len() / 2).copied().unwrap_or(0) as f64;
+    let least = least(places.iter().map(|p| ink(&p.parts)));
     let mut slots = Vec::new();
     for place in places {
         match labels.get(place.index) {

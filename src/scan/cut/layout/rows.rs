@@ -1,5 +1,6 @@
 //! Boxes → rows: neighbours that stand side by side.
 
+use crate::numeric::median;
 use kurbo::Rect;
 
 /// Share of the lower box's height by which two neighbours of a row overlap.
@@ -75,9 +76,8 @@ fn distance(a: &Rect, b: &Rect) -> f64 {
 
 /// The median height of a row's boxes' middles.
 fn middle(boxes: &[Rect], row: &[usize]) -> f64 {
-    let mut all: Vec<f64> = row.iter().map(|&i| boxes[i].center().y).collect();
-    all.sort_by(f64::total_cmp);
-    all.get(all.len() / 2).copied().unwrap_or(0.0)
+    let heights = row.iter().map(|&i| boxes[i].center().y);
+    median::middle(heights, f64::total_cmp).unwrap_or(0.0)
 }
 
 fn of_row(boxes: &[Rect], row: &[usize]) -> Vec<Rect> {
@@ -86,12 +86,9 @@ fn of_row(boxes: &[Rect], row: &[usize]) -> Vec<Rect> {
 
 /// A row's usual extent: medians of tops and of bottoms.
 fn band(row: &[Rect]) -> Rect {
-    let median = |of: fn(&Rect) -> f64| {
-        let mut all: Vec<f64> = row.iter().map(of).collect();
-        all.sort_by(f64::total_cmp);
-        all.get(all.len() / 2).copied().unwrap_or(0.0)
-    };
-    Rect::new(0.0, median(|b| b.y0), 1.0, median(|b| b.y1))
+    let usual =
+        |of: fn(&Rect) -> f64| median::middle(row.iter().map(of), f64::total_cmp).unwrap_or(0.0);
+    Rect::new(0.0, usual(|b| b.y0), 1.0, usual(|b| b.y1))
 }
 
 /// Parts of one row that a gap tore apart become one: their usual extents stand beside each other.
@@ -161,9 +158,7 @@ fn pitch(boxes: &[Rect], rows: &[Vec<usize>]) -> Option<f64> {
         let down = under.map(|b| b.center().y - a.center().y);
         down.min_by(f64::total_cmp)
     };
-    let mut all: Vec<f64> = some.iter().filter_map(below).collect();
-    all.sort_by(f64::total_cmp);
-    all.get(all.len() / 2).copied()
+    median::middle(some.iter().filter_map(below), f64::total_cmp)
 }
 
 /// How far two parts of rows lie from each other in height, px: the median over the smaller part's boxes, each
@@ -171,9 +166,7 @@ fn pitch(boxes: &[Rect], rows: &[Vec<usize>]) -> Option<f64> {
 fn apart(boxes: &[Rect], one: &[usize], other: &[usize]) -> Option<f64> {
     let (few, many) = by_count(one, other);
     let off = |&i: &usize| Some((boxes[i].center().y - height(boxes, many, boxes[i])?).abs());
-    let mut all: Vec<f64> = few.iter().filter_map(off).collect();
-    all.sort_by(f64::total_cmp);
-    all.get(all.len() / 2).copied()
+    median::middle(few.iter().filter_map(off), f64::total_cmp)
 }
 
 /// The height of the middles of a row where a box stands, px: between its next ones on both sides, or that of the

@@ -2,7 +2,7 @@
 
 use super::{EXTRA, REACH, dots, is_dot, usual_dot};
 use crate::scan::components::Component;
-use crate::scan::cut::{Layer, Reason, Slot, gap};
+use crate::scan::cut::{Layer, Reason, Slot, gap, largest};
 use crate::scan::letters::{Pieces, Shape};
 use glyphs_reader::glyphdata::GlyphData;
 use kurbo::Rect;
@@ -64,7 +64,7 @@ pub(in crate::scan::cut) fn restore(
     let mut moves = Vec::new();
     for &(to, body, _) in lacking {
         for (from, (slot, shape)) in layer.slots.iter().zip(&shapes).enumerate() {
-            let main = slot.parts.iter().copied().max_by_key(|&i| all[i].area);
+            let main = largest(all, &slot.parts);
             let Some(main) = main.filter(|_| from != to && !claimed(slot)) else {
                 continue;
             };

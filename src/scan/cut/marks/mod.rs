@@ -11,7 +11,7 @@ mod small;
 pub(super) use lost::{reclaim, restore};
 pub(super) use small::{SMALL, group};
 
-use super::{Layer, Reason, Slot, gap};
+use super::{Layer, Reason, Slot, bounds, gap, largest};
 use crate::numeric::median::median;
 use crate::scan::components::Component;
 use crate::scan::letters::{Kind, Pieces, Shape};
@@ -123,10 +123,8 @@ impl Stray {
 
     /// Whether a page has dust that is about as large as a piece.
     fn has_like(&self, c: &Component) -> bool {
-        let times = self
-            .0
-            .iter()
-            .map(|&area| area as f64 / c.area.max(1) as f64);
+        let areas = self.0.iter();
+        let times = areas.map(|&area| area as f64 / c.area.max(1) as f64);
         let alike = times.filter(|t| (1.0 / GRAINS..=GRAINS).contains(t));
         alike.count() >= ENOUGH
     }
@@ -136,7 +134,7 @@ impl Stray {
 fn beside_letter(slot: &Slot, all: &[Component], names: &GlyphData, usual: &Usual) -> Vec<usize> {
     let in_pieces = usual.in_pieces;
     let (shape, parts) = (Shape::of(&slot.label, names), &slot.parts);
-    let Some(body) = parts.iter().copied().max_by_key(|&i| all[i].area) else {
+    let Some(body) = largest(all, parts) else {
         return Vec::new();
     };
     let is_dust = |i: usize| {
@@ -213,8 +211,8 @@ fn drawn_again(
     // to be dust
     let mut bodies: BTreeMap<usize, Vec<(usize, Vec2, bool)>> = BTreeMap::new();
     for (slot, small) in slots.iter().zip(found) {
-        let main = slot.parts.iter().copied().max_by_key(|&i| all[i].area);
-        let alike = Shape::of(&slot.label, names).alike();
+        let main = largest(all, &slot.parts);
+        let alike = Shape::of(&slot.label, names).body;
         let Some((alike, main)) = alike.zip(main) else {
             continue;
         };
@@ -247,7 +245,7 @@ pub(super) fn in_pieces<'a>(
 ) -> bool {
     let asked = letters.filter(|l| Shape::of(l.0, names).pieces == Pieces::One);
     let parted = asked.filter_map(|(_, parts)| {
-        let body = parts.iter().copied().max_by_key(|&i| all[i].area)?;
+        let body = largest(all, parts)?;
         let mut others = parts.iter().filter(|&&i| i != body);
         Some(others.any(|&i| is_close(&all[i], &all[body])))
     });
@@ -261,7 +259,7 @@ pub(super) fn in_pieces<'a>(
 fn with_specks(layer: &Layer, (all, stray): (&[Component], &Stray), names: &GlyphData) -> bool {
     let one = |s: &&Slot| Shape::of(&s.label, names).pieces == Pieces::One;
     let asked = layer.slots.iter().filter(one).filter_map(|s| {
-        let body = s.parts.iter().copied().max_by_key(|&i| all[i].area)?;
+        let body = largest(all, &s.parts)?;
         let (others, main) = (s.parts.iter().filter(|&&i| i != body), &all[body]);
         let mut others = others.map(|&i| &all[i]);
         Some(others.any(|c| (speck(c, main) || inner(c, main)) && !stray.has_like(c)))
@@ -273,14 +271,13 @@ fn with_specks(layer: &Layer, (all, stray): (&[Component], &Stray), names: &Glyp
 
 /// The usual longer side of the letters' bodies, px.
 fn usual_side(layer: &Layer, all: &[Component]) -> f64 {
-    let body = |s: &Slot| s.parts.iter().copied().max_by_key(|&i| all[i].area);
-    let bodies = layer.slots.iter().filter_map(body);
+    let bodies = layer.slots.iter().filter_map(|s| largest(all, &s.parts));
     median(bodies.map(|i| side(&all[i]))).unwrap_or(0.0)
 }
 
 /// Its longer side, px.
 fn side(c: &Component) -> f64 {
-    c.upright.width().max(c.upright.height())
+    c.upright.size().max_side()
 }
 
 /// The usual area of a dot, px²: the median of those letters of one dot that have one piece where it may be.
@@ -299,8 +296,7 @@ fn usual_dot(layer: &Layer, all: &[Component], names: &GlyphData) -> Option<f64>
 
 /// Whether a piece is a thin end of a stroke that is parted from it: a dot or dust is no stroke.
 fn torn(c: &Component, body: &Component) -> bool {
-    let (w, h) = (c.upright.width(), c.upright.height());
-    w.max(h) > STROKE * w.min(h) && is_close(c, body)
+    side(c) > STROKE * c.upright.size().min_side() && is_close(c, body)
 }
 
 /// Whether less than a part of a stroke lies between a piece and the body.
@@ -453,7 +449,7 @@ fn dots<'a>(
         Pieces::DotBelow => 1.0,
         _ => return None,
     };
-    let main = parts.iter().copied().max_by_key(|&i| all[i].area)?;
+    let main = largest(all, parts)?;
     let body = all[main].upright;
     let rest = parts.iter().filter(|&&i| i != main).map(|&i| &all[i]);
     // dots that touch are one long piece, and pieces of the body lie beside it
@@ -472,7 +468,7 @@ fn is_dot(c: &Component) -> bool {
 /// Whether its longer side is less than so many times the shorter one, and it is no ring.
 fn is_compact(c: &Component, times: f64) -> bool {
     let (w, h) = (c.upright.width(), c.upright.height());
-    w.max(h) < times * w.min(h) && c.area as f64 > COMPACT.1 * w * h
+    side(c) < times * w.min(h) && c.area as f64 > COMPACT.1 * w * h
 }
 
 /// Gives small pieces of ink, in no slot so far, to the letters that want them: they go to the end of `all`. Returns
@@ -506,18 +502,16 @@ fn lack_dots(layer: &Layer) -> bool {
 /// Gives pieces of ink to the letters beside which they lie and that want them.
 fn share_out(layer: &mut Layer, all: &mut Vec<Component>, small: &[Component]) {
     let names = GlyphData::default();
-    let bodies: Vec<Option<Rect>> = (layer.slots.iter())
-        .map(|s| s.parts.iter().max_by_key(|&&i| all[i].area))
-        .map(|body| body.map(|&i| all[i].upright))
-        .collect();
+    let bodies = layer.slots.iter().map(|s| largest(all, &s.parts));
+    let bodies = bodies.map(|body| body.map(|i| all[i].upright));
+    let bodies: Vec<Option<Rect>> = bodies.collect();
     let mut wanted: Vec<Vec<Component>> = vec![Vec::new(); layer.slots.len()];
     let mut left: Vec<usize> = (0..small.len()).collect();
     while let Some(&first) = left.first() {
         // the dots of a letter go to it together
         let dots = group(small, first, left.iter());
         left.retain(|i| !dots.contains(i));
-        let place = dots.iter().map(|&i| small[i].upright);
-        let Some(place) = place.reduce(|a, b| a.union(b)) else {
+        let Some(place) = bounds(small, &dots) else {
             break;
         };
         let near = (0..bodies.len()).filter_map(|s| Some((s, gap(bodies[s]?, place))));
@@ -529,7 +523,7 @@ fn share_out(layer: &mut Layer, all: &mut Vec<Component>, small: &[Component]) {
     }
     for (slot, pieces) in layer.slots.iter_mut().zip(wanted) {
         let shape = Shape::of(&slot.label, &names).pieces;
-        let Some(body) = slot.parts.iter().copied().max_by_key(|&i| all[i].area) else {
+        let Some(body) = largest(all, &slot.parts) else {
             continue;
         };
         let others = slot.parts.iter().filter(|&&i| i != body);

@@ -13,7 +13,7 @@ pub(in crate::scan::cut) fn group<'a>(
     part: usize,
     others: impl Iterator<Item = &'a usize>,
 ) -> Vec<usize> {
-    let size = |i: usize| all[i].upright.width().max(all[i].upright.height());
+    let size = |i: usize| all[i].upright.size().max_side();
     let mut left: Vec<usize> = others.copied().filter(|&i| i != part).collect();
     let mut found = vec![part];
     let mut next = 0;

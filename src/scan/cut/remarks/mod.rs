@@ -3,14 +3,14 @@
 mod grain;
 mod signs;
 
-use super::{Layer, Slot, Warning};
-use crate::numeric::median::median;
+use super::sieve::at_edge;
+use super::{Layer, Slot, Warning, bounds};
+use crate::numeric::median::{median, middle};
 use crate::scan::clean::Page;
 use crate::scan::components::Component;
 use crate::scan::letters::Shape;
 use crate::scan::options::Options;
 use glyphs_reader::glyphdata::GlyphData;
-use kurbo::Rect;
 use std::ops::Range;
 
 /// A letter larger than this many usual letters may be two, or hold a line.
@@ -32,12 +32,12 @@ pub fn is_full(c: char) -> bool {
     c.is_alphanumeric() && c != 'ء'
 }
 
-/// What is odd about the letters of a page whose picture has these bounds. Pieces `freed` were cut off printed lines,
+/// What is odd about the letters of a page whose picture is so large. Pieces `freed` were cut off printed lines,
 /// unless they were off letters; baselines lie by `drop` below the levels of each row.
 pub(super) fn warnings(
     layer: &Layer,
     all: &[Component],
-    picture: Rect,
+    picture: (usize, usize),
     freed: Range<usize>,
     drop: &[f64],
 ) -> Vec<Warning> {
@@ -59,29 +59,17 @@ pub(super) fn warnings(
 fn odd(
     slots: &[&Slot],
     all: &[Component],
-    picture: Rect,
+    picture: (usize, usize),
     is_freed: impl Fn(usize) -> bool,
 ) -> Vec<Warning> {
-    let bounds = |s: &Slot, of: fn(&Component) -> Rect| {
-        let boxes = s.parts.iter().map(|&i| of(&all[i]));
-        boxes.reduce(|a, b| a.union(b)).unwrap_or(Rect::ZERO)
-    };
-    let size = |s: &Slot| {
-        let b = bounds(s, |c| c.upright);
-        b.width().max(b.height())
-    };
-    let mut sizes: Vec<f64> = slots.iter().map(|s| size(s)).collect();
-    sizes.sort_by(f64::total_cmp);
-    let usual = sizes.get(sizes.len() / 2).copied().unwrap_or(0.0);
+    let size = |s: &Slot| bounds(all, &s.parts).map_or(0.0, |b| b.size().max_side());
+    let usual = middle(slots.iter().map(|s| size(s)), f64::total_cmp).unwrap_or(0.0);
     let names = GlyphData::default();
     let letters = slots.iter().filter(|s| Shape::of(&s.label, &names).full);
-    let mut full: Vec<f64> = letters.map(|s| size(s)).collect();
-    full.sort_by(f64::total_cmp);
-    let full = full.get(full.len() / 2).copied().unwrap_or(0.0);
+    let full = middle(letters.map(|s| size(s)), f64::total_cmp).unwrap_or(0.0);
     let mut out = Vec::new();
     for slot in slots {
-        let b = bounds(slot, |c| c.bounds);
-        if b.x0 <= picture.x0 || b.y0 <= picture.y0 || b.x1 >= picture.x1 || b.y1 >= picture.y1 {
+        if slot.parts.iter().any(|&i| at_edge(&all[i], picture)) {
             out.push(Warning::of(
                 slot,
                 "its ink reaches the picture's edge: scan the whole page",
@@ -116,8 +104,7 @@ fn across(slots: &[&Slot], all: &[Component], baseline: impl Fn(&Slot) -> f64) -
     let rows = slots.iter().map(|s| s.row + 1).max().unwrap_or(0);
     let lines: Vec<Option<f64>> = (0..rows).map(row).collect();
     let reaches = |slot: &&Slot| {
-        let boxes = slot.parts.iter().map(|&i| all[i].upright);
-        let ink = boxes.reduce(|a, b| a.union(b))?;
+        let ink = bounds(all, &slot.parts)?;
         let line = |r: Option<usize>| lines.get(r?).copied().flatten();
         let own = line(Some(slot.row))?;
         let above = line(slot.row.checked_sub(1)).is_some_and(|y| ink.y0 < y);

@@ -4,7 +4,7 @@
 //! What a hand's dots are like, its own letters tell: where two or three are drawn as one dash, no dash may be
 //! missing.
 
-use crate::numeric::median::median;
+use crate::numeric::median::{median, middle};
 use crate::scan::components::Component;
 use crate::scan::cut::{Slot, Warning};
 use crate::scan::letters::{Kind, Pieces, Shape};
@@ -104,9 +104,8 @@ struct Usual {
 impl Usual {
     /// Of letters that want the same signs; `None` where they differ.
     fn of(letters: &[Signed<'_>]) -> Option<Self> {
-        let mut counts: Vec<usize> = letters.iter().map(|l| l.drawn.len()).collect();
-        counts.sort_unstable();
-        let count = counts.get(counts.len() / 2).copied().filter(|n| *n > 0)?;
+        let counts = letters.iter().map(|l| l.drawn.len());
+        let count = middle(counts, usize::cmp).filter(|n| *n > 0)?;
         let alike = letters.iter().filter(|l| l.drawn.len() == count);
         let inks: Vec<f64> = alike.map(|l| l.drawn.iter().sum()).collect();
         let tell = inks.len() >= TELL && inks.len() as f64 >= ALIKE * letters.len() as f64;

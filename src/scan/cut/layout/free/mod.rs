@@ -10,19 +10,18 @@ mod order;
 mod pieces;
 mod reading;
 
-use super::listed;
 use super::rows::{nearest, rows};
 use super::ruling;
 use super::touching::Touch;
-use crate::numeric::median::median;
-use crate::numeric::view::View;
+use super::{Task, listed};
+use crate::numeric::median::{median, weighted};
 use crate::scan::components::Component;
 use crate::scan::cut::sieve::{LATTICE_COVER, stroke_width};
-use crate::scan::cut::{Layer, Levels, Reason, Slot};
+use crate::scan::cut::{self, Layer, Levels, Reason, Slot};
 use crate::scan::error::ScanError;
 use crate::scan::letters::{Pieces, Shape};
-use crate::scan::options::{Direction, Options};
-use crate::types::{Gray, Label};
+use crate::scan::options::Direction;
+use crate::types::Label;
 use doubts::Unread;
 use glyphs_reader::glyphdata::GlyphData;
 use kurbo::Rect;
@@ -58,35 +57,25 @@ const DIRT: f64 = 0.06;
 /// Letters of a piece of ink at most, in the mean: reading takes time and memory for every piece and every name.
 const HELD: usize = 8;
 
-/// What a bare page is read by.
-pub(super) struct Plan<'a> {
-    pub(super) gray: &'a Gray,
-    pub(super) upright: View,
-    /// Ink whose letters a user says.
-    pub(super) claims: &'a [(usize, Vec<usize>)],
-    pub(super) options: &'a Options,
-    pub(super) source: &'a str,
-}
-
 /// Gathers the ink of a bare page into letters and names them. Letters that touch are cut apart in `all`, and those
 /// that touch a printed lattice are cut free of it.
 pub(super) fn place(
     all: &mut Vec<Component>,
     labels: &[Label],
-    plan: &Plan<'_>,
+    task: &Task<'_>,
 ) -> Result<Layer, ScanError> {
-    let claims = plan.claims;
+    let claims = task.claims;
     let unclaimed = |index: &usize| claims.iter().all(|(c, _)| c != index);
     let names: Vec<usize> = (0..labels.len()).filter(unclaimed).collect();
     if names.len() > HELD * all.len() {
         return Err(ScanError::FewPieces {
-            source_name: plan.source.to_owned(),
+            source_name: task.source().to_owned(),
             pieces: all.len(),
             names: names.len(),
         });
     }
     let freed = lattices(all).into_iter();
-    let freed = freed.flat_map(|i| ruling::freed(&all[i], &plan.upright));
+    let freed = freed.flat_map(|i| ruling::freed(&all[i], &task.upright));
     let freed: Vec<Component> = freed.collect();
     all.extend(freed);
     let data = GlyphData::default();
@@ -97,8 +86,8 @@ pub(super) fn place(
         let index = names.get(k).copied().unwrap_or_default();
         (labels.get(index).map_or("", |l| l.0.as_str()), index + 1)
     };
-    let (read, parted) =
-        read(all, &shapes, plan).map_err(|unread| unread.error(plan.source, names.len(), label))?;
+    let (read, parted) = read(all, &shapes, task)
+        .map_err(|unread| unread.error(task.source(), names.len(), label))?;
     let spare = read.spare.map(|s| [*s.start(), *s.end()].map(|k| names[k]));
     let doubtful = read.doubtful.iter().map(|&k| names[k]).collect();
     let mut names = names.into_iter();
@@ -107,10 +96,10 @@ pub(super) fn place(
     claims.iter().for_each(|c| seat(all, &mut rows, c));
     rows.sort_by_key(|row| row.iter().map(|l| l.0).min());
     let counts: Vec<usize> = rows.iter().map(Vec::len).collect();
-    listed::check(&plan.options.lines, &counts, plan.source)?;
+    listed::check(&task.options.lines, &counts, task.source())?;
     // lines that are the page's rows say how many letters there are
-    if let Some(among) = spare.filter(|_| plan.options.lines != counts) {
-        return Err(spare_name(labels, among, plan.source));
+    if let Some(among) = spare.filter(|_| task.options.lines != counts) {
+        return Err(spare_name(labels, among, task.source()));
     }
     let mut layer = layer(rows, labels);
     layer.rejected.extend(read.out);
@@ -141,19 +130,19 @@ type Parted = (Read, Vec<usize>);
 fn read(
     all: &mut Vec<Component>,
     names: &[Option<Shape>],
-    plan: &Plan<'_>,
+    task: &Task<'_>,
 ) -> Result<Parted, Unread> {
-    let across = Bare::new(all, &[], plan).across(names);
+    let across = Bare::new(all, &[], task).across(names);
     if across.is_empty() {
-        return read_beside(all, Vec::new(), names, plan);
+        return read_beside(all, Vec::new(), names, task);
     }
     let mut other = all.clone();
     let cut = across
         .iter()
-        .flat_map(|t| t.part(&mut other, (plan.gray, &plan.upright)));
+        .flat_map(|t| t.part(&mut other, (task.gray(), &task.upright)));
     let cut: Vec<usize> = cut.collect();
-    let whole = read_beside(all, Vec::new(), names, plan);
-    match (whole, read_beside(&mut other, cut, names, plan)) {
+    let whole = read_beside(all, Vec::new(), names, task);
+    match (whole, read_beside(&mut other, cut, names, task)) {
         (Ok(whole), Ok(parted)) if whole.0.cost <= parted.0.cost => Ok(whole),
         (_, Ok(parted)) => {
             *all = other;
@@ -169,16 +158,16 @@ fn read_beside(
     all: &mut Vec<Component>,
     mut parted: Vec<usize>,
     names: &[Option<Shape>],
-    plan: &Plan<'_>,
+    task: &Task<'_>,
 ) -> Result<Parted, Unread> {
     loop {
-        let unread = match Bare::new(all, &parted, plan).letters(names) {
+        let unread = match Bare::new(all, &parted, task).letters(names) {
             Ok(read) => return Ok((read, parted)),
             Err(unread) => unread,
         };
         let before = parted.len();
         for touch in &unread.touching {
-            parted.extend(touch.part(all, (plan.gray, &plan.upright)));
+            parted.extend(touch.part(all, (task.gray(), &task.upright)));
         }
         if parted.len() == before {
             return Err(unread);
@@ -286,10 +275,10 @@ struct Found {
 }
 
 impl<'a> Bare<'a> {
-    fn new(all: &'a [Component], parted: &'a [usize], plan: &Plan<'_>) -> Self {
+    fn new(all: &'a [Component], parted: &'a [usize], task: &Task<'_>) -> Self {
         let lattices = lattices(all);
         let (height, stroke) = (usual_height(all, &lattices), stroke_width(all));
-        let claimed = |i: &usize| plan.claims.iter().any(|(_, parts)| parts.contains(i));
+        let claimed = |i: &usize| task.claims.iter().any(|(_, parts)| parts.contains(i));
         let free = (0..all.len()).filter(|i| !claimed(i));
         let (lines, ink) =
             free.partition(|&i| lattices.contains(&i) || is_line(&all[i], height, stroke));
@@ -300,7 +289,7 @@ impl<'a> Bare<'a> {
             parted,
             height,
             stroke,
-            rtl: plan.options.direction == Direction::Rtl,
+            rtl: task.options.direction == Direction::Rtl,
         }
     }
 
@@ -327,7 +316,7 @@ impl<'a> Bare<'a> {
 
     /// The share of a page's ink that is in no letter, without long lines, labels and guides.
     fn left_out(&self, read: &Read) -> f64 {
-        let side = |r: Rect| r.width().max(r.height());
+        let side = |r: Rect| r.size().max_side();
         let letters = read.rows.iter().flatten();
         let usual = median(letters.map(|l| side(bounds(self.all, l)))).unwrap_or(0.0);
         let is_short = |&i: &usize| side(self.all[i].upright) < LONG * usual;
@@ -456,8 +445,8 @@ impl<'a> Bare<'a> {
 }
 
 fn is_line(c: &Component, height: f64, stroke: f64) -> bool {
-    let (w, h) = (c.upright.width(), c.upright.height());
-    let (long, thin) = (w.max(h), w.min(h));
+    let size = c.upright.size();
+    let (long, thin) = (size.max_side(), size.min_side());
     let line = long > LINE_LENGTH * height && thin < LINE_SHAPE * long;
     line || (long > SCRAP.1 * height && thin < SCRAP.0 * stroke)
 }
@@ -470,8 +459,7 @@ fn usual_area(pieces: &[Piece], letters: usize) -> f64 {
 }
 
 fn bounds(all: &[Component], group: &[usize]) -> Rect {
-    let boxes = group.iter().map(|&i| all[i].upright);
-    boxes.reduce(|a, b| a.union(b)).unwrap_or(Rect::ZERO)
+    cut::bounds(all, group).unwrap_or(Rect::ZERO)
 }
 
 /// Printed lines that cross: hollow pieces in whose box most of the others lie.
@@ -490,13 +478,6 @@ fn lattices(all: &[Component]) -> Vec<usize> {
 fn usual_height(all: &[Component], lattices: &[usize]) -> f64 {
     let letters = all.iter().enumerate();
     let letters = letters.filter(|(i, _)| !lattices.contains(i));
-    let mut sizes: Vec<(f64, usize)> = letters.map(|(_, c)| (c.upright.height(), c.area)).collect();
-    sizes.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let half = sizes.iter().map(|s| s.1).sum::<usize>() / 2;
-    let mut sum = 0;
-    let middle = sizes.iter().find(|s| {
-        sum += s.1;
-        sum > half
-    });
-    middle.map_or(1.0, |s| s.0.max(1.0))
+    let height = weighted(letters.map(|(_, c)| (c.upright.height(), c.area)));
+    height.map_or(1.0, |h| h.max(1.0))
 }

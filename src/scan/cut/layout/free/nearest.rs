@@ -1,6 +1,7 @@
 //! Ink of a bare page → letters where names say nothing of them: pieces are joined from the most to the least obvious
 //! pair until there are as many letters as names.
 
+use crate::numeric::median::middle;
 use crate::scan::components::Component;
 use crate::scan::cut::Reason;
 
@@ -133,9 +134,7 @@ fn drop_dirt(
     wanted: usize,
 ) -> Vec<(usize, Reason)> {
     let area = |g: &Vec<usize>| g.iter().map(|&i| all[i].area).sum::<usize>();
-    let mut areas: Vec<usize> = groups.iter().map(area).collect();
-    areas.sort_unstable();
-    let usual = areas.get(areas.len() / 2).copied().unwrap_or(0) as f64;
+    let usual = middle(groups.iter().map(area), usize::cmp).unwrap_or(0) as f64;
     let mut out = Vec::new();
     while groups.len() > wanted {
         let least = (0..groups.len()).min_by_key(|&g| area(&groups[g]));

@@ -1,7 +1,7 @@
 //! Pieces of ink → rows, as they are read.
 
 use super::pieces::{Piece, Tie, Usual};
-use crate::numeric::median::median;
+use crate::numeric::median::{median, middle};
 use crate::scan::cut::layout::rows::rows;
 use kurbo::Rect;
 use std::ops::Range;
@@ -117,9 +117,8 @@ impl Letters {
 /// Rows from the top, each from the left.
 fn sorted(mut rows: Vec<Vec<usize>>, pieces: &[Piece]) -> Vec<Vec<usize>> {
     let middle = |row: &[usize]| {
-        let mut all: Vec<f64> = row.iter().map(|&i| pieces[i].bounds.center().y).collect();
-        all.sort_by(f64::total_cmp);
-        all.get(all.len() / 2).copied().unwrap_or(0.0)
+        let heights = row.iter().map(|&i| pieces[i].bounds.center().y);
+        middle(heights, f64::total_cmp).unwrap_or(0.0)
     };
     rows.sort_by(|a, b| middle(a).total_cmp(&middle(b)));
     let x = |i: usize| pieces[i].bounds.center().x;

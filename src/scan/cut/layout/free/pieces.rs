@@ -2,6 +2,7 @@
 
 use crate::numeric::cast::index;
 use crate::scan::components::Component;
+use crate::scan::cut::bounds;
 use crate::scan::cut::gap;
 use kurbo::Rect;
 
@@ -89,11 +90,10 @@ pub(super) struct Tie {
 
 impl Piece {
     fn of(parts: Vec<usize>, all: &[Component], usual: Usual) -> Option<Self> {
-        let boxes = parts.iter().map(|&i| all[i].upright);
         let mut piece = Self {
             area: parts.iter().map(|&i| all[i].area).max()?,
             size: 0.0,
-            bounds: boxes.reduce(|a, b| a.union(b))?,
+            bounds: bounds(all, &parts)?,
             parts,
         };
         piece.measure(all, usual);

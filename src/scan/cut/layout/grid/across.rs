@@ -8,7 +8,7 @@ use super::axis::Axis;
 use super::plan::Plan;
 use super::shared::{Shared, share};
 use crate::scan::components::Component;
-use crate::scan::cut::layout::named::COUNTS;
+use crate::scan::cut::layout::named::least;
 use crate::scan::cut::layout::touching::{Along, End, Meeting, Touch};
 use crate::scan::letters::Shape;
 use crate::types::Label;
@@ -30,7 +30,7 @@ pub(super) fn part(
     loop {
         let before = all.len();
         for touch in touching(all, shared, (labels, plan)) {
-            parted.extend(touch.part(all, (plan.gray, &plan.upright)));
+            parted.extend(touch.part(all, (plan.task.gray(), &plan.task.upright)));
         }
         letters.extend(before..all.len());
         match share(all, letters, labels, plan).filter(|_| all.len() > before) {
@@ -48,19 +48,17 @@ fn touching(
 ) -> Vec<Touch> {
     let own = |cell: &Vec<usize>| cell.iter().map(|&i| all[i].area).sum::<usize>();
     let own: Vec<usize> = shared.cells.iter().map(own).collect();
-    let mut usual: Vec<usize> = own.iter().copied().filter(|&a| a > 0).collect();
-    usual.sort_unstable();
-    let least = COUNTS * usual.get(usual.len() / 2).copied().unwrap_or(0) as f64;
+    let least = least(own.iter().copied());
     let data = GlyphData::default();
     let mut named = vec![false; shared.cells.len()];
     let mut joined = vec![[false; 2]; shared.cells.len()];
     for (index, label) in labels.iter().enumerate().filter(|(_, l)| l.0 != "_") {
         let (row, column) = plan.place(index);
         let cell = row * plan.columns + column;
-        named[cell] = plan.claims.iter().all(|(k, _)| *k != index);
+        named[cell] = plan.task.claims.iter().all(|(k, _)| *k != index);
         joined[cell] = Shape::of(label, &data).joined;
     }
-    let claimed = |i: usize| plan.claims.iter().any(|(_, parts)| parts.contains(&i));
+    let claimed = |i: usize| plan.task.claims.iter().any(|(_, parts)| parts.contains(&i));
     let touch = |cell: usize, i: usize| {
         let (row, column) = (cell / plan.columns, cell % plan.columns);
         [Along::Row, Along::Column].into_iter().find_map(|along| {
@@ -74,7 +72,8 @@ fn touching(
                     Along::Row => row * plan.columns + k,
                     Along::Column => k * plan.columns + column,
                 };
-                let here = |p: &(usize, usize)| cells.cell(along.at(*p, &plan.upright)) == Some(k);
+                let here =
+                    |p: &(usize, usize)| cells.cell(along.at(*p, &plan.task.upright)) == Some(k);
                 let ink = || all[i].pixels().filter(here).count();
                 named[cell] && (least.max(own[cell] as f64)..).contains(&(ink() as f64))
             };

@@ -5,6 +5,7 @@
 
 use super::shared::Shared;
 use crate::scan::components::Component;
+use crate::scan::cut::largest;
 use kurbo::{Point, Rect, Vec2};
 use std::collections::BTreeSet;
 
@@ -65,10 +66,9 @@ struct Cells<'a> {
 impl<'a> Cells<'a> {
     fn new(all: &[Component], ink: &'a Shared, asked: &[usize]) -> Option<Self> {
         let columns = ink.x.count;
-        let bodies = asked.iter().filter_map(|&cell| {
-            let body = ink.cells[cell].iter().max_by_key(|&&i| all[i].area)?;
-            Some((cell, all[*body].centre))
-        });
+        let bodies = asked
+            .iter()
+            .filter_map(|&cell| Some((cell, all[largest(all, &ink.cells[cell])?].centre)));
         let bodies: Vec<(usize, Point)> = bodies.collect();
         let across: Vec<(f64, f64)> = bodies
             .iter()

@@ -12,6 +12,7 @@ use super::listed;
 use super::named::{Place, named};
 use super::ruling;
 use crate::scan::components::Component;
+use crate::scan::cut::largest;
 use crate::scan::cut::marks::{self, SMALL, group};
 use crate::scan::cut::sieve::LATTICE_COVER;
 use crate::scan::cut::{Layer, Levels, Reason, gap};
@@ -37,23 +38,23 @@ pub(super) fn place(
     labels: &[Label],
     plan: &Plan<'_>,
 ) -> Result<Layer, ScanError> {
-    listed::check(&plan.options.lines, &plan.lines(), plan.source)?;
+    listed::check(&plan.task.options.lines, &plan.lines(), plan.task.source())?;
     plan.too_many(labels)?;
     let lines = lines(all, plan);
     let is_lined = !lines.is_empty();
     let freed = lines
         .iter()
-        .flat_map(|&i| ruling::freed(&all[i], &plan.upright));
+        .flat_map(|&i| ruling::freed(&all[i], &plan.task.upright));
     let freed: Vec<Component> = freed.collect();
     all.extend(freed);
     let mut letters: Vec<usize> = (0..all.len()).filter(|i| !lines.contains(i)).collect();
     let mut rejected: Vec<(usize, Reason)> = lines.iter().map(|&i| (i, Reason::Line)).collect();
     let blank = || ScanError::Blank {
-        source_name: plan.source.to_owned(),
+        source_name: plan.task.source().to_owned(),
     };
     let lattice: Vec<&Component> = lines.iter().map(|&i| &all[i]).collect();
     let plan = &Plan {
-        printed: ruling::heights(&lattice, &plan.upright),
+        printed: ruling::heights(&lattice, &plan.task.upright),
         ..plan.clone()
     };
     let mut shared = share(all, &letters, labels, plan).ok_or_else(blank)?;
@@ -94,7 +95,12 @@ pub(super) fn place(
             parts,
         })
     });
-    let slots = named(all, places.collect(), (labels, plan.source), &mut rejected)?;
+    let slots = named(
+        all,
+        places.collect(),
+        (labels, plan.task.source()),
+        &mut rejected,
+    )?;
     Ok(Layer {
         slots,
         rows: plan.rows,
@@ -130,8 +136,7 @@ fn lines(all: &[Component], plan: &Plan<'_>) -> Vec<usize> {
 /// Dots and accents near a border of cells go to the letter that is nearer.
 fn settle_small_parts(all: &[Component], cells: &mut [Vec<usize>], x: &Axis, y: &Axis) {
     let columns = x.count;
-    let body = |cell: &[usize]| cell.iter().copied().max_by_key(|&i| all[i].area);
-    let bodies: Vec<Option<usize>> = cells.iter().map(|c| body(c)).collect();
+    let bodies: Vec<Option<usize>> = cells.iter().map(|c| largest(all, c)).collect();
     let mut moves = Vec::new();
     for (from, parts) in cells.iter().enumerate() {
         for &part in parts {

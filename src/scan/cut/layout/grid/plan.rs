@@ -1,11 +1,9 @@
 //! The grid that a user said.
 
-use crate::numeric::view::View;
-use crate::scan::clean::Page;
-use crate::scan::cut::layout::position;
+use crate::scan::cut::layout::{Task, position};
 use crate::scan::error::ScanError;
-use crate::scan::options::{Options, Order};
-use crate::types::{Gray, Label};
+use crate::scan::options::Order;
+use crate::types::Label;
 
 /// A cell is at least this large, px.
 const LEAST_CELL: usize = 4;
@@ -15,42 +13,31 @@ const LEAST_CELL: usize = 4;
 pub(in crate::scan::cut::layout) struct Plan<'a> {
     pub(super) rows: usize,
     pub(super) columns: usize,
-    pub(super) source: &'a str,
-    pub(super) options: &'a Options,
-    pub(super) gray: &'a Gray,
-    pub(super) upright: View,
-    /// The letters whose places a user says, and their ink.
-    pub(super) claims: &'a [(usize, Vec<usize>)],
+    pub(super) task: &'a Task<'a>,
     /// How far down the page printed lines lie, upright px.
     pub(super) printed: Vec<f64>,
 }
 
 impl<'a> Plan<'a> {
     pub(in crate::scan::cut::layout) fn new(
-        page: &'a Page,
-        options: &'a Options,
-        (rows, columns): (usize, usize),
-        (upright, claims): (View, &'a [(usize, Vec<usize>)]),
+        task: &'a Task<'a>,
+        rows: usize,
+        columns: usize,
     ) -> Result<Self, ScanError> {
-        let source = page.sheet.source.as_str();
-        let gray = &page.sheet.gray;
+        let gray = task.gray();
         let fits = |n: usize, side: usize| n > 0 && n <= side / LEAST_CELL;
         let fine = fits(rows, gray.height()) && fits(columns, gray.width());
         fine.then_some(Self {
             rows,
             columns,
-            source,
-            options,
-            gray,
-            upright,
-            claims,
+            task,
             printed: Vec::new(),
         })
         .ok_or(ScanError::NoGrid { rows, columns })
     }
 
     pub(super) fn place(&self, index: usize) -> (usize, usize) {
-        position(index, (self.rows, self.columns), self.options)
+        position(index, (self.rows, self.columns), self.task.options)
     }
 
     pub(super) fn index(&self, cell: (usize, usize)) -> Option<usize> {
@@ -59,7 +46,7 @@ impl<'a> Plan<'a> {
 
     /// How many cells follow each other in a row, or in a column where columns come first.
     pub(super) fn lines(&self) -> Vec<usize> {
-        match self.options.order {
+        match self.task.options.order {
             Order::Rows => vec![self.columns; self.rows],
             Order::Columns => vec![self.rows; self.columns],
         }
@@ -69,7 +56,7 @@ impl<'a> Plan<'a> {
         let cells = self.rows * self.columns;
         labels.get(cells).map_or(Ok(()), |extra| {
             Err(ScanError::TooManyNames {
-                source_name: self.source.to_owned(),
+                source_name: self.task.source().to_owned(),
                 cells,
                 names: labels.len(),
                 extra: extra.0.clone(),

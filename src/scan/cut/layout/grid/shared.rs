@@ -2,6 +2,7 @@
 
 use super::axis::Axis;
 use super::plan::Plan;
+use crate::numeric::pieces;
 use crate::scan::components::Component;
 use crate::scan::cut::gap;
 use crate::scan::cut::layout::named::COUNTS;
@@ -150,7 +151,5 @@ fn usual(mut areas: Vec<usize>, letters: usize) -> f64 {
 
 /// A cell and those around it.
 pub(super) fn neighbours(cell: usize, columns: usize, rows: usize) -> impl Iterator<Item = usize> {
-    let (r, c) = (cell / columns, cell % columns);
-    let near = |i: usize, n: usize| i.saturating_sub(1)..(i + 2).min(n);
-    near(r, rows).flat_map(move |r| near(c, columns).map(move |c| r * columns + c))
+    pieces::around((cell % columns, cell / columns), 1, (columns, rows))
 }

@@ -8,6 +8,7 @@
 mod hidden;
 
 use crate::numeric::cast::index;
+use crate::numeric::median::middle;
 use crate::numeric::view::View;
 use crate::scan::components::Component;
 use hidden::Hidden;
@@ -64,9 +65,8 @@ pub(super) fn freed(lattice: &Component, upright: &View) -> Vec<Component> {
     let at = |x: usize, y: usize| upright.at(Point::new(x as f64 + 0.5, y as f64 + 0.5));
     let [mut columns, mut rows] = lines_of(lattice, upright);
     let thick = |line: &Range<f64>| line.end - line.start;
-    let mut usual: Vec<f64> = columns.iter().chain(&rows).map(thick).collect();
-    usual.sort_by(f64::total_cmp);
-    let usual = usual.get(usual.len() / 2).copied().unwrap_or(0.0);
+    let usual = columns.iter().chain(&rows).map(thick);
+    let usual = middle(usual, f64::total_cmp).unwrap_or(0.0);
     columns.retain(|line| thick(line) <= THICK * usual);
     rows.retain(|line| thick(line) <= THICK * usual);
     let Some(thick) = columns.iter().chain(&rows).map(thick).reduce(f64::max) else {
@@ -98,7 +98,7 @@ pub(super) fn freed(lattice: &Component, upright: &View) -> Vec<Component> {
     };
     let mut pieces = lattice.without(is_line);
     pieces.iter_mut().for_each(|c| c.stand(upright));
-    pieces.retain(|c| c.upright.width().min(c.upright.height()) > thick);
+    pieces.retain(|c| c.upright.size().min_side() > thick);
     pieces
 }
 

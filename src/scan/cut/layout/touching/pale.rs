@@ -5,6 +5,7 @@
 
 use super::{Border, LEVEL};
 use crate::numeric::cast::index;
+use crate::numeric::pieces::around;
 use crate::scan::components::Component;
 use crate::types::Gray;
 use kurbo::Point;
@@ -80,13 +81,8 @@ impl Nearest {
             }
         }
         while let Some(at) = next.pop_front() {
-            let (x, y) = (at % width, at / width);
-            let rows = y.saturating_sub(1)..(y + 2).min(height);
-            let around = rows.flat_map(|y| {
-                (x.saturating_sub(1)..(x + 2).min(width)).map(move |x| y * width + x)
-            });
-            for to in around.filter(|&to| open[to]) {
-                if found[to].is_none() {
+            for to in around((at % width, at / width), 1, (width, height)) {
+                if open[to] && found[to].is_none() {
                     found[to] = found[at];
                     next.push_back(to);
                 }

@@ -3,10 +3,11 @@
 use super::across::Across;
 use super::joint::{Place, joint};
 use super::parabola::Parabola;
-use super::shape::filled;
+use super::shape::{filled, pixel};
 use super::{Field, LEVEL};
 use crate::numeric::cast::index;
 use crate::numeric::iso;
+use crate::numeric::pieces::around;
 use crate::scan::cut::layout::touching::{Border, Meeting};
 use kurbo::{Point, Vec2};
 
@@ -230,13 +231,8 @@ impl Edges {
 
     /// Whether there is ink at a place or a pixel beside it, holes by grain included: corners inwards are rounded.
     pub(super) fn is_ink(&self, p: Point) -> bool {
-        let (width, height) = self.size;
-        let column = index(p.x.max(0.0));
-        let row = index((height as f64 - p.y).max(0.0));
-        let rows = row.saturating_sub(1)..(row + 2).min(height);
-        let columns = column.saturating_sub(1)..(column + 2).min(width);
-        let mut around = rows.flat_map(|y| columns.clone().map(move |x| y * width + x));
-        around.any(|i| self.inside[i])
+        let (column, row) = pixel(p, self.size.1);
+        around((column, row), 1, self.size).any(|i| self.inside[i])
     }
 
     /// The corner after another on its ring, which may be the same.

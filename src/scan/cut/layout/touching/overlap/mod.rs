@@ -24,6 +24,7 @@ mod tests;
 
 use super::{Border, LEVEL, Parting};
 use crate::numeric::cast::index;
+use crate::numeric::pieces::around;
 use crate::scan::components::Component;
 use crate::types::Gray;
 use edges::Edges;
@@ -81,12 +82,8 @@ impl Field {
             own[(y - top) * width + x - left] = share;
         }
         // an edge is blurred beyond its ink
-        let is_beside = |x: usize, y: usize| {
-            let rows = y.saturating_sub(1)..(y + 2).min(height);
-            let columns = x.saturating_sub(1)..(x + 2).min(width);
-            let mut around = rows.flat_map(|y| columns.clone().map(move |x| y * width + x));
-            around.any(|i| own[i] > 0.0)
-        };
+        let is_beside =
+            |x: usize, y: usize| around((x, y), 1, (width, height)).any(|i| own[i] > 0.0);
         let sample = |i: usize| {
             let (x, y) = (i % width, i / width);
             let v = page.at(left + x, top + y);
@@ -129,9 +126,7 @@ impl Field {
         let square = stroke * stroke;
         let inked = |i: &usize| f64::from(self.samples[*i]) >= LEVEL;
         let all = || (0..self.samples.len()).filter(inked);
-        let lost = all()
-            .filter(|&i| shapes.iter().all(|s| s.is_far(i)))
-            .count();
+        let lost = all().filter(|&i| shapes.iter().all(|s| s.far[i])).count();
         let has = |s: &Shape| all().filter(|&i| s.shares[i] > 0.0).count() as f64;
         let told = lost as f64 <= LOST * square && shapes.iter().all(|s| has(s) >= LEAST * square);
         told.then_some(shapes)
@@ -140,7 +135,7 @@ impl Field {
     /// The share that a letter has of a pixel of the sheet, and all of the blurred edge beside it.
     fn share(&self, shape: &Shape, (x, y): (usize, usize)) -> f32 {
         let i = (y - self.corner.1) * self.width + x - self.corner.0;
-        let is_rim = f64::from(self.samples[i]) < LEVEL && !shape.is_far(i) && !shape.veiled[i];
+        let is_rim = f64::from(self.samples[i]) < LEVEL && !shape.far[i] && !shape.veiled[i];
         if is_rim { 1.0 } else { shape.shares[i] }
     }
 }

@@ -1,6 +1,7 @@
 //! Closed outlines → which pixels lie within, and which share of those along a hidden edge.
 
 use crate::numeric::cast::{index, single};
+use crate::numeric::pieces::around;
 use kurbo::Point;
 
 /// How far a hidden edge reaches, px: half a pixel is half a share.
@@ -32,7 +33,7 @@ pub(super) struct Shape {
     /// Pixels whose nearest edge is a hidden one.
     pub(super) veiled: Vec<bool>,
     /// Pixels that lie farther from it than ink is blurred.
-    far: Vec<bool>,
+    pub(super) far: Vec<bool>,
 }
 
 impl Shape {
@@ -48,14 +49,12 @@ impl Shape {
             let last = stretch.points().len().saturating_sub(1);
             for (k, p) in stretch.points().iter().enumerate() {
                 let within = matches!(stretch, Stretch::Hidden(_)) && k > 0 && k < last;
-                let (x, y) = (index(p.x.max(0.0)), index((height as f64 - p.y).max(0.0)));
-                for y in y.saturating_sub(1)..(y + 2).min(height) {
-                    for x in x.saturating_sub(1)..(x + 2).min(width) {
-                        let centre = Point::new(x as f64 + 0.5, (height - y) as f64 - 0.5);
-                        let (i, d) = (y * width + x, centre.distance(*p));
-                        if d < nearest[i] {
-                            (nearest[i], veiled[i]) = (d, within);
-                        }
+                for i in around(pixel(*p, height), 1, (width, height)) {
+                    let (x, y) = (i % width, i / width);
+                    let centre = Point::new(x as f64 + 0.5, (height - y) as f64 - 0.5);
+                    let d = centre.distance(*p);
+                    if d < nearest[i] {
+                        (nearest[i], veiled[i]) = (d, within);
                     }
                 }
             }
@@ -69,10 +68,7 @@ impl Shape {
             shares[i] = single((REACH + off).clamp(0.0, 1.0));
         }
         let far = |i: usize| {
-            let (x, y) = (i % width, i / width);
-            let rows = y.saturating_sub(BESIDE)..(y + BESIDE + 1).min(height);
-            let columns = x.saturating_sub(BESIDE)..(x + BESIDE + 1).min(width);
-            let mut around = rows.flat_map(|y| columns.clone().map(move |x| y * width + x));
+            let mut around = around((i % width, i / width), BESIDE, (width, height));
             !around.any(|j| shares[j] > 0.0)
         };
         let far = (0..shares.len()).map(far).collect();
@@ -82,11 +78,11 @@ impl Shape {
             far,
         }
     }
+}
 
-    /// Whether a pixel lies farther from it than its edge is blurred.
-    pub(super) fn is_far(&self, pixel: usize) -> bool {
-        self.far[pixel]
-    }
+/// Column and row of the pixel at a place in a picture so high.
+pub(super) fn pixel(p: Point, height: usize) -> (usize, usize) {
+    (index(p.x.max(0.0)), index((height as f64 - p.y).max(0.0)))
 }
 
 /// The pixels whose centres rings go around.
