@@ -166,12 +166,11 @@ impl Draft {
     }
 
     /// A drawn shape of which nothing is known but what it is.
-    #[cfg(test)]
-    fn drawn(label: &str, contours: Vec<kurbo::BezPath>) -> Self {
+    fn new(id: Identity, outline: Outline) -> Self {
         Self {
-            id: names::identify(&Label(label.to_owned())).unwrap(),
+            id,
             codepoints: Vec::new(),
-            outline: Outline::new(contours).unwrap(),
+            outline,
             plates: Vec::new(),
             given: None,
             joint: (None, None),
@@ -179,6 +178,12 @@ impl Draft {
             advance: 0.0,
             parts: Vec::new(),
         }
+    }
+
+    #[cfg(test)]
+    fn drawn(label: &str, contours: Vec<kurbo::BezPath>) -> Self {
+        let id = names::identify(&Label(label.to_owned())).unwrap();
+        Self::new(id, Outline::new(contours).unwrap())
     }
 
     /// Whether it is an Arabic letter, or a ligature that begins with one.
@@ -290,15 +295,9 @@ fn drafts(drawn: Vec<Drawn>, inks: &[(String, [u8; 3])]) -> Result<Vec<Draft>, A
             Some((colour, outline))
         });
         out.push(Draft {
-            id,
-            codepoints: Vec::new(),
-            outline: shape.outline,
             plates: plates.collect(),
             given: shape.advance,
-            joint: (None, None),
-            cursive: (None, None),
-            advance: 0.0,
-            parts: Vec::new(),
+            ..Draft::new(id, shape.outline)
         });
     }
     Ok(out)

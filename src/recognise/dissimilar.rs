@@ -267,23 +267,16 @@ impl Curve {
             start: 0.0,
             back: false,
         };
-        let orders = match (way, self.closed || other.closed) {
-            (Way::Paper, _) => vec![plain],
-            (Way::Affine, false) => vec![
+        let orders = match way {
+            Way::Paper => vec![plain],
+            Way::Affine if !other.closed => vec![
                 plain,
                 Order {
                     back: true,
                     ..plain
                 },
             ],
-            (Way::Affine, true) if !other.closed => vec![
-                plain,
-                Order {
-                    back: true,
-                    ..plain
-                },
-            ],
-            (Way::Affine, true) => (0..STARTS)
+            Way::Affine => (0..STARTS)
                 .map(|i| Order {
                     start: i as f64 / STARTS as f64,
                     back: false,
