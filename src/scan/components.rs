@@ -222,6 +222,13 @@ impl Component {
     }
 }
 
+/// Distance of two boxes, px.
+pub(super) fn gap(a: Rect, b: Rect) -> f64 {
+    let dx = (a.x0 - b.x1).max(b.x0 - a.x1).max(0.0);
+    let dy = (a.y0 - b.y1).max(b.y0 - a.y1).max(0.0);
+    dx.hypot(dy)
+}
+
 /// Runs of one row and of the next that overlap by at least a pixel.
 fn pairs(runs: &[Run]) -> impl Iterator<Item = (Run, Run)> {
     let mut from = 0;

@@ -3,8 +3,9 @@
 //! Rows of letters stand on common lines, so the lower and upper edges of the ink, projected along the
 //! right direction, pile up. The sum of squares of that projection is climbed from coarse to fine.
 
-use super::components::{Component, Run};
+use super::components::Component;
 use crate::numeric::cast::index;
+use crate::numeric::median::middle;
 use kurbo::{Point, Vec2};
 use rayon::prelude::*;
 
@@ -35,10 +36,9 @@ pub(super) fn skew_deg(edges: &Edges) -> f64 {
         .par_iter()
         .map(|a| edges.energy(*a, bin(COARSE_DEG)))
         .collect();
-    let mut sorted = energies.clone();
-    sorted.sort_by(f64::total_cmp);
+    let usual = middle(energies.iter().copied(), f64::total_cmp).unwrap_or(0.0);
     let best = (0..angles.len()).max_by(|&a, &b| energies[a].total_cmp(&energies[b]));
-    let Some(best) = best.filter(|&b| energies[b] > CLEAR * sorted[sorted.len() / 2]) else {
+    let Some(best) = best.filter(|&b| energies[b] > CLEAR * usual) else {
         return 0.0;
     };
     (1..=ROUNDS).fold(angles[best], |angle, round| {
@@ -81,15 +81,13 @@ impl Edges {
             upper: Vec::new(),
         };
         for c in components {
-            let below = |r: &Run, x: usize| c.covers(x, r.y + 1);
-            let above = |r: &Run, x: usize| c.covers(x, r.y - 1);
             for r in &c.runs {
                 for x in (r.start.next_multiple_of(step)..r.end).step_by(step) {
                     let at = |dy: f64| Point::new(x as f64 + 0.5, r.y as f64 + dy);
-                    if r.y + 1 < height && !below(r, x) {
+                    if r.y + 1 < height && !c.covers(x, r.y + 1) {
                         new.lower.push(at(1.0));
                     }
-                    if r.y > 0 && !above(r, x) {
+                    if r.y > 0 && !c.covers(x, r.y - 1) {
                         new.upper.push(at(0.0));
                     }
                 }

@@ -31,23 +31,16 @@ pub(super) fn dpi(bytes: &[u8]) -> Option<f64> {
     fine.then_some(x)
 }
 
-fn be16(bytes: &[u8], at: usize) -> Option<u16> {
-    Some(u16::from_be_bytes(*bytes.get(at..)?.first_chunk()?))
-}
-
-fn be32(bytes: &[u8], at: usize) -> Option<u32> {
-    Some(u32::from_be_bytes(*bytes.get(at..)?.first_chunk()?))
-}
-
-fn le32(bytes: &[u8], at: usize) -> Option<u32> {
-    Some(u32::from_le_bytes(*bytes.get(at..)?.first_chunk()?))
+/// The number that stands at a place, in this order of its bytes.
+fn number<T, const N: usize>(bytes: &[u8], at: usize, of: fn([u8; N]) -> T) -> Option<T> {
+    Some(of(*bytes.get(at..)?.first_chunk()?))
 }
 
 /// The content of a chunk that stands before the first `IDAT` of a PNG.
 pub(super) fn png_chunk<'a>(bytes: &'a [u8], kind: &[u8; 4]) -> Option<&'a [u8]> {
     let mut at = bytes.starts_with(b"\x89PNG").then_some(8)?;
     loop {
-        let length = be32(bytes, at)? as usize;
+        let length = number(bytes, at, u32::from_be_bytes)? as usize;
         let end = at.checked_add(8)?.checked_add(length)?;
         match bytes.get(at + 4..at + 8)? {
             found if found == kind => return bytes.get(at + 8..end),
@@ -60,24 +53,20 @@ pub(super) fn png_chunk<'a>(bytes: &'a [u8], kind: &[u8; 4]) -> Option<&'a [u8]>
 /// `pHYs`, where it counts pixels a metre.
 fn png_dpi(bytes: &[u8]) -> Option<(f64, f64)> {
     let size = png_chunk(bytes, b"pHYs").filter(|c| c.get(8) == Some(&1))?;
-    let axis = |o| Some(f64::from(be32(size, o)?) * METRES_PER_INCH);
+    let axis = |o| Some(f64::from(number(size, o, u32::from_be_bytes)?) * METRES_PER_INCH);
     Some((axis(0)?, axis(4)?))
 }
 
 /// Pixels a metre of `BITMAPINFOHEADER`.
 fn bmp_dpi(bytes: &[u8]) -> Option<(f64, f64)> {
-    let known = bytes.starts_with(b"BM") && le32(bytes, 14)? >= 40;
-    let axis = |o| Some(f64::from(le32(bytes, o)?) * METRES_PER_INCH);
+    let known = bytes.starts_with(b"BM") && number(bytes, 14, u32::from_le_bytes)? >= 40;
+    let axis = |o| Some(f64::from(number(bytes, o, u32::from_le_bytes)?) * METRES_PER_INCH);
     known.then_some((axis(38)?, axis(42)?))
 }
 
 /// Dots an inch of a PCX header.
 fn pcx_dpi(bytes: &[u8]) -> Option<(f64, f64)> {
-    let axis = |o| {
-        Some(f64::from(u16::from_le_bytes(
-            *bytes.get(o..)?.first_chunk()?,
-        )))
-    };
+    let axis = |o| number(bytes, o, u16::from_le_bytes).map(f64::from);
     is_pcx(bytes).then_some((axis(12)?, axis(14)?))
 }
 
@@ -138,7 +127,7 @@ fn jfif_dpi(bytes: &[u8]) -> Option<(f64, f64)> {
         (true, 2) => CM_PER_INCH,
         _ => return None,
     };
-    let axis = |o| Some(f64::from(be16(bytes, o)?) * scale);
+    let axis = |o| Some(f64::from(number(bytes, o, u16::from_be_bytes)?) * scale);
     Some((axis(14)?, axis(16)?))
 }
 
@@ -155,12 +144,15 @@ pub(super) fn jpeg_is_whole(bytes: &[u8]) -> bool {
                 0xff => at += 1,
                 // stuffed bytes and restarts inside the coded picture, and markers without a length
                 0x00 | 0x01 | 0xd0..=0xd8 => at += 2,
-                _ => at += 2 + usize::from(be16(bytes, at + 2)?),
+                _ => at += 2 + usize::from(number(bytes, at + 2, u16::from_be_bytes)?),
             }
         }
     }
     end(bytes).is_some()
 }
+
+/// How a TIFF file's numbers are read, and written.
+type Order = (fn([u8; 2]) -> u16, fn([u8; 4]) -> u32, fn(u32) -> [u8; 4]);
 
 /// Where a TIFF file's header says where its first page's directory is.
 pub(super) const TIFF_FIRST: Range<usize> = 4..8;
@@ -170,41 +162,20 @@ pub(super) const TIFF_FIRST: Range<usize> = 4..8;
 pub(super) fn tiff_pages(bytes: &[u8]) -> Vec<[u8; 4]> {
     /// Pages of one file; a chain that is longer runs in a circle.
     const MAX_PAGES: usize = 1000;
-    let little = match bytes.get(..4) {
-        Some(b"II*\0") => true,
-        Some(b"MM\0*") => false,
+    let (short, long, order): Order = match bytes.get(..4) {
+        Some(b"II*\0") => (u16::from_le_bytes, u32::from_le_bytes, u32::to_le_bytes),
+        Some(b"MM\0*") => (u16::from_be_bytes, u32::from_be_bytes, u32::to_be_bytes),
         _ => return Vec::new(),
     };
-    let u32_at = |at| {
-        if little {
-            le32(bytes, at)
-        } else {
-            be32(bytes, at)
-        }
-    };
-    let u16_at = |at| {
-        Some(if little {
-            be16(bytes, at)?.swap_bytes()
-        } else {
-            be16(bytes, at)?
-        })
-    };
     let next = |at: usize| {
-        let entries = usize::from(u16_at(at)?);
-        u32_at(at.checked_add(2 + 12 * entries)?)
+        let entries = usize::from(number(bytes, at, short)?);
+        number(bytes, at.checked_add(2 + 12 * entries)?, long)
     };
-    let first = u32_at(4).filter(|&o| o != 0);
+    let first = number(bytes, 4, long).filter(|&o| o != 0);
     let chain = std::iter::successors(first, |&o| next(o as usize).filter(|&o| o != 0));
     let starts: Vec<u32> = chain.take(MAX_PAGES + 1).collect();
     if starts.len() < 2 || starts.len() > MAX_PAGES {
         return Vec::new();
     }
-    let order = |start: u32| {
-        if little {
-            start.to_le_bytes()
-        } else {
-            start.to_be_bytes()
-        }
-    };
     starts.into_iter().map(order).collect()
 }

@@ -1,6 +1,7 @@
 //! Which ink the letters are drawn with, where a page has several.
 
-use super::components::Component;
+use super::components::{Component, gap};
+use crate::numeric::median::middle;
 use crate::types::Colours;
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -267,10 +268,7 @@ impl Ink {
 /// Whether a dark piece is a part of the letter that another piece begins: far smaller, and hardly farther from it
 /// than its stroke is wide.
 fn lingers(dark: &Component, pen: &Component) -> bool {
-    let (a, b) = (dark.bounds, pen.bounds);
-    let dx = (a.x0 - b.x1).max(b.x0 - a.x1).max(0.0);
-    let dy = (a.y0 - b.y1).max(b.y0 - a.y1).max(0.0);
-    2 * dark.area < pen.area && dx.hypot(dy) < NEAR * pen.stroke()
+    2 * dark.area < pen.area && gap(dark.bounds, pen.bounds) < NEAR * pen.stroke()
 }
 
 /// A place on the plane of hues.
@@ -281,12 +279,8 @@ fn hue([r, g, b]: [f64; 3]) -> (f64, f64) {
 /// What the paper swallows itself: the median block.
 pub(super) fn paper(colours: &Colours) -> [f64; 3] {
     [0, 1, 2].map(|i| {
-        let mut all: Vec<u8> = colours.swallowed.iter().map(|v| v[i]).collect();
-        let middle = all.len() / 2;
-        if all.is_empty() {
-            return 0.0;
-        }
-        f64::from(*all.select_nth_unstable(middle).1)
+        let all = colours.swallowed.iter().map(|v| v[i]);
+        middle(all, u8::cmp).map_or(0.0, f64::from)
     })
 }
 

@@ -28,7 +28,7 @@ pub use pins::{Pin, Region};
 pub use remarks::{SMALL, SMALL_LETTER, is_full};
 
 use super::clean::Page;
-use super::components::Component;
+use super::components::{Component, gap};
 use super::deskew::{Edges, skew_deg};
 use super::error::ScanError;
 use super::options::Options;
@@ -295,9 +295,7 @@ fn cut_page(
     let mut warnings = guides.warnings;
     warnings.extend(remarks::of_picture(page, options));
     warnings.extend(stance.shifted(labels));
-    let size = (gray.width(), gray.height());
-    let odd = remarks::warnings(&layer, &all, size, freed, &guides.drop);
-    warnings.extend(odd);
+    warnings.extend(remarks::warnings(&layer, &all, gray, freed, &guides.drop));
     let shutter = window::Shutter {
         page,
         low,
@@ -339,13 +337,6 @@ fn largest(all: &[Component], parts: &[usize]) -> Option<usize> {
 fn bounds(all: &[Component], parts: &[usize]) -> Option<Rect> {
     let boxes = parts.iter().map(|&i| all[i].upright);
     boxes.reduce(|a, b| a.union(b))
-}
-
-/// Distance of two boxes, px.
-fn gap(a: Rect, b: Rect) -> f64 {
-    let dx = (a.x0 - b.x1).max(b.x0 - a.x1).max(0.0);
-    let dy = (a.y0 - b.y1).max(b.y0 - a.y1).max(0.0);
-    dx.hypot(dy)
 }
 
 #[cfg(test)]

@@ -3,9 +3,10 @@
 use super::{Reason, Rejected};
 use crate::numeric::median::weighted;
 use crate::scan::clean::Page;
-use crate::scan::components::{Component, Run};
+use crate::scan::components::Component;
 use crate::scan::error::ScanError;
 use crate::scan::options::Options;
+use crate::scan::paper::Paper;
 use kurbo::Rect;
 
 /// Ink smaller than a square of this many stroke widths is a speck: the dot of a letter is a disc of at least one
@@ -56,8 +57,7 @@ pub(super) fn sort(all: Vec<Component>, page: &Page, options: &Options) -> Resul
     let least = speck_limit(&letters);
     let mut specks = 0;
     let mut take = |pieces: &mut Vec<Component>| -> Vec<Component> {
-        let (large, small) = pieces.drain(..).partition(|c| c.area as f64 >= least);
-        *pieces = large;
+        let small: Vec<Component> = pieces.extract_if(.., |c| (c.area as f64) < least).collect();
         specks += small.len();
         small
     };
@@ -82,9 +82,12 @@ fn on_paper(c: &Component, page: &Page) -> bool {
     let Some(paper) = &page.paper else {
         return true;
     };
-    let on = |r: &Run| (r.start..r.end).filter(|&x| paper.holds(x, r.y)).count();
-    let inside: usize = c.runs.iter().map(on).sum();
-    inside as f64 >= ON_PAPER * c.area as f64
+    held(c, paper) >= ON_PAPER * c.area as f64
+}
+
+/// Pixels of a piece of ink that lie on the paper.
+fn held(c: &Component, paper: &Paper) -> f64 {
+    c.pixels().filter(|&(x, y)| paper.holds(x, y)).count() as f64
 }
 
 /// Takes the edge of a lid or a table out, which stays where their middle passes for shadow; what it touches is cut
@@ -97,9 +100,7 @@ fn take_rims(found: Vec<Component>, page: &Page, beyond: &mut Vec<Component>) ->
     let rim = paper.rim();
     let mut kept = Vec::new();
     for c in found {
-        let on = |r: &Run| (r.start..r.end).filter(|&x| rim.holds(x, r.y)).count();
-        let along = || c.runs.iter().map(on).sum::<usize>() as f64;
-        if !is_long(&c, size) || along() < ON_RIM * c.area as f64 {
+        if !is_long(&c, size) || held(&c, &rim) < ON_RIM * c.area as f64 {
             kept.push(c);
             continue;
         }
@@ -157,11 +158,8 @@ pub(super) fn stroke_width(all: &[Component]) -> f64 {
 fn take_borders(all: &mut Vec<Component>, size: (usize, usize)) -> Vec<Component> {
     let (w, h) = (size.0 as f64, size.1 as f64);
     let long = |c: &Component| c.bounds.width() > w / 2.0 || c.bounds.height() > h / 2.0;
-    let (out, kept) = std::mem::take(all)
-        .into_iter()
-        .partition(|c| at_edge(c, size) && long(c));
-    *all = kept;
-    out
+    all.extract_if(.., |c| at_edge(c, size) && long(c))
+        .collect()
 }
 
 /// Whether a piece of ink touches the border of a picture of this size.

@@ -32,10 +32,8 @@ pub(in crate::scan::cut) fn reclaim(layer: &mut Layer, all: &[Component]) {
             let near = gap(sign.upright, own.upright) < REACH * own.upright.height();
             reason == Reason::Outside && over && near && sign.area < own.area
         };
-        let (signs, rest) = layer.rejected.iter().partition(|r| is_sign(r));
-        let signs: Vec<(usize, Reason)> = signs;
-        layer.rejected = rest;
-        slot.parts.extend(signs.into_iter().map(|s| s.0));
+        let signs = layer.rejected.extract_if(.., |r| is_sign(r));
+        slot.parts.extend(signs.map(|s| s.0));
     }
 }
 

@@ -10,6 +10,7 @@ use crate::scan::clean::Page;
 use crate::scan::components::Component;
 use crate::scan::letters::Shape;
 use crate::scan::options::Options;
+use crate::types::Gray;
 use glyphs_reader::glyphdata::GlyphData;
 use std::ops::Range;
 
@@ -32,12 +33,12 @@ pub fn is_full(c: char) -> bool {
     c.is_alphanumeric() && c != 'ء'
 }
 
-/// What is odd about the letters of a page whose picture is so large. Pieces `freed` were cut off printed lines,
+/// What is odd about the letters of a page of this picture. Pieces `freed` were cut off printed lines,
 /// unless they were off letters; baselines lie by `drop` below the levels of each row.
 pub(super) fn warnings(
     layer: &Layer,
     all: &[Component],
-    picture: (usize, usize),
+    gray: &Gray,
     freed: Range<usize>,
     drop: &[f64],
 ) -> Vec<Warning> {
@@ -45,7 +46,7 @@ pub(super) fn warnings(
     let inked: Vec<&Slot> = inked.collect();
     let is_freed = |i: usize| freed.contains(&i) && !layer.parted.contains(&i);
     let baseline = |s: &Slot| s.level + drop[s.row];
-    let mut out = odd(&inked, all, picture, is_freed);
+    let mut out = odd(&inked, all, (gray.width(), gray.height()), is_freed);
     out.extend(signs::warnings(&inked, all));
     out.extend(doubtful(&inked, layer));
     out.extend(parted(&inked, layer));
