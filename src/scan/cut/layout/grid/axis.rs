@@ -71,7 +71,7 @@ impl Axis {
         let first = *lines.first()?;
         let placed = lines.iter().map(|v| (((v - first) / gap).round(), *v));
         let placed: Vec<(f64, f64)> = placed.collect();
-        let (start, pitch) = evenly(&placed);
+        let (start, pitch) = line(&placed)?;
         let is_even = |(k, v): &(f64, f64)| (start + k * pitch - v).abs() < UNEVEN * pitch;
         // a line in pieces is one
         let told = placed.chunk_by(|a, b| (a.0 - b.0).abs() < 0.5).count();
@@ -114,18 +114,15 @@ impl Axis {
     }
 }
 
-/// Start and pitch of least squares of values at places, which count pitches.
-fn evenly(placed: &[(f64, f64)]) -> (f64, f64) {
-    let n = placed.len() as f64;
-    let (k, v) = placed
-        .iter()
-        .fold((0.0, 0.0), |s, p| (s.0 + p.0, s.1 + p.1));
-    let (k, v) = (k / n, v / n);
-    let (both, square) = placed.iter().fold((0.0, 0.0), |s, p| {
-        (s.0 + (p.0 - k) * (p.1 - v), s.1 + (p.0 - k).powi(2))
+/// Start and step of the line of least squares through values at places; `None` where all are at one.
+pub(super) fn line(points: &[(f64, f64)]) -> Option<(f64, f64)> {
+    let n = points.len() as f64;
+    let mean = |of: fn(&(f64, f64)) -> f64| points.iter().map(of).sum::<f64>() / n;
+    let (i, v) = (mean(|p| p.0), mean(|p| p.1));
+    let (iv, ii) = points.iter().fold((0.0, 0.0), |(iv, ii), p| {
+        (iv + (p.0 - i) * (p.1 - v), ii + (p.0 - i).powi(2))
     });
-    let pitch = both / square;
-    (v - k * pitch, pitch)
+    (ii > 0.0).then(|| (v - iv / ii * i, iv / ii))
 }
 
 /// How much ink there is along an axis.

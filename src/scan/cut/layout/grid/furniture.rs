@@ -3,6 +3,7 @@
 //! A letter of one piece leaves no second piece in its cell. Where nearly all cells of such letters have one, at the
 //! same place and with less ink than the rest of the cell, it is printed, and so is what lies there in the others.
 
+use super::axis::line;
 use super::shared::Shared;
 use crate::scan::components::Component;
 use crate::scan::cut::largest;
@@ -97,17 +98,6 @@ impl<'a> Cells<'a> {
         let (r, c) = ((cell / columns) as f64, (cell % columns) as f64);
         Vec2::new(self.x.0 + c * self.x.1, self.y.0 + r * self.y.1)
     }
-}
-
-/// Start and step of the line through values of a row; nothing where all are of one place.
-fn line(points: &[(f64, f64)]) -> Option<(f64, f64)> {
-    let n = points.len() as f64;
-    let mean = |of: fn(&(f64, f64)) -> f64| points.iter().map(of).sum::<f64>() / n;
-    let (i, v) = (mean(|p| p.0), mean(|p| p.1));
-    let (iv, ii) = points.iter().fold((0.0, 0.0), |(iv, ii), p| {
-        (iv + (p.0 - i) * (p.1 - v), ii + (p.0 - i).powi(2))
-    });
-    (ii > 0.0).then(|| (v - iv / ii * i, iv / ii))
 }
 
 /// The pieces at a place of a cell, also those that stand over its border.
