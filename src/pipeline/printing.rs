@@ -97,8 +97,8 @@ impl<'a> Printing<'a> {
             return Err(Problem::sheet(table, why));
         }
         if !table.ink.layers().is_empty() {
-            let why = "layers of several inks are made from pages of your own (grid, free or boxes): give one ink to a \
-                       template, or draw on other pages";
+            let why = "layers of several inks are made from pages of your own (grid, free or boxes): give one ink to \
+                       a template, or draw on other pages";
             return Err(Problem::sheet(table, why));
         }
         let names: Vec<String> = labels.iter().map(|l| l.0.clone()).collect();

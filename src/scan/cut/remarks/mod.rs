@@ -133,7 +133,8 @@ impl Warning {
     #[must_use]
     pub fn of_filled() -> Self {
         Self::of_page(
-            "the ink has pale streaks, as of a ballpoint: they were filled; streaks = \"keep\" under [[sheet]] leaves them",
+            "the ink has pale streaks, as of a ballpoint: they were filled; streaks = \"keep\" under [[sheet]] \
+             leaves them",
         )
     }
 }
