@@ -197,15 +197,20 @@ pub fn soften(node: &mut Node) {
 
 /// Makes a smooth node a corner where a curve beside it turns away at once.
 pub fn sharpen(chain: &mut Chain, i: usize) {
-    if !chain.nodes[i].join.is_smooth() {
-        return;
+    if chain.nodes[i].join.is_smooth() {
+        aim(chain, i, AT_ONCE.0);
     }
+}
+
+/// Makes a node the corner that it is where a curve beside it turns away within a handle shorter than `hidden_px`, and
+/// has that curve leave it as it goes on.
+pub fn aim(chain: &mut Chain, i: usize, hidden_px: f64) {
     let curve = |s: Option<usize>| s.filter(|s| chain.kinds[*s] == Kind::Cubic);
     let (before, after) = (curve(chain.before(i)), curve(chain.after(i)));
     let node = chain.nodes[i];
     let turns = |along: Vec2, handle: f64, on: Vec2| {
         let turn = along.cross(on).atan2(along.dot(on)).abs();
-        (handle < AT_ONCE.0 && turn > AT_ONCE.1).then(|| on / on.hypot())
+        (handle < hidden_px && turn > AT_ONCE.1).then(|| on / on.hypot())
     };
     let (p, third) = (node.point, |c: CubicBez| c.p0.distance(c.p3) / 3.0);
     let leaving = after.map(|s| chain.cubic(s));
@@ -293,6 +298,19 @@ mod tests {
         let mut chain = Chain::from_path(&round, 0.001).unwrap();
         let before = chain.clone();
         (0..chain.nodes.len()).for_each(|i| sharpen(&mut chain, i));
+        assert_eq!(chain, before);
+    }
+
+    #[test]
+    fn a_corner_with_a_hidden_handle_turns_as_its_curve_goes_on() {
+        let path = kurbo::BezPath::from_svg("M0 0L40 0C40.6 0 76 70 80 80L0 90Z").unwrap();
+        let mut chain = Chain::from_path(&path, 0.001).unwrap();
+        chain.nodes[1].join = Join::Corner;
+        assert!(is_soft(&chain, 1));
+        aim(&mut chain, 1, 1.0);
+        assert!(!is_soft(&chain, 1) && chain.nodes[1].ahead > 25.0);
+        let before = chain.clone();
+        aim(&mut chain, 1, 1.0);
         assert_eq!(chain, before);
     }
 }

@@ -51,6 +51,25 @@ pub(super) fn is_blunt(chain: &Chain, i: usize) -> bool {
     LINE_PX.contains(&line.hypot()) && first * last > 0.0 && first.abs().min(last.abs()) > TURN
 }
 
+/// Moves nodes `i` and the next along their sides until the line between them is square to the way between those; nothing
+/// where they are no such corners.
+pub(super) fn square(chain: &mut Chain, i: usize) -> Option<()> {
+    let ends = [*chain.nodes.get(i)?, *chain.nodes.get(i + 1)?];
+    let (before, after) = chain.before(i).zip(chain.after(i + 1))?;
+    if ends.iter().any(|n| n.join != Join::Corner) {
+        return None;
+    }
+    let u = unit(arriving(&chain.cubic(before)));
+    let v = unit(leaving(&chain.cubic(after)));
+    let axis = unit(u - v);
+    let [near, far] = ends.map(|n| n.point.to_vec2().dot(axis));
+    for (k, along, depth) in [(i, u, near), (i + 1, v, far)] {
+        let by = (0.5 * (near + far) - depth) / along.dot(axis);
+        chain.nodes[k].point += by * along;
+    }
+    Some(())
+}
+
 /// Whether a chain has no corner near `at`.
 pub(super) fn is_round(chain: &Chain, at: Point) -> bool {
     let mut corners = chain.nodes.iter().filter(|n| n.join == Join::Corner);

@@ -2,9 +2,12 @@
 
 use crate::numeric::{
     chain::{Chain, Join},
-    joins::{is_soft, soften},
+    joins::{aim, is_soft, soften},
 };
 use kurbo::{CubicBez, Rect, Shape};
+
+/// A handle of a corner that is shorter, px, does not show how it turns.
+const HIDDEN_PX: f64 = 1.0;
 
 /// What the curves of a ring that another lacks take up, before and after, px.
 pub(super) fn changed(before: &Chain, after: &Chain) -> Option<Rect> {
@@ -72,6 +75,9 @@ pub(super) fn put_back(mut chain: Chain, part: Chain, count: usize) -> Option<(C
     chain.nodes.splice(0..count, nodes);
     chain.kinds.splice(0..count, kinds);
     for i in [0, end] {
+        if chain.nodes[i].join == Join::Corner {
+            aim(&mut chain, i, HIDDEN_PX);
+        }
         if is_soft(&chain, i) {
             soften(&mut chain.nodes[i]);
         }

@@ -5,7 +5,7 @@ use super::{
     bends::{cornered, is_cornered, is_sharp},
     beside::Beside,
     budget::Budget,
-    ends::{is_blunt, is_round},
+    ends::{is_blunt, is_round, square},
     fair::is_fair,
     tips::{has_tip, tip},
     variants::{CUTS_PX, ROUNDS_PX, cut, variants},
@@ -130,9 +130,14 @@ impl Search<'_> {
         let lines = CUTS_PX.map(|px| (px, Kind::Line));
         let rounds = ROUNDS_PX.map(|px| (px, Kind::Cubic));
         for (px, by) in lines.into_iter().chain(rounds) {
-            let other = self.fit(cut(from, corner, px, by), most);
+            let mut other = self.fit(cut(from, corner, px, by), most);
             let is_so = match by {
-                Kind::Line => is_blunt(&other.chain, corner),
+                Kind::Line => {
+                    if !is_blunt(&other.chain, corner) {
+                        other = self.squared(other, corner);
+                    }
+                    is_blunt(&other.chain, corner)
+                }
                 Kind::Cubic => is_round(&other.chain, self.at),
             };
             if other.sound && is_so && other.drawn.squares < most {
@@ -141,6 +146,16 @@ impl Search<'_> {
             }
         }
         found
+    }
+
+    /// The same with the line from node `i` to the next square to what it ends: of so short a line's direction grain
+    /// leaves nothing.
+    fn squared(&self, mut fitted: Fitted, i: usize) -> Fitted {
+        if square(&mut fitted.chain, i).is_some() {
+            fitted.drawn = self.window.drawn(&fitted.chain);
+            fitted.sound = self.is_sound(&fitted.chain);
+        }
+        fitted
     }
 
     /// The cheapest sound structure with a node or corner more or less, if that is worth it.

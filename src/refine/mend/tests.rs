@@ -2,6 +2,7 @@ use super::{
     Ring, SMOOTH, Work,
     bends::tight_bends,
     budget::Budget,
+    ends::{is_blunt, square as squared},
     part::open_part,
     tangle::Crossing,
     tips::{ONE_PX, is_needle, trimmed},
@@ -22,7 +23,7 @@ use crate::{
     },
     types::{Contour, Gray},
 };
-use kurbo::{BezPath, ParamCurveNearest, PathSeg, Point};
+use kurbo::{BezPath, ParamCurveNearest, PathSeg, Point, Shape};
 
 /// The largest distance of two closed paths.
 fn apart(a: &BezPath, b: &BezPath) -> f64 {
@@ -159,6 +160,28 @@ fn a_long_line_gives_way_to_what_no_window_holds() {
         let off = apart(&got, &drawn);
         assert!(off < 0.1, "lens {lens}: {off} {}", got.to_svg());
     }
+}
+
+#[test]
+fn the_end_of_a_notch_is_square_to_it() {
+    // a notch of 9°; grain leaves the line across its end in any direction
+    let slanted = "M0 300L155 20L195.385 286.41L195.99 283.79L196 20L300 300Z";
+    let path = BezPath::from_svg(slanted).unwrap();
+    let mut chain = open_part(&Chain::from_path(&path, SMOOTH).unwrap(), 5);
+    let i = 2;
+    assert!(!is_blunt(&chain, i));
+    let area = |c: &Chain| c.to_path().area();
+    let before = area(&chain);
+    squared(&mut chain, i).unwrap();
+    assert!(is_blunt(&chain, i), "{chain:?}");
+    let line = chain.nodes[i + 1].point - chain.nodes[i].point;
+    let sides = [i - 1, i + 1].map(|s| chain.direction(s));
+    let axis = sides[0] - sides[1];
+    assert!(
+        line.normalize().dot(axis.normalize()).abs() < 1e-9,
+        "{line}"
+    );
+    assert!((area(&chain) - before).abs() < 0.5);
 }
 
 #[test]
