@@ -25,7 +25,8 @@ def crosses(polygons):
 
 
 def pictures(task):
-    """The rows of a font: character, condition, its comparison or none, whether the tracing crosses and whether the font does."""
+    """The rows of a font: character, condition, its comparison or none, whether the tracing crosses and whether the font does;
+    and the corner F1 of its own outlines, begun half-way round."""
     import outline_bench as bench
     from fontTools.ttLib import TTFont
     from PIL import Image
@@ -33,7 +34,7 @@ def pictures(task):
     khatt, path, ppem = task
     font = TTFont(path)
     glyphs, cmap, upem = font.getGlyphSet(), font.getBestCmap(), font["head"].unitsPerEm
-    rows = []
+    rows, own = [], []
     with tempfile.TemporaryDirectory() as folder:
         picture, svg = os.path.join(folder, "in.png"), os.path.join(folder, "out.svg")
         for char in bench.charset("arabic" if ord("ع") in cmap else "latin"):
@@ -41,6 +42,8 @@ def pictures(task):
             if not true:
                 continue
             drawn = crosses(bench.flatten(true, 0.5))
+            begun = [contour[len(contour) // 2 :] + contour[: len(contour) // 2] for contour in true]
+            own.append(bench.compare(true, begun, upem, ppem)["corner_f1"])
             for condition in LIMITS:
                 image, (scale, left, foot) = bench.render(true, upem, ppem, 20, condition, ord(char))
                 Image.fromarray(image).save(picture)
@@ -53,7 +56,7 @@ def pictures(task):
                 got = [[tuple(((x - left) / scale, (foot - y) / scale) for x, y in s) for s in c] for c in got]
                 found = bench.compare(true, bench.clean(got, upem * 2e-4), upem, ppem)
                 rows.append((char, condition, found, tangled, drawn))
-    return os.path.basename(path), rows
+    return os.path.basename(path), rows, own
 
 
 def main():
@@ -73,7 +76,7 @@ def main():
     beyond = collections.defaultdict(list)
     for condition, (most, most_median) in LIMITS.items():
         figures = []
-        for name, rows in fonts:
+        for name, rows, _ in fonts:
             found = [row[2] for row in rows if row[1] == condition and row[2]]
             if not found:
                 sys.exit(f"{name}: no letter of it was traced ({condition})")
@@ -88,7 +91,7 @@ def main():
         counts = [len(figures) - len(beyond[condition, what]) for what in WHAT]
         medians = np.median([f[0] for f in figures]), np.median([f[1] for f in figures])
         print(f"| {condition} | {len(fonts)} | {' | '.join(map(str, counts))} | {medians[0]:.3f}, {medians[1]:.2f} |")
-    rows = [(name, *row) for name, rows in fonts for row in rows]
+    rows = [(name, *row) for name, rows, _ in fonts for row in rows]
     found = [row for row in rows if row[3]]
     over = [row for row in found if row[3]["max"] > WORST]
     lost = [row for row in found if row[3]["max"] * args.ppem / 1000 > PART_PX]
@@ -103,6 +106,8 @@ def main():
     for (condition, what), names in beyond.items():
         if names:
             print(f"{condition}, beyond the limit of {what}: {', '.join(names)}")
+    low = [f"{name} {np.mean(own):.3f}" for name, _, own in fonts if np.mean(own) < CORNERS]
+    print(f"corner F1 of the fonts' own outlines, begun half-way round, below {CORNERS}: {', '.join(low) or 'none'}")
 
 
 if __name__ == "__main__":
