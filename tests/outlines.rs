@@ -233,6 +233,24 @@ fn a_scanned_line_thinner_than_a_pixel_keeps_its_width() {
 }
 
 #[test]
+fn a_thin_pen_keeps_its_width_in_ink_of_any_level() {
+    let middle = Point::new(47.6, 48.3);
+    for width in [2.6, 3.3, 4.1] {
+        let sharp = picture(96, |p| (p.distance(middle) - 27.4).abs() - width / 2.0);
+        let mut seen = sharp.samples().to_vec();
+        blur(&mut seen, 96, 0.9, 0);
+        for ink in [0.6, 0.8, 1.0] {
+            let gray = sharp.with_samples(seen.iter().map(|v| 0.1 + (ink - 0.1) * v).collect());
+            let got = outlines(&gray);
+            assert_eq!(got.len(), 2, "{width} {ink}");
+            let area: f64 = got.iter().map(Shape::area).sum();
+            let found = area.abs() / (std::f64::consts::TAU * 27.4);
+            assert!((found - width).abs() < 0.15, "{width} {ink}: {found}");
+        }
+    }
+}
+
+#[test]
 fn what_almost_touches_stays_apart() {
     let (a, b) = (Point::new(27.1, 48.0), Point::new(68.3, 48.0));
     let both = |p: Point| (p.distance(a) - 20.0).min(p.distance(b) - 20.0);

@@ -1,6 +1,6 @@
 //! Local ink and paper levels: the grey of a scan becomes coverage, so that half is half everywhere.
 
-use super::thin;
+use super::{ink, thin};
 use crate::{
     numeric::{
         cast::single,
@@ -23,7 +23,7 @@ const UNTOLD: f32 = 0.5;
 /// The picture's coverage: at each pixel, where its grey lies between the paper's and the ink's around it.
 ///
 /// A level is the Gaussian mean of the pixels that are surely ink or paper; strokes too thin to have any
-/// take the level of the whole picture.
+/// take the level of the whole picture, and where all are too thin the one that their shape tells.
 #[must_use]
 pub fn level(gray: &Gray) -> Gray {
     let w = gray.width();
@@ -47,7 +47,14 @@ pub fn level(gray: &Gray) -> Gray {
         let beside = model.iter_mut().zip(thin).filter(|(_, thin)| *thin);
         beside.for_each(|(model, _)| *model = UNTOLD);
     }
-    gray.with_samples(normalised(gray.samples(), w, &model))
+    let mut coverage = normalised(gray.samples(), w, &model);
+    if paper.is_some() && ink.is_none() {
+        let black = gray.with_samples(coverage.clone());
+        if let Some(ink) = ink::level(&black) {
+            coverage.iter_mut().for_each(|v| *v /= single(ink));
+        }
+    }
+    gray.with_samples(coverage)
 }
 
 /// The mean of the samples whose model is `sure`.

@@ -12,6 +12,7 @@
 mod chain;
 mod edge;
 mod focus;
+mod ink;
 mod levels;
 mod ragged;
 #[cfg(test)]
