@@ -58,7 +58,7 @@ pub(super) fn level(coverage: &Gray) -> Option<f64> {
     let every = places.len().div_ceil(MOST);
     let mut places: Vec<Across> = places.into_iter().step_by(every).collect();
     let ends: f64 = places.iter().flat_map(|a| a.ends()).sum();
-    let paper = ends / (4 * places.len()) as f64;
+    let paper = ends / (2 * places.len()) as f64;
     places.iter_mut().for_each(|a| a.stand_on(paper));
     let mut found = Fit {
         ink: 1.0,
@@ -136,9 +136,9 @@ impl Across {
         (straight && alike && pale).then_some(across)
     }
 
-    /// What lies furthest from the stroke, two pixels on each side.
-    fn ends(&self) -> [f64; 4] {
-        [0, 1, SEEN - 2, SEEN - 1].map(|i| self.samples[i])
+    /// What lies furthest from the stroke on each side.
+    fn ends(&self) -> [f64; 2] {
+        [0, SEEN - 1].map(|i| self.samples[i])
     }
 
     /// Takes the paper's level off: pixels beside a stroke pass for paper with what the lens leaves of ink in them.
