@@ -27,6 +27,8 @@ const SLOPE: f64 = 0.8;
 /// Fewer places tell nothing; and of more than these not all are looked at.
 const LEAST: usize = 8;
 const MOST: usize = 200;
+/// Of a picture of more pixels not all rows are looked at.
+const LOOKED: usize = 1 << 22;
 /// Deviation of ink from black, as far as a picture does not tell.
 const EXPECTED: f64 = 0.2;
 /// Grain is one for so many pixels that lie beside each other.
@@ -79,7 +81,8 @@ fn places(coverage: &Gray) -> Vec<Across> {
     let darkest = coverage.samples().iter().copied().fold(0.0, f32::max);
     let margin = REACH.unsigned_abs();
     let mut out = Vec::new();
-    for y in margin..h.saturating_sub(margin) {
+    let every = (w * h).div_ceil(LOOKED).max(1);
+    for y in (margin..h.saturating_sub(margin)).step_by(every) {
         for x in margin..w.saturating_sub(margin) {
             if coverage.at(x, y) < DARK * darkest {
                 continue;
@@ -103,11 +106,9 @@ impl Across {
     ) -> Option<Self> {
         // so many pixels across and along
         let at = |n: isize, m: isize| {
-            let place = (
-                x.checked_add_signed(n * dx + m * dy)?,
-                y.checked_add_signed(n * dy + m * dx)?,
-            );
-            Some(coverage.at(place.0, place.1))
+            let x = x.checked_add_signed(n * dx + m * dy)?;
+            let y = y.checked_add_signed(n * dy + m * dx)?;
+            Some(coverage.at(x, y))
         };
         let here = at(0, 0)?;
         if here < at(1, 0)? || here <= at(-1, 0)? || at(0, 1)?.min(at(0, -1)?) < EVEN * here {
