@@ -47,14 +47,13 @@ pub fn level(gray: &Gray) -> Gray {
         let beside = model.iter_mut().zip(thin).filter(|(_, thin)| *thin);
         beside.for_each(|(model, _)| *model = UNTOLD);
     }
-    let mut coverage = normalised(gray.samples(), w, &model);
-    if paper.is_some() && ink.is_none() {
-        let black = gray.with_samples(coverage.clone());
-        if let Some(ink) = ink::level(&black) {
-            coverage.iter_mut().for_each(|v| *v /= single(ink));
-        }
-    }
-    gray.with_samples(coverage)
+    let coverage = gray.with_samples(normalised(gray.samples(), w, &model));
+    let thin = paper.is_some() && ink.is_none();
+    let Some(ink) = thin.then(|| ink::level(&coverage)).flatten() else {
+        return coverage;
+    };
+    let darker = coverage.samples().iter().map(|v| v / single(ink));
+    coverage.with_samples(darker.collect())
 }
 
 /// The mean of the samples whose model is `sure`.
