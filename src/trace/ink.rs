@@ -1,9 +1,10 @@
 //! The level of ink of which no stroke is wide enough to show it.
 //!
 //! Under a lens of deviation σ a stroke of width w and ink of level I is seen across as
-//! I / 2 (erf((x + w / 2) / √2 σ) − erf((x − w / 2) / √2 σ)), averaged over each pixel. What that holds in all, I w, is
-//! measured without either; its shape tells I and σ, which the strokes of a picture share: least squares of all that lie straight. Of a stroke
-//! much thinner than the blur next to nothing tells them apart, and there ink is as black as it is expected to be.
+//! I / 2 (erf((x + w / 2) / √2 σ) − erf((x − w / 2) / √2 σ)), averaged over each pixel. What that holds in all, I w,
+//! is measured without either; its shape tells I and σ, which the strokes of a picture share, by least squares of all
+//! places where one is straight. Of a stroke much thinner than the blur next to nothing tells them apart, and there
+//! ink is as black as it is expected to be.
 
 use crate::types::Gray;
 use libm::erf;

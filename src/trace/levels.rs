@@ -48,8 +48,8 @@ pub fn level(gray: &Gray) -> Gray {
         beside.for_each(|(model, _)| *model = UNTOLD);
     }
     let coverage = gray.with_samples(normalised(gray.samples(), w, &model));
-    let thin = paper.is_some() && ink.is_none();
-    let Some(ink) = thin.then(|| ink::level(&coverage)).flatten() else {
+    let untold = paper.is_some() && ink.is_none();
+    let Some(ink) = untold.then(|| ink::level(&coverage)).flatten() else {
         return coverage;
     };
     let darker = coverage.samples().iter().map(|v| v / single(ink));
