@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Fonts built from pages of any fonts beside those fonts: a row of BENCHMARKS.md's "Pages to fonts" for each page.
+"""Fonts built from pages of any fonts beside those fonts: a row of docs/pages.md for each page.
 
     python3 tests/bench/untried.py --khatt target/release/khatt --bench ../shared/bench --fonts /usr/share/fonts \\
         'FreeSans.ttf --rows 8 --cols 9 --skew 2' 'KacstBook.ttf --forms --rows 12 --cols 10 --condition rough'
