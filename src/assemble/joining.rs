@@ -97,8 +97,8 @@ const MANY: [(f64, f64); 2] = [(0.2, 0.0), (0.03, 0.3)];
 /// Joins that tell it, at least.
 const FEWEST: usize = 12;
 
-/// How far before a tip a ray may meet it by the arithmetic of crossings, font units.
-const SAME_TIP: f64 = 1e-3;
+/// How far before a tip its own ink may lie, part of the depth: a tip is the outermost of samples.
+const SAME_TIP: f64 = 0.1;
 
 /// Rounds in which the choice of ends and their median settle: they did in two on every font seen.
 const ROUNDS: u32 = 4;
@@ -168,6 +168,21 @@ impl Joint {
         let strokes = (0..).zip(&self.ends).filter(|(_, e)| is_stroke(e));
         let best = strokes.min_by(|a, b| distance(a.1).total_cmp(&distance(b.1)));
         self.chosen = best.map(|(i, _)| i);
+    }
+
+    /// How far it lies above these edges.
+    fn height(&self, draft: &Draft, edges: Edges) -> Height {
+        let middle = |(low, high): Edges| f64::midpoint(low, high);
+        let above = |end: &End| middle(end.edges) - middle(edges);
+        let told = self.end().filter(|_| met(draft, self, edges).is_none());
+        let largest = self.sizes.iter().copied().fold(0.0, f64::max);
+        let is_stroke =
+            |e: &&End| self.sizes[e.contour] >= largest && thicker(e.edges, edges) < THICKER;
+        let may_be = self.ends.iter().filter(is_stroke).map(above);
+        Height {
+            told: told.map(above),
+            may_be: may_be.filter(|_| told.is_none()).collect(),
+        }
     }
 
     /// Takes the outermost end of the body, or of the largest contour that has one.
@@ -288,32 +303,32 @@ pub(super) fn settled(drafts: &[Draft], em: f64, options: &Options) -> (Method, 
     (Method::Cursive, note.into_iter().collect())
 }
 
-/// How far the middles of a draft's joining strokes lie above the contract's, left and right, font units; none where
-/// no stroke leaves it.
-pub(super) type Height = (Option<f64>, Option<f64>);
+/// How far the middle of a draft's joining stroke lies above the contract's on one side, font units.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(super) struct Height {
+    /// The stroke's; none where no stroke leaves it, or where its body can be met by the next letter's.
+    pub(super) told: Option<f64>,
+    /// Where nothing is told: of all ends of the body that are as thick as a stroke.
+    pub(super) may_be: Vec<f64>,
+}
 
-/// The heights of every draft's joining strokes.
-pub(super) fn heights(drafts: &[Draft], em: f64, options: &Options) -> Vec<Height> {
+/// The heights of every draft's joining strokes, left and right.
+pub(super) fn heights(drafts: &[Draft], em: f64, options: &Options) -> Vec<[Height; 2]> {
     let mut joints = joints(drafts, em, options.method);
-    let mut heights = vec![(None, None); drafts.len()];
+    let mut heights = vec![<[Height; 2]>::default(); drafts.len()];
     let Some(contract) = contract(&mut joints, em, options) else {
         return heights;
     };
-    let middle = |(low, high): Edges| f64::midpoint(low, high);
     for joint in &joints {
         let drawn = drafts.get(joint.draft).zip(heights.get_mut(joint.draft));
-        let Some((draft, height)) = drawn else {
+        let Some((draft, [left, right])) = drawn else {
             continue;
         };
-        if met(draft, joint, contract.edges).is_none() {
-            let above = joint
-                .end()
-                .map(|end| middle(end.edges) - middle(contract.edges));
-            match joint.side {
-                Side::Left => height.0 = above,
-                Side::Right => height.1 = above,
-            }
-        }
+        let height = match joint.side {
+            Side::Left => left,
+            Side::Right => right,
+        };
+        *height = joint.height(draft, contract.edges);
     }
     heights
 }
@@ -358,7 +373,8 @@ fn leaves(end: &End, contours: &[BezPath], side: Side) -> bool {
     let opening = side.inward(end.slopes.1 - end.slopes.0);
     let own = contours.get(end.contour..=end.contour).unwrap_or(&[]);
     let first = stroke::face(own, side, end.edges);
-    opening < OPENING && first.is_some_and(|(first, _)| first > end.tip - SAME_TIP)
+    opening < OPENING
+        && first.is_some_and(|(first, _)| first > end.tip - SAME_TIP * (end.cut - end.tip))
 }
 
 /// Where the advance ends of a letter whose body the strokes of this height meet; none where a stroke leaves it, or
@@ -368,13 +384,19 @@ fn met(draft: &Draft, joint: &Joint, (low, high): Edges) -> Option<f64> {
     let (first, last) = stroke::face(draft.outline.contours(), joint.side, (low, high))?;
     let is_body = joint.end().is_none_or(|end| {
         let (from, to) = end.edges;
-        let thicker = (to - from).max(thick) / (to - from).min(thick);
         let common = to.min(high) - from.max(low);
-        let alike = thicker < THICKER && common > COMMON * (to - from).min(thick);
+        let alike =
+            thicker(end.edges, (low, high)) < THICKER && common > COMMON * (to - from).min(thick);
         !alike && last - first < thick
     });
     // what stands out before the last of its ink lies within the next letter's stroke
     is_body.then(|| joint.side.inward(last.min(first + thick)))
+}
+
+/// How many times as thick the thicker of two strokes is.
+fn thicker(one: Edges, other: Edges) -> f64 {
+    let (one, other) = (one.1 - one.0, other.1 - other.0);
+    one.max(other) / one.min(other)
 }
 
 fn no_stroke(draft: &Draft, side: Side) -> Note {

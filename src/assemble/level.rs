@@ -12,6 +12,10 @@
 //! ```
 //!
 //! Where letters stand well and a hand's strokes vary, `v` is nothing, and so is every letter's stray.
+//!
+//! A letter that strays by more than its strokes are thick may have its body where the others' strokes would meet it,
+//! so that none of its own is told ([`Height::may_be`]). Its ends are taken from all that are as thick: the likeliest
+//! that lie apart, and off the usual height, as other letters' do.
 
 use super::joining::{self, Height, Method, Options};
 use super::{AssembleError, Drawn};
@@ -26,8 +30,11 @@ const ROW: usize = 3;
 const FEWEST: usize = 8;
 
 /// What lies farther off than so many standard deviations was meant so, or is no stroke. Slips are not quite normal,
-/// and a median of two dozen forms can be half of what it should be: hence more than twice the usual three.
-const MOST: f64 = 8.0;
+/// and a median of some dozen forms can be far less than it should be: hence twice the usual three.
+const MOST: f64 = 6.0;
+
+/// Rounds in which ends and deviations settle.
+const ROUNDS: u32 = 3;
 
 /// Least deviation of strokes, em: they are not measured better than that.
 const MEASURED: f64 = 0.001;
@@ -49,12 +56,15 @@ pub fn strays(
     }
     let mut heights = joining::heights(&drafts, em, options);
     let rows = shared(&heights, rows);
-    for (height, row) in heights.iter_mut().zip(&rows) {
-        *height = (height.0.map(|y| y - row), height.1.map(|y| y - row));
+    for (sides, row) in heights.iter_mut().zip(&rows) {
+        for height in sides {
+            let ends = height.told.iter_mut().chain(&mut height.may_be);
+            ends.for_each(|end| *end -= row);
+        }
     }
-    let hand = Hand::of(&heights, em);
-    let stray = |(height, row): (&Height, f64)| row + hand.map_or(0.0, |hand| hand.stray(*height));
-    let mut strays: Vec<f64> = heights.iter().zip(rows).map(stray).collect();
+    let (hand, ends) = Hand::of(&heights, em);
+    let stray = |(ends, row): (&Ends, f64)| row + hand.map_or(0.0, |hand| hand.stray(*ends));
+    let mut strays: Vec<f64> = ends.iter().zip(rows).map(stray).collect();
     for (draft, stray) in drafts.iter_mut().zip(&strays) {
         draft.outline = draft.outline.transformed(Affine::translate((0.0, -stray)));
     }
@@ -65,12 +75,15 @@ pub fn strays(
     Ok(strays)
 }
 
+/// How far a letter's joining strokes lie above the usual height, left and right, font units.
+type Ends = (Option<f64>, Option<f64>);
+
 /// What the ends of each letter's row have in common.
-fn shared(heights: &[Height], rows: &[usize]) -> Vec<f64> {
+fn shared(heights: &[[Height; 2]], rows: &[usize]) -> Vec<f64> {
     let mut ends: BTreeMap<usize, Vec<f64>> = BTreeMap::new();
     for (height, row) in heights.iter().zip(rows) {
         // both ends of a letter are one witness
-        let end = height.0.into_iter().chain(height.1);
+        let end = height.iter().filter_map(|height| height.told);
         ends.entry(*row)
             .or_default()
             .extend(end.reduce(|a, b| if a.abs() < b.abs() { a } else { b }));
@@ -93,32 +106,91 @@ struct Hand {
     common: f64,
     /// Standard deviation of half of what they differ by: `w/2` is its square.
     own: f64,
+    /// Standard deviation of the strokes' height, of all letters.
+    all: f64,
 }
 
 impl Hand {
-    fn of(heights: &[Height], em: f64) -> Option<Self> {
-        let both: Vec<(f64, f64)> = heights.iter().filter_map(|h| h.0.zip(h.1)).collect();
+    /// The hand, where enough is told, and each letter's ends as they are told or likely by it.
+    fn of(heights: &[[Height; 2]], em: f64) -> (Option<Self>, Vec<Ends>) {
+        let told = |[left, right]: &[Height; 2]| (left.told, right.told);
+        let mut ends: Vec<Ends> = heights.iter().map(told).collect();
+        let mut hand = Self::drawn(&ends, em);
+        for _ in 0..ROUNDS {
+            let Some(so_far) = hand else { break };
+            ends = heights.iter().map(|height| so_far.likely(height)).collect();
+            hand = Self::drawn(&ends, em);
+        }
+        (hand, ends)
+    }
+
+    fn drawn(ends: &[Ends], em: f64) -> Option<Self> {
+        let both: Vec<(f64, f64)> = ends.iter().filter_map(|ends| ends.0.zip(ends.1)).collect();
         if both.len() < FEWEST {
             return None;
         }
         let deviation = |of: fn(&(f64, f64)) -> f64| Some(NORMAL * median(both.iter().map(of))?);
+        let told = ends.iter().filter(|ends| **ends != (None, None));
         Some(Self {
             common: deviation(|(a, b)| 0.5 * (a + b).abs())?,
             own: deviation(|(a, b)| 0.5 * (a - b).abs())?.max(MEASURED * em),
+            all: NORMAL * median(told.map(|ends| parts(*ends).0.abs()))?,
         })
     }
 
-    /// How far a letter strays whose ends lie so far above the usual height.
-    fn stray(self, height: Height) -> f64 {
-        let (common, own) = (self.common.powi(2), self.own.powi(2));
-        let baseline = (common - own).max(0.0);
-        let (share, middle, apart) = match height {
-            (Some(a), Some(b)) => (baseline / common, 0.5 * (a + b), 0.5 * (a - b)),
-            (Some(a), None) | (None, Some(a)) => (baseline / (common + own), a, 0.0),
-            (None, None) => return 0.0,
+    /// A letter's ends: those that are told, or else the likeliest of what may be ends of one that strays as others do.
+    fn likely(self, [left, right]: &[Height; 2]) -> Ends {
+        let told = (left.told, right.told);
+        if told != (None, None) {
+            return told;
+        }
+        let each = |height: &Height| {
+            let ends = height.may_be.iter().copied().map(Some);
+            ends.chain([None]).collect::<Vec<_>>()
         };
-        let is_slip = middle.abs() < MOST * self.common && apart.abs() < MOST * self.own;
-        if is_slip { share * middle } else { 0.0 }
+        let (lefts, rights) = (each(left), each(right));
+        let pairs = lefts
+            .iter()
+            .flat_map(|a| rights.iter().map(move |b| (*a, *b)));
+        // two ends tell more than one
+        let missing = |ends: &Ends| u8::from(ends.0.is_none()) + u8::from(ends.1.is_none());
+        let likely = pairs.filter(|ends| self.is_likely(*ends));
+        let likely = likely.min_by(|a, b| {
+            let nearer = self.against(*a).total_cmp(&self.against(*b));
+            missing(a).cmp(&missing(b)).then(nearer)
+        });
+        likely.unwrap_or_default()
+    }
+
+    /// In squares of standard deviations, what speaks against a letter's having its strokes there.
+    fn against(self, ends: Ends) -> f64 {
+        let (middle, apart) = parts(ends);
+        (middle / self.all).powi(2) + (apart / self.own).powi(2)
+    }
+
+    fn is_likely(self, ends: Ends) -> bool {
+        let (middle, apart) = parts(ends);
+        middle.abs() < MOST * self.all && apart.abs() < MOST * self.own
+    }
+
+    /// How far a letter strays whose ends lie so far above the usual height.
+    fn stray(self, ends: Ends) -> f64 {
+        let own = self.own.powi(2);
+        let baseline = (self.common.powi(2) - own).max(0.0);
+        let share = match ends {
+            (Some(_), Some(_)) => baseline / (baseline + own),
+            _ => baseline / (baseline + 2.0 * own),
+        };
+        let slip = Some(parts(ends).0).filter(|_| self.is_likely(ends));
+        share * slip.unwrap_or(0.0)
+    }
+}
+
+/// The middle of a letter's ends, and half of what they differ by.
+fn parts(ends: Ends) -> (f64, f64) {
+    match ends {
+        (Some(a), Some(b)) => (0.5 * (a + b), 0.5 * (a - b)),
+        (one, other) => (one.or(other).unwrap_or(0.0), 0.0),
     }
 }
 
@@ -137,7 +209,7 @@ mod tests {
     /// A stem whose strokes leave it so far above the baseline, to the left and to the right.
     fn drawn(label: &str, left: f64, right: f64) -> Drawn {
         let svg = format!(
-            "M0 {left}L200 {left}L200 -50L300 -50L300 {right}L500 {right}L500 {}L300 {}L300 500L200 500L200 {}L0 {}Z",
+            "M0 {left}L200 {left}L200 -100L300 -100L300 {right}L500 {right}L500 {}L300 {}L300 500L200 500L200 {}L0 {}Z",
             right + 60.0,
             right + 60.0,
             left + 60.0,
@@ -178,6 +250,38 @@ mod tests {
         }
         assert!((found[10] - (12.0 - usual)).abs() < 1.0, "{found:?}");
         assert!(found[11].abs() < 1e-9, "nothing says where it belongs");
+    }
+
+    #[test]
+    fn letters_that_stray_by_more_than_their_strokes_thickness_are_told_by_the_others() {
+        // the lowest one's lie below those of all others, whose would meet its stem
+        let page = medials(|i| (12.0 * i, 12.0 * i));
+        let drafts = drafts(page.clone(), &[]).unwrap();
+        let heights = joining::heights(&drafts, 1000.0, &Options::default());
+        let untold = heights.iter().filter(|[left, _]| left.told.is_none());
+        assert_eq!(untold.count(), 1);
+        for (i, stray) in (0..10).zip(alone(&page)) {
+            let wanted = 12.0 * (f64::from(i) - 4.5) - 6.0;
+            assert!((stray - wanted).abs() < 1.0, "{i}: {stray} {wanted}");
+        }
+    }
+
+    #[test]
+    fn round_ends_are_joining_strokes_wherever_their_outermost_point_lies() {
+        let mut page = medials(|_| (0.0, 0.0));
+        for (k, letter) in LETTERS.iter().enumerate() {
+            let (low, high) = (20.0 - 0.3 * k as f64, 40.0 - 0.2 * k as f64);
+            let svg = format!("M0 0H300V500H200V60H0C-45 {high} -35 {low} 0 0Z");
+            let mut round = drawn(&format!("uni{letter}.init"), 0.0, 0.0);
+            round.outline = Outline::new(vec![BezPath::from_svg(&svg).unwrap()]).unwrap();
+            page.push(round);
+        }
+        let drafts = drafts(page, &[]).unwrap();
+        let heights = joining::heights(&drafts, 1000.0, &Options::default());
+        assert!(
+            heights.iter().all(|[left, _]| left.told.is_some()),
+            "{heights:?}"
+        );
     }
 
     #[test]
@@ -251,6 +355,6 @@ mod tests {
         page.push(bow);
         let drafts = drafts(page, &[]).unwrap();
         let heights = joining::heights(&drafts, 1000.0, &Options::default());
-        assert_eq!(heights.last(), Some(&(None, None)));
+        assert_eq!(heights.last(), Some(&<[Height; 2]>::default()));
     }
 }
