@@ -488,14 +488,14 @@ impl Drawing {
     }
 
     fn cut(&self, names: &[&str], options: &Options) -> scan::Cut {
-        let sheets = scan::load(&self.png(), "page", Polarity::DarkInk).expect("a picture");
+        let sheets = scan::load(&self.png(), "page", Polarity::DarkInk.into()).expect("a picture");
         let page = scan::clean(
             sheets.into_iter().next().expect("one page"),
             scan::Texture::default(),
         )
         .expect("ink");
         let labels: Vec<Label> = names.iter().map(|n| Label((*n).to_owned())).collect();
-        scan::cut(&page, &labels, options).expect("cells")
+        scan::cut(&page, &labels, options, &[]).expect("cells")
     }
 }
 

@@ -173,7 +173,7 @@ fn segments(page: &[u8]) -> (Vec<usize>, String) {
 #[test]
 fn a_page_out_of_focus_is_told_and_keeps_its_corners() {
     let sharp = page(&[]);
-    let sheets = load(&sharp, "page.png", Polarity::DarkInk).expect("a picture");
+    let sheets = load(&sharp, "page.png", Polarity::DarkInk.into()).expect("a picture");
     let mut samples = sheets[0].gray.samples().to_vec();
     blur(&mut samples, 600, 3.0, 0);
     let soft = sheets[0].gray.with_samples(samples).levels();
@@ -187,7 +187,7 @@ fn a_page_out_of_focus_is_told_and_keeps_its_corners() {
 
 /// The page with another ink where its letters are, by column and row.
 fn redrawn(ink: impl Fn(f64, f64, f64) -> f64) -> Vec<u8> {
-    let sheets = load(&page(&[]), "page.png", Polarity::DarkInk).expect("a picture");
+    let sheets = load(&page(&[]), "page.png", Polarity::DarkInk.into()).expect("a picture");
     png(600, 600, |x, y| {
         let drawn = f64::from(sheets[0].gray.at(x as usize, y as usize));
         edge(0.5 - ink(drawn, f64::from(x), f64::from(y)))

@@ -71,7 +71,7 @@ fn onto_page(layout: &Layout, place: &Place) -> Affine {
 }
 
 fn load(bytes: &[u8]) -> Sheet {
-    let sheets = scan::load(bytes, "photo", Polarity::DarkInk).expect("a picture");
+    let sheets = scan::load(bytes, "photo", Polarity::DarkInk.into()).expect("a picture");
     sheets.into_iter().next().expect("one page")
 }
 

@@ -157,7 +157,7 @@ impl<'a> Printing<'a> {
             tones: self.table.tones,
             ..Reading::default()
         };
-        let mut sheets = scan::load_as(&bytes, &image.display().to_string(), reading)?;
+        let mut sheets = scan::load(&bytes, &image.display().to_string(), reading)?;
         match self.table.page {
             None => Ok(sheets),
             Some(n) if (1..=sheets.len()).contains(&n) => Ok(vec![sheets.swap_remove(n - 1)]),

@@ -89,7 +89,7 @@ fn page_rows(
         })
         .collect();
     let (bytes, view) = cam.take(page, &drawn);
-    let sheet = scan::load(&bytes, "page", Polarity::DarkInk).map_err(|e| e.to_string())?;
+    let sheet = scan::load(&bytes, "page", Polarity::DarkInk.into()).map_err(|e| e.to_string())?;
     let found = template::find(&sheet[0], layout).map_err(|e| e.to_string())?;
     if found.code != page.code {
         return Err(format!("read as {}", found.code));

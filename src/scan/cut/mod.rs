@@ -30,7 +30,7 @@ pub use remarks::{SMALL, SMALL_LETTER, is_full};
 use super::clean::Page;
 use super::components::{Component, gap};
 use super::deskew::{Edges, skew_deg};
-use super::error::ScanError;
+use super::error::{Fault, ScanError};
 use super::options::Options;
 use super::perspective::Scene;
 use super::separation::{Colour, Separation};
@@ -217,34 +217,22 @@ struct Layer {
     doubtful: Vec<usize>,
 }
 
-/// Cuts a clean page into cells: `labels` in reading order, `_` for a cell to be skipped.
+/// Cuts a clean page into cells: `labels` in reading order, `_` for a cell to be skipped; a user says the places of
+/// the cells that have `pins`.
 ///
 /// # Errors
 /// The layout does not hold the labels, ink has no label, or the em cannot be measured.
-pub fn cut(page: &Page, labels: &[Label], options: &Options) -> Result<Cut, ScanError> {
-    cut_with(page, labels, options, &[])
-}
-
-/// The same where a user says the places of some cells.
-///
-/// # Errors
-/// As of [`cut`].
-pub fn cut_with(
+pub fn cut(
     page: &Page,
     labels: &[Label],
     options: &Options,
     pins: &[Pin],
 ) -> Result<Cut, ScanError> {
     let cut = cut_page(page, labels, options, pins);
-    cut.map_err(|e| e.or_polarity(page.sheet.guessed))
+    cut.map_err(|fault| fault.of(&page.sheet.source, page.sheet.guessed))
 }
 
-fn cut_page(
-    page: &Page,
-    labels: &[Label],
-    options: &Options,
-    pins: &[Pin],
-) -> Result<Cut, ScanError> {
+fn cut_page(page: &Page, labels: &[Label], options: &Options, pins: &[Pin]) -> Result<Cut, Fault> {
     let gray = &page.sheet.gray;
     let (low, ink) = level::pieces(gray, page.noise);
     let Inks {

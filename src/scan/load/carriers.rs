@@ -51,13 +51,13 @@ fn deep(number: fn(f64) -> f64) -> DynamicImage {
     DynamicImage::from(ImageBuffer::from_fn(WIDTH, HEIGHT, |x, _| Luma([level(x)])))
 }
 
-fn read(file: &[u8], tones: Tones) -> Result<Gray, ScanError> {
+fn read(file: &[u8], tones: Tones) -> Result<Gray, Fault> {
     let reading = Reading {
         tones,
         polarity: Polarity::DarkInk,
         ..Reading::default()
     };
-    let mut pages = load_as(file, "page", reading)?;
+    let mut pages = load(file, "page", reading).map_err(|e| e.fault)?;
     Ok(pages.remove(0).gray)
 }
 
@@ -367,10 +367,7 @@ fn scans_in_a_pdf_are_read_by_their_colour_space() {
         "[]",
     ] {
         let wrong = read(&pdf(&grey(gamma), silent, b""), Tones::Profile).unwrap_err();
-        assert!(
-            matches!(wrong, ScanError::Tones { .. }),
-            "{silent}: {wrong}"
-        );
+        assert!(matches!(wrong, Fault::Tones(_)), "{silent}: {wrong}");
     }
     let wrong = read(
         &pdf(&grey(gamma), "[/ICCBased 5 0 R]", b"nothing"),
@@ -495,7 +492,7 @@ fn hostile_profiles_are_refused() {
     ];
     for (what, file) in cases {
         match read(&file, Tones::Profile) {
-            Err(ScanError::Tones { .. } | ScanError::Decode { .. }) => {}
+            Err(Fault::Tones(_) | Fault::Decode(_)) => {}
             other => panic!("{what}: {other:?}"),
         }
     }

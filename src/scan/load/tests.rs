@@ -24,7 +24,7 @@ fn encoded(image: &DynamicImage, format: ImageFormat) -> Vec<u8> {
 }
 
 fn one(bytes: &[u8]) -> Sheet {
-    let mut pages = load(bytes, "page", Polarity::Auto).unwrap();
+    let mut pages = load(bytes, "page", Reading::default()).unwrap();
     assert_eq!(pages.len(), 1, "one page");
     pages.remove(0)
 }
@@ -97,7 +97,7 @@ fn every_page_of_a_tiff_is_read() {
     let copy = file[start..end + 4].to_vec();
     file[end..end + 4].copy_from_slice(&second.to_le_bytes());
     file.extend(copy);
-    let pages = load(&file, "two.tif", Polarity::Auto).unwrap();
+    let pages = load(&file, "two.tif", Reading::default()).unwrap();
     assert_eq!(pages.len(), 2);
     assert_eq!(pages[0].gray, pages[1].gray);
     assert_eq!(pages[1].source, "two.tif, page 2");
@@ -105,7 +105,7 @@ fn every_page_of_a_tiff_is_read() {
     let last = file.len() - 4;
     file[last..].copy_from_slice(&circle);
     assert!(
-        load(&file, "circle.tif", Polarity::Auto).is_ok(),
+        load(&file, "circle.tif", Reading::default()).is_ok(),
         "a circle of pages ends"
     );
 }
@@ -120,7 +120,7 @@ fn light_ink_and_opacity_become_ink() {
     ));
     assert!(turned.gray.at(12, 10) > 0.9 && turned.gray.at(30, 20) < 0.2);
     let bytes = encoded(&DynamicImage::ImageLuma8(dark), ImageFormat::Png);
-    let kept = load(&bytes, "dark", Polarity::DarkInk).unwrap();
+    let kept = load(&bytes, "dark", Polarity::DarkInk.into()).unwrap();
     assert!(kept[0].gray.at(12, 10) < 0.1, "as told");
     let glass = GrayAlphaImage::from_fn(9, 9, |x, _| LumaA([255, if x == 4 { 200 } else { 0 }]));
     let drawn = one(&encoded(
@@ -200,12 +200,9 @@ fn orientation_and_resolution_come_from_the_file() {
 
 #[test]
 fn what_is_no_whole_picture_is_refused_with_its_name() {
-    let no = |bytes: &[u8]| load(bytes, "x.png", Polarity::Auto).unwrap_err();
-    assert!(matches!(
-        no(b"just some words in a file"),
-        ScanError::Kind { .. }
-    ));
-    assert!(matches!(no(b""), ScanError::Kind { .. }));
+    let no = |bytes: &[u8]| load(bytes, "x.png", Reading::default()).unwrap_err().fault;
+    assert!(matches!(no(b"just some words in a file"), Fault::Kind));
+    assert!(matches!(no(b""), Fault::Kind));
     assert!(no(b"words").to_string().contains("x.png"));
     let grey = DynamicImage::ImageLuma8(picture());
     for format in [
@@ -223,7 +220,7 @@ fn what_is_no_whole_picture_is_refused_with_its_name() {
         let file = encoded(&grey, format);
         for part in [3, 5, 9] {
             assert!(
-                load(&file[..file.len() * part / 10], "x", Polarity::Auto).is_err(),
+                load(&file[..file.len() * part / 10], "x", Reading::default()).is_err(),
                 "{format:?} {part}/10"
             );
         }
@@ -241,7 +238,7 @@ fn what_is_no_whole_picture_is_refused_with_its_name() {
         })
     });
     huge[29..33].copy_from_slice(&(!crc).to_be_bytes());
-    assert!(matches!(no(&huge), ScanError::Large { width: 60_000, .. }));
+    assert!(matches!(no(&huge), Fault::Large { width: 60_000, .. }));
 }
 
 /// A stream of a PDF file.
@@ -292,11 +289,10 @@ fn a_pdf_that_claims_what_its_scan_has_not() {
             b"\x00\x10",
             &[],
         );
-        let wrong = load(&file, "page.pdf", Polarity::Auto).unwrap_err();
-        assert!(
-            matches!(wrong, ScanError::Decode { .. }),
-            "{claim}: {wrong}"
-        );
+        let wrong = load(&file, "page.pdf", Reading::default())
+            .unwrap_err()
+            .fault;
+        assert!(matches!(wrong, Fault::Decode(_)), "{claim}: {wrong}");
     }
 }
 
@@ -345,8 +341,8 @@ fn a_pdf_gives_the_scan_of_its_page() {
         &grey.as_raw()[..100],
         &[],
     );
-    assert!(load(&short, "short.pdf", Polarity::Auto).is_err());
-    assert!(load(b"%PDF-1.4 and nothing", "empty.pdf", Polarity::Auto).is_err());
+    assert!(load(&short, "short.pdf", Reading::default()).is_err());
+    assert!(load(b"%PDF-1.4 and nothing", "empty.pdf", Reading::default()).is_err());
 }
 
 #[test]
@@ -359,7 +355,7 @@ fn opacity_is_no_number_of_srgb() {
         polarity: Polarity::DarkInk,
         ..Reading::default()
     };
-    let gray = &load_as(&bytes, "drawing", reading).unwrap()[0].gray;
+    let gray = &load(&bytes, "drawing", reading).unwrap()[0].gray;
     assert!(
         (gray.at(30, 9) - 128.0 / 255.0).abs() < 1e-3,
         "{}",
@@ -387,7 +383,7 @@ fn srgb_is_read_as_the_light_that_it_stands_for() {
                 tones,
                 ..Reading::default()
             };
-            let gray = &load_as(&bytes, "page", reading).unwrap()[0].gray;
+            let gray = &load(&bytes, "page", reading).unwrap()[0].gray;
             let light = if polarity == Polarity::DarkInk {
                 1.0 - gray.at(20, 9)
             } else {

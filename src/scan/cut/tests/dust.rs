@@ -332,7 +332,7 @@ fn dust_beside_a_grid_does_not_move_it() {
     let letters = |paper: &Paper| {
         let cut = cut_page(paper, &names, &options(Layout::Grid(3, 23)))?;
         let boxes = cut.cells.iter().map(|c| c.in_sheet);
-        Ok::<Vec<Rect>, ScanError>(boxes.collect())
+        Ok::<Vec<Rect>, Fault>(boxes.collect())
     };
     for place in 0..10 {
         let mut dusty = paper.clone();

@@ -112,9 +112,9 @@ fn options(layout: Layout) -> Options {
     }
 }
 
-fn cut_page(paper: &Paper, names: &str, options: &Options) -> Result<Cut, ScanError> {
-    let page = clean(paper.scan(), Texture::default())?;
-    cut(&page, &labels(names), options)
+fn cut_page(paper: &Paper, names: &str, options: &Options) -> Result<Cut, Fault> {
+    let page = clean(paper.scan(), Texture::default()).map_err(|e| e.fault)?;
+    cut(&page, &labels(names), options, &[]).map_err(|e| e.fault)
 }
 
 /// Four by five cells of 120 × 100 px; the feet stand 70 px below the cells' tops.
@@ -358,7 +358,7 @@ fn letters_of_a_bare_page_keep_their_dots_and_rows() {
     assert!(
         matches!(
             wrong,
-            ScanError::Count {
+            Fault::Count {
                 found: 14,
                 names: 13,
                 ..
@@ -474,7 +474,7 @@ fn corner_pins_straighten_a_letter() {
         rotation_deg: 0.0,
     };
     let page = clean(paper.scan(), Texture::default()).unwrap();
-    let cut = |pin: Pin| cut_with(&page, &labels(NAMES), &options(Layout::Free), &[pin]).unwrap();
+    let cut = |pin: Pin| cut(&page, &labels(NAMES), &options(Layout::Free), &[pin]).unwrap();
     let columns = |region: Region| tall_columns(&cut(pin(region)).cells[5].gray, 24);
     let straight = columns(Region::Quad(quad));
     assert!(
@@ -575,7 +575,7 @@ fn printed_boxes_hold_one_letter_each() {
         let many =
             cut_page(&paper, "n p i l n l i l n p i l n", &options(Layout::Boxes)).unwrap_err();
         assert!(
-            matches!(many, ScanError::TooManyNames { cells: 12, .. }),
+            matches!(many, Fault::TooManyNames { cells: 12, .. }),
             "{many}"
         );
     }
@@ -591,7 +591,7 @@ fn a_page_without_boxes_is_told_from_one_with_too_many_names() {
     for (paper, places) in [(open, 0), (grid_page(0.0), 3)] {
         let why = cut_page(&paper, NAMES, &options(Layout::Boxes)).unwrap_err();
         assert!(
-            matches!(why, ScanError::NoBoxes { found, names: 20, .. } if found == places),
+            matches!(why, Fault::NoBoxes { found, names: 20, .. } if found == places),
             "{why}"
         );
     }
