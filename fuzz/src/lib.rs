@@ -3,7 +3,7 @@
 
 use khatt::pipeline::convert::{self, convert};
 use khatt::pipeline::picture::{Options, trace_picture};
-use khatt::pipeline::{Nothing, Project, Unwatched, World, build, outputs, reference};
+use khatt::pipeline::{Project, World, build, outputs, reference};
 use khatt::recognise::{Alphabet, Look, Method, Pruning, Sample, Skeleton, centerline};
 use khatt::scan::{InkStreaks, Reading, Texture, Tones, clean, load};
 use khatt::types::{Bitmap, Font, Gray};
@@ -38,12 +38,7 @@ pub fn project(data: &[u8]) {
         Some("txt") => Ok(b"A B C d".to_vec()),
         _ => Ok(PAGE.to_vec()),
     };
-    let world = World {
-        inputs: &read,
-        watch: &Unwatched,
-        created: 0,
-        store: &Nothing,
-    };
+    let world = World::of(&read);
     if let Ok(built) = build(&project, world) {
         let _ = outputs(&project, &built, None, world);
     }

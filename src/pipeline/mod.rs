@@ -42,5 +42,5 @@ pub use problem::{Place, Problem};
 pub use project::{Project, ProjectError};
 pub use repeats::Repeated;
 pub use report::{CellRemark, Composed, PageRow, Remark, Removed, Report, Row};
-pub use watch::{Stage, Unwatched, Watch};
+pub use watch::{Stage, Watch};
 pub use world::{Inputs, Nothing, Store, World, digest, digest_of};
