@@ -11,6 +11,7 @@ use super::error::Fault;
 use super::ink::{Ink, Inks, more, paper};
 use crate::numeric::cast::single;
 use crate::types::{Colours, Gray, Sheet};
+use serde::{Deserialize, Serialize};
 
 /// Coverage from which ink of a plate holds together, and that a piece of it must reach somewhere.
 const LOW: f32 = 0.33;
@@ -30,7 +31,7 @@ const REACH: u16 = 4;
 const TRAP: usize = 2;
 
 /// An ink as a page shows it.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Colour {
     /// The ink, as a project file names it.
     pub ink: String,
