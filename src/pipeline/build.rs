@@ -143,7 +143,7 @@ fn batches(sources: &[Source<'_>], project: &Project, world: World<'_>) -> Vec<B
         .collect();
     let cut = |&(s, image): &(usize, Option<&Path>)| sources[s].read(image, world);
     let traced = |&(s, image): &(usize, Option<&Path>), cut: Batch<Page>| {
-        let traced = cut.map(|page| trace(page, &sources[s], project, world));
+        let traced = cut.map(|_, page| trace(page, &sources[s], project, world));
         if let Some(image) = image {
             cache::keep(&traced, (&sources[s], image), project, world);
         }
@@ -260,7 +260,7 @@ pub fn pages<T>(
     let named = labels(&project, world)?;
     let pages = sources(&project, &named)?.into_iter().map(|source| {
         let images = source.images().into_iter();
-        let batches = images.map(|image| source.read(image, world).map(&work));
+        let batches = images.map(|image| source.read(image, world).map(|_, page| work(page)));
         source.join(batches.collect())
     });
     Ok(all(pages.collect())?.into_iter().flatten().collect())
