@@ -34,6 +34,7 @@ pub use curve::{Fitted, Verdict};
 pub use files::Files;
 pub use font::{Font, FontError, Info, Kerning, Metrics};
 pub(crate) use glyph::label;
+pub(crate) use naming::UFO_DATE;
 pub use glyph::{Anchor, Component, Glyph, Layer, Name, NameError};
 pub use outline::{Frame, Outline, OutlineError};
 pub use png::Png;
