@@ -7,8 +7,8 @@ use crate::common::pictures::{encoded, png};
 use crate::common::read;
 use khatt::pipeline::{self, Project, World};
 use khatt::scan::{self, Polarity};
-use khatt::template::{self, Direction, Field, Found, Layout, Page, Paper, Place, TemplateError};
-use khatt::types::Sheet;
+use khatt::template::{self, Field, Found, Layout, Page, Paper, Place, TemplateError};
+use khatt::types::{Direction, Sheet};
 use kurbo::{Affine, BezPath, Circle, Rect, Shape};
 use std::path::Path;
 
@@ -42,7 +42,7 @@ fn small() -> Layout {
 }
 
 fn pages(layout: &Layout, n: usize) -> Vec<Page> {
-    template::pages(layout, Direction::RightToLeft, "Test Family", &labels(n)).expect("a layout")
+    template::pages(layout, Direction::Rtl, "Test Family", &labels(n)).expect("a layout")
 }
 
 /// A letter-like drawing for a cell, of its own size and place for every index, in em from the baseline, y up:
@@ -269,7 +269,7 @@ fn outputs_are_what_they_say() {
     let pdf = template::pdf(&pages);
     assert!(pdf.starts_with(b"%PDF-") && pdf.ends_with(b"%%EOF"));
     let labels = labels(0);
-    let none = template::pages(&layout, Direction::LeftToRight, "x", &labels);
+    let none = template::pages(&layout, Direction::Ltr, "x", &labels);
     assert_eq!(none, Err(TemplateError::NoGlyphs));
 }
 

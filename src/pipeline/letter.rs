@@ -93,7 +93,7 @@ impl Letter {
         let guides = &self.guides;
         Frame {
             units_per_px: f64::from(units_per_em) / guides.px_per_em,
-            baseline_px: self.picture.height() as f64 - guides.baseline_px,
+            baseline_px: self.picture.height as f64 - guides.baseline_px,
             origin_px: 0.0,
         }
     }

@@ -37,7 +37,7 @@ pub use error::{Fault, ScanError};
 pub use grain::{InkGrain, grained};
 pub use ink::{Ink, Inks};
 pub use load::{Grain, Polarity, Reading, Tones, Turn, describes_light, load};
-pub use options::{Direction, Layout, Options, Order, Scale};
+pub use options::{Layout, Options, Order, Scale};
 pub use range::{full_range, is_all_dark};
 pub use separation::Colour;
 pub use shading::{Even, legible, shaded};

@@ -8,9 +8,12 @@ use serde::{Deserialize, Serialize};
 /// A picture in 256 levels as a PNG file: dark ink on white.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Png {
-    width: usize,
-    height: usize,
-    bytes: Vec<u8>,
+    /// Columns, px.
+    pub width: usize,
+    /// Rows, px.
+    pub height: usize,
+    /// The file.
+    pub bytes: Vec<u8>,
 }
 
 impl Png {
@@ -49,24 +52,6 @@ impl Png {
         let ink: Vec<u8> = picture.into_luma8().iter().map(|v| 255 - v).collect();
         Gray::from_levels(self.width, self.height, &ink).ok()
     }
-
-    /// Columns, px.
-    #[must_use]
-    pub const fn width(&self) -> usize {
-        self.width
-    }
-
-    /// Rows, px.
-    #[must_use]
-    pub const fn height(&self) -> usize {
-        self.height
-    }
-
-    /// The file.
-    #[must_use]
-    pub fn bytes(&self) -> &[u8] {
-        &self.bytes
-    }
 }
 
 #[cfg(test)]
@@ -78,7 +63,7 @@ mod tests {
         let gray = Gray::from_fn(37, 11, |x, y| (x * 7 + y * 31) as f32 % 256.0 / 255.0);
         let png = Png::of(&gray);
         assert_eq!(png.gray().levels(), gray.levels());
-        assert_eq!((png.width(), png.height()), (37, 11));
+        assert_eq!((png.width, png.height), (37, 11));
     }
 
     #[test]

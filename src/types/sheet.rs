@@ -19,6 +19,17 @@ pub struct Sheet {
     pub source: String,
 }
 
+/// The side from which a row is read.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Direction {
+    /// Left to right.
+    #[default]
+    Ltr,
+    /// Right to left.
+    Rtl,
+}
+
 /// Whether ink is darker or lighter than its paper.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Shade {

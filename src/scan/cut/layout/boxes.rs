@@ -10,8 +10,7 @@ use crate::numeric::view::View;
 use crate::scan::components::{Component, enclosed};
 use crate::scan::cut::{Layer, Levels, Reason};
 use crate::scan::error::Fault;
-use crate::scan::options::Direction;
-use crate::types::Label;
+use crate::types::{Direction, Label};
 use kurbo::{Affine, Rect};
 use std::mem;
 

@@ -15,8 +15,8 @@ use crate::numeric::view::View;
 use crate::scan::clean::Page;
 use crate::scan::components::Component;
 use crate::scan::error::Fault;
-use crate::scan::options::{Direction, Layout, Options, Order};
-use crate::types::{Gray, Label};
+use crate::scan::options::{Layout, Options, Order};
+use crate::types::{Direction, Gray, Label};
 
 /// A page to be laid out, and how.
 pub(super) struct Task<'a> {

@@ -7,11 +7,11 @@ mod small;
 mod told;
 
 use super::super::clean::{Texture, clean, clean_otherwise};
-use super::super::options::{Direction, Layout, Order, Scale};
+use super::super::options::{Layout, Order, Scale};
 use super::*;
 use crate::numeric::cast::index;
 use crate::numeric::view::View;
-use crate::types::{Gray, Sheet};
+use crate::types::{Direction, Gray, Sheet};
 use kurbo::Vec2;
 
 /// Paper on which letters are drawn as bars, turned, unevenly lit and noisy.
@@ -117,14 +117,19 @@ fn cut_page(paper: &Paper, names: &str, options: &Options) -> Result<Cut, Fault>
     cut(&page, &labels(names), options, &[]).map_err(|e| e.fault)
 }
 
+/// Where a letter of [`grid_page`] stands.
+fn foot(i: usize) -> (f64, f64) {
+    (
+        90.0 + 120.0 * (i % 5) as f64,
+        120.0 + 100.0 * (i / 5) as f64,
+    )
+}
+
 /// Four by five cells of 120 × 100 px; the feet stand 70 px below the cells' tops.
 fn grid_page(skew_deg: f64) -> Paper {
     let mut paper = Paper::new(700, 500, skew_deg);
     for (i, c) in "nipnlnnpininlnnnpnin".chars().enumerate() {
-        let (x, y) = (
-            90.0 + 120.0 * (i % 5) as f64,
-            120.0 + 100.0 * (i / 5) as f64,
-        );
+        let (x, y) = foot(i);
         paper.letter(c, x, y);
     }
     paper
@@ -149,10 +154,7 @@ fn a_grid_is_cut_into_its_letters() {
             cut.skew_deg
         );
         for (i, cell) in cut.cells.iter().enumerate() {
-            let (x, y) = (
-                90.0 + 120.0 * (i % 5) as f64,
-                120.0 + 100.0 * (i / 5) as f64,
-            );
+            let (x, y) = foot(i);
             let foot = paper.view().at(Point::new(x + 3.0, y));
             let at = cell.to_sheet.inverse() * foot;
             assert_eq!(cell.index, i);
@@ -407,10 +409,7 @@ fn a_grid_seen_in_perspective_comes_out_straight() {
 /// That all cells of a page of [`grid_page`]'s letters have their baselines where these stand.
 fn assert_on_baselines(cut: &Cut, paper: &Paper) {
     for (i, cell) in cut.cells.iter().enumerate() {
-        let (x, y) = (
-            90.0 + 120.0 * (i % 5) as f64,
-            120.0 + 100.0 * (i / 5) as f64,
-        );
+        let (x, y) = foot(i);
         let at = cell.to_sheet.inverse() * paper.view().at(Point::new(x + 3.0, y));
         let off = (at.y - cell.guides.baseline_px).abs();
         assert!(
