@@ -1,6 +1,7 @@
 //! What a conversion keeps of its source, chooses from it, and names where it cannot.
 
-use crate::convert::{by_hand, converted, font, glyph, patched, path, table, variable, written};
+use crate::convert::{converted, font, glyph, patched, path, table, variable, written};
+use crate::ufo::by_hand;
 use khatt::read::{self, ReadError, Reading};
 use khatt::types::{Anchor, Font};
 use khatt::write::layout;

@@ -23,5 +23,6 @@ mod reports;
 mod sheets;
 mod streaks;
 mod template;
+mod ufo;
 mod watch;
 mod words;

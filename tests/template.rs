@@ -211,11 +211,8 @@ fn wrong_pages_are_named() {
     let page = &pages(&layout, 16)[0];
     let mut half = page.clone();
     half.size.height *= 0.5;
-    let (bytes, _) = Camera {
-        dpi: 150.0,
-        ..FLATBED
-    }
-    .take(&half, &[]);
+    let taken = |dpi: f64, page: &Page| Camera { dpi, ..FLATBED }.take(page, &[]).0;
+    let bytes = taken(150.0, &half);
     let found = template::find(&load(&bytes), &layout);
     assert!(
         matches!(found, Err(TemplateError::Marks { .. })),
@@ -223,11 +220,7 @@ fn wrong_pages_are_named() {
     );
     let mut blank = page.clone();
     blank.paints.clear();
-    let (bytes, _) = Camera {
-        dpi: 100.0,
-        ..FLATBED
-    }
-    .take(&blank, &[]);
+    let bytes = taken(100.0, &blank);
     let found = template::find(&load(&bytes), &layout);
     assert!(
         matches!(found, Err(TemplateError::Marks { found: 0, .. })),
@@ -458,15 +451,12 @@ fn one_of_a_templates_pages_scanned_again_redoes_no_other() {
     };
     let (font, kept) = build();
     assert_eq!(kept, 3, "two pages and a build");
-    let again = drawn(
-        &layout,
-        &pages[1],
-        Camera {
-            quarters: 2,
-            ..FLATBED
-        },
-    );
-    desk.write("2.png", again);
+    let quarters = 2;
+    let turned = Camera {
+        quarters,
+        ..FLATBED
+    };
+    desk.write("2.png", drawn(&layout, &pages[1], turned));
     let (_, kept) = build();
     assert_eq!(kept, 4, "one page more");
     desk.write("2.png", second);
@@ -484,14 +474,11 @@ fn wrong_pictures_are_told_apart_and_nothing_is_written() {
     };
     let (layout, pages) = printed(PROJECT);
     let [first, second] = [0, 1].map(|i| drawn(&layout, &pages[i], scan));
-    let upside_down = drawn(
-        &layout,
-        &pages[0],
-        Camera {
-            quarters: 2,
-            ..scan
-        },
-    );
+    let turned = Camera {
+        quarters: 2,
+        ..scan
+    };
+    let upside_down = drawn(&layout, &pages[0], turned);
     let (layout, other) = printed(&PROJECT.replace("A B C", "A C B"));
     let foreign = drawn(&layout, &other[0], scan);
     let half = {

@@ -44,8 +44,6 @@ pub struct Page {
     pub sheet: Sheet,
     /// Standard deviation of the paper's noise, as a share of the ink's level.
     pub noise: f32,
-    /// Contrast of the ink against the paper before it was set to 1, of black against white.
-    pub contrast: f32,
     /// Over how much ink that is grain was averaged, a Gaussian's standard deviation, px; 0 of other ink.
     pub averaged_px: f64,
     /// Whether pale streaks in its ink were filled.
@@ -142,7 +140,6 @@ fn even(
     Ok(Page {
         sheet: Sheet { gray, ..sheet },
         noise: levels.noise * scale,
-        contrast: levels.ink - levels.paper,
         averaged_px,
         filled,
         texture,
