@@ -200,22 +200,13 @@ fn a_forgotten_name_is_told() {
     let forgotten = names.remove(12);
     assert_eq!(forgotten, "uni062D");
     let error = cut_page(&paper, &names.join(" "), &free()).unwrap_err();
-    let Fault::Count {
-        found,
-        rows,
-        names: given,
-        doubts,
-        ..
-    } = &error
-    else {
-        panic!("{error}");
-    };
-    assert_eq!((*found, *given), (31, 30));
-    assert_eq!(rows, "8, 8, 8, 7");
-    assert!(
-        doubts.contains("of row 2 seems to have no name"),
-        "{doubts}"
-    );
+    let told = error.to_string();
+    for part in [
+        "has 31 letters in rows of 8, 8, 8, 7, and 30 names",
+        "of row 2 seems to have no name",
+    ] {
+        assert!(told.contains(part), "{told}");
+    }
 }
 
 /// Letters that look alike may each be the one without a name, and names of letters that look alike the one without a
@@ -506,18 +497,12 @@ fn a_line_of_names_that_is_no_row_is_told() {
         assert_eq!(cut(lines).map(|c| c.cells.len()), Ok(39), "{lines:?}");
     }
     let error = cut(&[8, 7, 8, 8, 8]).map(|c| c.cells.len()).unwrap_err();
-    assert!(
-        matches!(
-            error,
-            Fault::Line {
-                line: 2,
-                names: 7,
-                cells: 8,
-                ..
-            }
-        ),
-        "{error}"
-    );
+    let told = Fault::Line {
+        line: 2,
+        names: 7,
+        cells: 8,
+    };
+    assert_eq!(error, told);
 }
 
 /// A page of [`ROWS`] whose longer strokes are each in two parts.
