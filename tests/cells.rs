@@ -1,72 +1,49 @@
 //! Cells of pages as they come: corrections of single letters, other inks, what is left out and why.
-#![expect(
-    clippy::disallowed_methods,
-    reason = "the tests play the user, who writes files"
-)]
 
-use crate::cli::{khatt, png, transcript};
-use crate::common::approved;
-use crate::sheets::{LETTERS, edge, page, project};
-use image::imageops;
+use crate::common::desk::{BUILD, Desk};
+use crate::common::pictures::{LETTERS, bar, edge, encoded, page, png, ring};
+use crate::common::read::{drawn, face, set};
+use image::{GrayImage, ImageFormat, imageops};
 use khatt::scan::{self, Ink, Layout, Options, Polarity, Scale};
 use khatt::types::{Cell, Label};
 use kurbo::{Point, Rect};
 use proptest::collection::vec;
 use proptest::prelude::ProptestConfig;
 use proptest::{prop_assert, proptest};
-use std::fs;
-use std::path::Path;
-use std::process::Output;
 
-/// Builds the page of nine letters with a correction.
-fn corrected(picture: &[u8], correction: &str) -> (tempfile::TempDir, Output) {
-    let dir = project(LETTERS, picture);
-    let path = dir.path().join("font.toml");
-    let text = fs::read_to_string(&path).expect("the project");
-    fs::write(&path, format!("{text}\n{correction}\n")).expect("a project");
-    let out = khatt(dir.path(), &["build", "font.toml"]);
-    (dir, out)
+/// The page of nine letters with a correction.
+fn corrected(picture: &[u8], correction: &str) -> Desk {
+    let desk = Desk::project(LETTERS, picture);
+    desk.edit(|text| format!("{text}\n{correction}\n"));
+    desk
 }
 
-fn font(dir: &Path) -> Vec<u8> {
-    fs::read(dir.join("out/test.ttf")).expect("the font")
+/// The font of a project, built.
+fn font(desk: &Desk) -> Vec<u8> {
+    desk.done(&BUILD);
+    desk.read("out/test.ttf")
+}
+
+fn bounds_in(font: &[u8], letter: char) -> Option<ttf_parser::Rect> {
+    let face = face(font);
+    face.glyph_bounding_box(face.glyph_index(letter)?)
 }
 
 /// A letter's box in the font, if it is there.
 fn bounds(correction: &str, picture: &[u8], letter: char) -> Option<ttf_parser::Rect> {
-    let (dir, out) = corrected(picture, correction);
-    let stderr = String::from_utf8_lossy(&out.stderr);
-    assert_eq!(out.status.code(), Some(0), "{correction}: {stderr}");
-    let bytes = font(dir.path());
-    let face = ttf_parser::Face::parse(&bytes, 0).expect("a font");
-    face.glyph_bounding_box(face.glyph_index(letter)?)
+    bounds_in(&font(&corrected(picture, correction)), letter)
 }
 
 #[test]
 fn what_was_found_can_be_written_and_builds_the_same_font() {
-    let dir = project(LETTERS, &page(&[]));
-    let run = |args: &[&str]| {
-        let out = khatt(dir.path(), args);
-        assert_eq!(
-            out.status.code(),
-            Some(0),
-            "{}",
-            String::from_utf8_lossy(&out.stderr)
-        );
-    };
-    run(&["build", "font.toml"]);
-    let before = font(dir.path());
-    run(&["cut", "font.toml", "--write-overrides", "cells.toml"]);
-    let cells = fs::read_to_string(dir.path().join("cells.toml")).expect("the cells");
+    let desk = Desk::letters();
+    let before = font(&desk);
+    desk.done(&["cut", "font.toml", "--write-overrides", "cells.toml"]);
+    let cells = desk.text("cells.toml");
     assert_eq!(cells.matches("box = ").count(), 9, "{cells}");
-    let path = dir.path().join("font.toml");
-    let text = fs::read_to_string(&path).expect("the project");
-    fs::write(&path, format!("cells_file = \"cells.toml\"\n{text}")).expect("a project");
-    run(&["build", "font.toml"]);
-    assert!(
-        font(dir.path()) == before,
-        "the cells as found make another font"
-    );
+    desk.edit(|text| format!("cells_file = \"cells.toml\"\n{text}"));
+    let found = font(&desk);
+    assert!(found == before, "the cells as found make another font");
 }
 
 #[test]
@@ -75,22 +52,16 @@ fn a_picture_that_says_how_it_tells_light_is_asked_where_tones_say_so() {
     // as sRGB: length, kind and intent of the chunk, and its sum
     let chunk = b"\0\0\0\x01sRGB\0\xae\xce\x1c\xe9";
     let told = [&plain[..33], chunk.as_slice(), &plain[33..]].concat();
-    let run = |picture: &[u8], tones: &str, command: &[&str]| {
-        let dir = project(LETTERS, picture);
-        let path = dir.path().join("font.toml");
-        let text = fs::read_to_string(&path).expect("the project");
-        let text = text.replacen("[[sheet]]", &format!("[[sheet]]\n{tones}"), 1);
-        fs::write(&path, text).expect("a project");
-        let out = khatt(dir.path(), command);
-        let said = String::from_utf8_lossy(&out.stderr).into_owned();
-        (dir, out.status.code(), said)
+    let with = |picture: &[u8], tones: &str| {
+        let desk = Desk::project(LETTERS, picture);
+        desk.edit(|text| text.replacen("[[sheet]]", &format!("[[sheet]]\n{tones}"), 1));
+        desk
     };
-    let (build, cut) = (["build", "font.toml"], ["cut", "font.toml", "-o", "cells"]);
     let [asked, srgb, linear] = ["tones = \"profile\"", "tones = \"srgb\"", ""].map(|tones| {
-        let (dir, code, said) = run(&told, tones, &build);
-        assert_eq!(code, Some(0), "{said}");
+        let desk = with(&told, tones);
+        let said = desk.done(&BUILD);
         assert!(!said.contains("tones"), "{said}");
-        font(dir.path())
+        desk.read("out/test.ttf")
     });
     assert!(
         asked == srgb && asked != linear,
@@ -101,13 +72,11 @@ fn a_picture_that_says_how_it_tells_light_is_asked_where_tones_say_so() {
         (&told, "tones = \"profile\"", false),
         (&plain, "", false),
     ] {
-        let (_dir, code, said) = run(picture, tones, &cut);
-        assert_eq!(code, Some(0), "{said}");
+        let said = with(picture, tones).done(&["cut", "font.toml", "-o", "cells"]);
         let note = "note: page.png says itself how much light its numbers stand for";
         assert_eq!(said.contains(note), noted, "{said}");
     }
-    let (_dir, code, said) = run(&plain, "tones = \"profile\"", &build);
-    assert_eq!(code, Some(1), "{said}");
+    let said = with(&plain, "tones = \"profile\"").fails(&BUILD);
     assert!(
         said.contains("page.png") && said.contains("tones = \"srgb\""),
         "{said}"
@@ -146,44 +115,16 @@ fn corrections_change_one_letter() {
     assert!(bounds(traced, &plain, 'H').is_some());
 }
 
-/// The points of a glyph, as drawn.
-#[derive(Default)]
-struct Drawn(Vec<(f32, f32)>);
-
-impl ttf_parser::OutlineBuilder for Drawn {
-    fn move_to(&mut self, x: f32, y: f32) {
-        self.0.push((x, y));
-    }
-    fn line_to(&mut self, x: f32, y: f32) {
-        self.0.push((x, y));
-    }
-    fn quad_to(&mut self, a: f32, b: f32, x: f32, y: f32) {
-        self.0.extend([(a, b), (x, y)]);
-    }
-    fn curve_to(&mut self, a: f32, b: f32, c: f32, d: f32, x: f32, y: f32) {
-        self.0.extend([(a, b), (c, d), (x, y)]);
-    }
-    fn close(&mut self) {}
-}
-
 #[test]
 fn tension_is_set_for_one_letter() {
     let plain = page(&[]);
-    let drawn = |tension: &str| {
+    let letters = |tension: &str| {
         let correction = format!("[cells.o.trace.fit]\nmethod = \"gc2\"\n{tension}");
-        let (dir, out) = corrected(&plain, &correction);
-        let stderr = String::from_utf8_lossy(&out.stderr);
-        assert_eq!(out.status.code(), Some(0), "{correction}: {stderr}");
-        let bytes = font(dir.path());
-        let face = ttf_parser::Face::parse(&bytes, 0).expect("a font");
-        ['o', 'H'].map(|letter| {
-            let mut drawn = Drawn::default();
-            let glyph = face.glyph_index(letter).expect("a glyph");
-            face.outline_glyph(glyph, &mut drawn).expect("an outline");
-            drawn.0
-        })
+        let bytes = font(&corrected(&plain, &correction));
+        let face = face(&bytes);
+        ['o', 'H'].map(|letter| drawn(&face, letter))
     };
-    let [loose, tight] = ["point_tension = 0.0", "point_tension = 40.0"].map(drawn);
+    let [loose, tight] = ["point_tension = 0.0", "point_tension = 40.0"].map(letters);
     assert_ne!(loose[0], tight[0], "o has a tension of its own");
     assert_eq!(loose[1], tight[1], "H has not");
 }
@@ -219,80 +160,39 @@ fn a_page_that_lies_on_its_side_is_turned() {
             };
             255 - clean.get_pixel(u, v).0[0]
         });
-        let dir = project(LETTERS, &picture);
-        let path = dir.path().join("font.toml");
-        let text = fs::read_to_string(&path).expect("the project");
-        let turned = text.replace("[[sheet]]", &format!("[[sheet]]\nturn = {degrees}"));
-        fs::write(&path, turned).expect("a project");
-        let out = khatt(dir.path(), &["build", "font.toml"]);
-        let stderr = String::from_utf8_lossy(&out.stderr);
-        assert_eq!(out.status.code(), Some(0), "{degrees}: {stderr}");
-        let bytes = font(dir.path());
-        let face = ttf_parser::Face::parse(&bytes, 0).expect("a font");
-        let h = face
-            .glyph_index('H')
-            .and_then(|h| face.glyph_bounding_box(h));
-        assert_eq!(h, Some(upright), "{degrees}");
+        let desk = Desk::project(LETTERS, &picture);
+        desk.edit(|text| text.replace("[[sheet]]", &format!("[[sheet]]\nturn = {degrees}")));
+        assert_eq!(bounds_in(&font(&desk), 'H'), Some(upright), "{degrees}");
     }
 }
 
 #[test]
 fn several_drawings_of_a_glyph_are_settled() {
-    let built = |repeated: &str| {
-        let dir = project("H o l H e I N c L", &page(&[]));
-        let path = dir.path().join("font.toml");
-        let text = fs::read_to_string(&path).expect("the project");
-        fs::write(&path, format!("{repeated}\n{text}")).expect("a project");
-        let out = khatt(dir.path(), &["build", "font.toml"]);
-        (dir, out)
+    let with = |repeated: &str| {
+        let desk = Desk::project("H o l H e I N c L", &page(&[]));
+        desk.edit(|text| format!("{repeated}\n{text}"));
+        desk
     };
-    let (dir, out) = built("");
-    let stderr = String::from_utf8_lossy(&out.stderr);
-    assert!(
-        stderr.contains("H: drawn 2 times; the drawing with the calmest edge"),
-        "{stderr}"
-    );
-    let best = font(dir.path());
-    let best = ttf_parser::Face::parse(&best, 0).expect("a font");
-    let (dir, out) = built("repeated = \"alternates\"");
-    assert_eq!(
-        out.status.code(),
-        Some(0),
-        "{}",
-        String::from_utf8_lossy(&out.stderr)
-    );
-    let both = font(dir.path());
-    let both = ttf_parser::Face::parse(&both, 0).expect("a font");
-    assert_eq!(both.number_of_glyphs(), best.number_of_glyphs() + 1);
+    let built = |repeated: &str, note: &str| {
+        let desk = with(repeated);
+        let said = desk.done(&BUILD);
+        assert!(said.contains(note), "{said}");
+        desk.read("out/test.ttf")
+    };
+    let calmest = "H: drawn 2 times; the drawing with the calmest edge";
+    let best = built("", calmest);
+    let bytes = built("repeated = \"alternates\"", "");
+    let both = face(&bytes);
+    assert_eq!(both.number_of_glyphs(), face(&best).number_of_glyphs() + 1);
     assert!(both.glyph_index_by_name("H.ss01").is_some());
-    let bytes = font(dir.path());
-    assert_eq!(shaped(&bytes, "HHHoHoH"), "H H.ss01 H o H.ss01 o H");
-    let (dir, out) = built("repeated = \"median\"");
-    let stderr = String::from_utf8_lossy(&out.stderr);
-    assert!(
-        stderr.contains("H: drawn 2 times; the one in the middle"),
-        "{stderr}"
-    );
-    let middle = font(dir.path());
-    let middle = ttf_parser::Face::parse(&middle, 0).expect("a font");
-    let width = |face: &ttf_parser::Face<'_>| {
-        face.glyph_index('H')
-            .and_then(|h| face.glyph_bounding_box(h))
-            .map(|b| b.width())
-    };
+    let set = set(&bytes, "HHHoHoH").join(" ");
+    assert_eq!(set, "H H.ss01 H o H.ss01 o H");
+    let between = "H: drawn 2 times; the one in the middle";
+    let middle = built("repeated = \"median\"", between);
+    let width = |font: &[u8]| bounds_in(font, 'H').expect("H").width();
     // 80 px of 150 an em; both drawings are alike
-    assert!(
-        width(&middle)
-            .zip(width(&best))
-            .is_some_and(|(a, b)| a.abs_diff(b) <= 4)
-    );
-    let (_dir, out) = built("repeated = \"error\"");
-    assert_eq!(out.status.code(), Some(1));
-    approved::check(
-        "cli",
-        "build-twice",
-        &transcript(&["build", "font.toml"], &out),
-    );
+    assert!(width(&middle).abs_diff(width(&best)) <= 4);
+    with("repeated = \"error\"").refuses(&BUILD, "build-twice");
     let sets = both.tables().gsub.map(|g| {
         g.features
             .into_iter()
@@ -304,57 +204,31 @@ fn several_drawings_of_a_glyph_are_settled() {
 #[test]
 fn drawings_beyond_the_stylistic_sets_are_told() {
     let glyphs = ["o"; 24].join(" ");
-    let dir = project(&glyphs, &png(1000, 1000, ring));
-    let path = dir.path().join("font.toml");
-    let text = fs::read_to_string(&path).expect("the project");
-    let text = text.replace("[3, 3]", "[5, 5]");
-    fs::write(&path, format!("repeated = \"alternates\"\n{text}")).expect("a project");
-    let out = khatt(dir.path(), &["build", "font.toml"]);
-    let stderr = String::from_utf8_lossy(&out.stderr);
-    assert_eq!(out.status.code(), Some(0), "{stderr}");
+    let desk = Desk::project(&glyphs, &png(1000, 1000, rings));
+    desk.edit(|text| {
+        let text = text.replace("[3, 3]", "[5, 5]");
+        format!("repeated = \"alternates\"\n{text}")
+    });
+    let stderr = desk.done(&BUILD);
     let note =
         "o: drawn 24 times; there are 20 stylistic sets, and the last 3 drawings are left out";
     assert!(stderr.contains(note), "{stderr}");
 }
 
 /// Cells of 200 × 200 px with an o in each but the last.
-fn ring(x: u32, y: u32) -> u8 {
-    let (column, row) = (x / 200, y / 200);
-    let (x, y) = (f64::from(x % 200) + 0.5, f64::from(y % 200) + 0.5);
-    if (column, row) == (4, 4) {
+fn rings(x: u32, y: u32) -> u8 {
+    if (x / 200, y / 200) == (4, 4) {
         return 0;
     }
-    edge(((x - 100.0).hypot(y - 116.0) - 26.0).abs() - 9.0)
-}
-
-/// The names of the glyphs that a text is set with.
-fn shaped(bytes: &[u8], text: &str) -> String {
-    let font = harfrust::FontRef::new(bytes).expect("a font");
-    let data = harfrust::ShaperData::new(&font);
-    let mut buffer = harfrust::UnicodeBuffer::new();
-    buffer.push_str(text);
-    buffer.guess_segment_properties();
-    let set = data
-        .shaper(&font)
-        .build()
-        .shape(buffer, harfrust::ShapeOptions::default());
-    let face = ttf_parser::Face::parse(bytes, 0).expect("a font");
-    let name = |id: u32| {
-        let id = u16::try_from(id).expect("a glyph of the font");
-        face.glyph_name(ttf_parser::GlyphId(id))
-            .unwrap_or_default()
-            .to_owned()
-    };
-    let names: Vec<String> = set.glyph_infos().iter().map(|g| name(g.glyph_id)).collect();
-    names.join(" ")
+    let at = (f64::from(x % 200) + 0.5, f64::from(y % 200) + 0.5);
+    ring(at, (100.0, 116.0))
 }
 
 /// Letters n, i, p and l by turns in 4 × 5 cells of 150 px, as named in NIPL.
 fn nipl(x: u32, y: u32) -> u8 {
     let kind = b"nipl"[((y / 150 * 5 + x / 150) % 4) as usize];
-    let (x, y) = (f64::from(x % 150) + 0.5, f64::from(y % 150) + 0.5);
-    let bar =
-        |x0: f64, y0: f64, x1: f64, y1: f64| edge((x0 - x).max(x - x1).max((y0 - y).max(y - y1)));
+    let at = (f64::from(x % 150) + 0.5, f64::from(y % 150) + 0.5);
+    let bar = |x0: f64, y0: f64, x1: f64, y1: f64| bar(at, [x0, y0, x1, y1]);
     let stem = |top: f64, bottom: f64| bar(50.0, top, 60.0, bottom);
     match kind {
         b'n' => stem(60.0, 110.0)
@@ -371,7 +245,7 @@ fn nipl(x: u32, y: u32) -> u8 {
 
 #[test]
 fn a_page_on_its_side_or_head_is_turned() {
-    let upright = image::GrayImage::from_fn(750, 600, |x, y| image::Luma([255 - nipl(x, y)]));
+    let upright = GrayImage::from_fn(750, 600, |x, y| image::Luma([255 - nipl(x, y)]));
     let names = ["n i p l"; 5].join(" ");
     for layout in ["{ grid = [4, 5] }", "\"free\""] {
         for turn in [0, 90, 180, 270] {
@@ -382,25 +256,14 @@ fn a_page_on_its_side_or_head_is_turned() {
                 270 => imageops::rotate90(&upright),
                 _ => upright.clone(),
             };
-            let mut bytes = std::io::Cursor::new(Vec::new());
-            lying
-                .write_to(&mut bytes, image::ImageFormat::Png)
-                .expect("a PNG");
-            let dir = tempfile::tempdir().expect("a folder");
-            fs::write(dir.path().join("page.png"), bytes.into_inner()).expect("a picture");
+            let desk = Desk::new();
+            desk.write("page.png", encoded(lying, ImageFormat::Png));
             let text = format!(
                 "repeated = \"best\"\n[font]\nfamily = \"T\"\n[[sheet]]\nimage = \"page.png\"\nlayout = {layout}\nglyphs = \"{names}\"\npixels_per_em = 100\n"
             );
-            fs::write(dir.path().join("font.toml"), text).expect("a project");
-            let out = khatt(dir.path(), &["cut", "font.toml", "-o", "cells"]);
-            assert_eq!(
-                out.status.code(),
-                Some(0),
-                "{layout}, {turn}: {}",
-                String::from_utf8_lossy(&out.stderr)
-            );
-            let list = fs::read(dir.path().join("cells/cells.json")).expect("the list");
-            let list: serde_json::Value = serde_json::from_slice(&list).expect("JSON");
+            desk.write("font.toml", text);
+            let said = desk.done(&["cut", "font.toml", "-o", "cells"]);
+            let list = desk.json("cells/cells.json");
             let cells = list[0]["cells"].as_array().expect("cells");
             assert_eq!(cells.len(), 20);
             for (i, cell) in cells.iter().enumerate() {
@@ -410,12 +273,9 @@ fn a_page_on_its_side_or_head_is_turned() {
                 assert!(fine, "{layout}, {turn}, cell {i}: {cell}");
             }
             let listed = list[0]["warnings"].to_string();
-            for said in [listed, String::from_utf8_lossy(&out.stderr).into_owned()] {
-                assert_eq!(
-                    said.contains(&format!("turn = {turn},")),
-                    turn != 0,
-                    "{said}"
-                );
+            for said in [listed, said] {
+                let told = said.contains(&format!("turn = {turn},"));
+                assert_eq!(told, turn != 0, "{said}");
             }
         }
     }
@@ -424,12 +284,9 @@ fn a_page_on_its_side_or_head_is_turned() {
 #[test]
 fn one_drawing_in_two_cells_is_noticed() {
     // the page repeats its three shapes in every row
-    let (_dir, out) = corrected(&page(&[]), "");
-    let stderr = String::from_utf8_lossy(&out.stderr);
-    let notes = stderr
-        .matches("its outline is that of page.png, cell")
-        .count();
-    assert_eq!(notes, 6, "{stderr}");
+    let said = Desk::letters().done(&BUILD);
+    let note = "its outline is that of page.png, cell";
+    assert_eq!(said.matches(note).count(), 6, "{said}");
 }
 
 #[test]
@@ -445,17 +302,7 @@ fn corrections_that_mean_nothing_are_told() {
         ("no-level", "[cells.H]\nthreshold = 1.5"),
         ("no-ink", "[cells.H]\nbox = [0, 0, 5, 5]"),
     ] {
-        let (dir, out) = corrected(&page(&[]), text);
-        assert_eq!(out.status.code(), Some(1), "{name}");
-        assert!(
-            !dir.path().join("out").exists(),
-            "{name}: nothing may be written"
-        );
-        approved::check(
-            "cli",
-            &format!("cells-{name}"),
-            &transcript(&["build", "font.toml"], &out),
-        );
+        corrected(&page(&[]), text).refuses(&BUILD, &format!("cells-{name}"));
     }
 }
 
@@ -481,21 +328,15 @@ impl Drawing {
             let hit = self.bars.iter().rev().find(|(r, _)| r.contains(p));
             image::Rgb(hit.map_or([250, 250, 248], |(_, ink)| ink.map(|v| 255 - v)))
         });
-        let mut bytes = std::io::Cursor::new(Vec::new());
-        let written = picture.write_to(&mut bytes, image::ImageFormat::Png);
-        written.expect("a picture in memory");
-        bytes.into_inner()
+        encoded(picture, ImageFormat::Png)
     }
 
     fn cut(&self, names: &[&str], options: &Options) -> scan::Cut {
-        let sheets = scan::load(&self.png(), "page", Polarity::DarkInk).expect("a picture");
-        let page = scan::clean(
-            sheets.into_iter().next().expect("one page"),
-            scan::Texture::default(),
-        )
-        .expect("ink");
+        let sheets = scan::load(&self.png(), "page", Polarity::DarkInk.into()).expect("a picture");
+        let sheet = sheets.into_iter().next().expect("one page");
+        let page = scan::clean(sheet, scan::Texture::default()).expect("ink");
         let labels: Vec<Label> = names.iter().map(|n| Label((*n).to_owned())).collect();
-        scan::cut(&page, &labels, options).expect("cells")
+        scan::cut(&page, &labels, options, &[]).expect("cells")
     }
 }
 
@@ -559,36 +400,26 @@ fn marks_in_another_ink_are_no_letters() {
 
 #[test]
 fn a_page_of_one_colour_is_told_from_one_of_many() {
-    let dir = project(LETTERS, &page(&[]));
-    let path = dir.path().join("font.toml");
-    let text = fs::read_to_string(&path).expect("the project");
-    let text = text.replace("layout =", "ink = \"red\"\nlayout =");
-    fs::write(&path, text).expect("a project");
-    let said = |status| {
-        let out = khatt(dir.path(), &["build", "font.toml", "--no-cache"]);
-        let said = String::from_utf8_lossy(&out.stderr).into_owned();
-        assert_eq!(out.status.code(), Some(status), "{said}");
-        said
-    };
-    let grey = said(0);
+    let desk = Desk::letters();
+    desk.edit(|text| text.replace("layout =", "ink = \"red\"\nlayout ="));
+    let build = ["build", "font.toml", "--no-cache"];
+    let grey = desk.done(&build);
     assert!(
         grey.contains("the picture has no colours, so `ink` tells nothing apart"),
         "{grey}"
     );
-    fs::remove_dir_all(dir.path().join("out")).expect("outputs");
+    desk.remove("out");
     // the same page as a colour scanner gives it: all ink is black
     let picture = image::load_from_memory(&page(&[]))
         .expect("a picture")
         .to_rgb8();
-    picture
-        .save(dir.path().join("page.png"))
-        .expect("a picture");
-    let black = said(1);
+    picture.save(desk.path("page.png")).expect("a picture");
+    let black = desk.fails(&build);
     assert!(
         black.contains("none of the colour that `ink` asks for (#"),
         "{black}"
     );
-    assert!(!dir.path().join("out").exists(), "nothing is written");
+    assert!(!desk.has("out"), "nothing is written");
 }
 
 #[test]
@@ -681,14 +512,12 @@ proptest! {
 fn the_cell_of_a_space_is_empty() {
     let names = LETTERS.replace(" c L", " space uni00A0");
     let built = |empty: &[usize]| {
-        let dir = project(&names, &page(empty));
-        let out = khatt(dir.path(), &["build", "font.toml"]);
-        let said = String::from_utf8_lossy(&out.stderr).into_owned();
-        assert_eq!(out.status.code(), Some(0), "{said}");
+        let desk = Desk::project(&names, &page(empty));
+        let said = desk.done(&BUILD);
         assert!(said.contains("7 glyphs"), "{said}");
         assert!(!said.contains("the cell is empty"), "{said}");
         let warned = said.matches("a space has no ink").count();
-        (font(dir.path()), warned)
+        (desk.read("out/test.ttf"), warned)
     };
     let (empty, warned) = built(&[7, 8]);
     assert_eq!(warned, 0);
@@ -696,7 +525,7 @@ fn the_cell_of_a_space_is_empty() {
     assert_eq!(warned, 1);
     assert_eq!(built(&[]).1, 2);
     for bytes in [empty, drawn] {
-        let face = ttf_parser::Face::parse(&bytes, 0).expect("a font");
+        let face = face(&bytes);
         for c in [' ', '\u{a0}'] {
             let space = face.glyph_index(c).expect("a space");
             assert!(face.glyph_bounding_box(space).is_none());

@@ -1,71 +1,30 @@
 //! The program as a user types it: help, errors, exit status, nothing written when it fails.
-#![expect(
-    clippy::disallowed_methods,
-    reason = "the tests play the user, who writes files"
-)]
 
 use crate::common::approved;
+use crate::common::desk::{Desk, said, transcript};
+use crate::common::pictures::{edge, encoded, png};
+use image::{GrayImage, ImageFormat, Luma};
 use kurbo::{BezPath, ParamCurve, ParamCurveNearest};
-use std::fs;
-use std::path::Path;
-use std::process::{Command, Output};
-
-/// Runs the program in `folder`.
-pub(crate) fn khatt(folder: &Path, args: &[&str]) -> Output {
-    command(folder, args).output().expect("the program runs")
-}
-
-/// The program with these arguments in `folder`, told no date; what it keeps between runs lies there too.
-pub(crate) fn command(folder: &Path, args: &[&str]) -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_khatt"));
-    command.args(args).current_dir(folder);
-    command.env_remove("SOURCE_DATE_EPOCH");
-    command.env("XDG_CACHE_HOME", folder.join("cache"));
-    command
-}
-
-/// Status, standard output and standard error as one text.
-pub(crate) fn transcript(args: &[&str], out: &Output) -> String {
-    let (stdout, stderr) = (
-        String::from_utf8_lossy(&out.stdout),
-        String::from_utf8_lossy(&out.stderr),
-    );
-    let status = out
-        .status
-        .code()
-        .map_or("killed".to_owned(), |c| c.to_string());
-    format!(
-        "$ khatt {}\n{stdout}{stderr}status {status}\n",
-        args.join(" ")
-    )
-}
-
-/// A grey PNG of `width` × `height` px whose ink is `ink(x, y)`, 0…255.
-pub(crate) fn png(width: u32, height: u32, ink: impl Fn(u32, u32) -> u8) -> Vec<u8> {
-    let picture = image::GrayImage::from_fn(width, height, |x, y| image::Luma([255 - ink(x, y)]));
-    let mut bytes = std::io::Cursor::new(Vec::new());
-    picture
-        .write_to(&mut bytes, image::ImageFormat::Png)
-        .expect("a picture in memory");
-    bytes.into_inner()
-}
 
 /// A disc's coverage, 0…255, roughly antialiased.
 fn disc(x: u32, y: u32) -> u8 {
-    let (dx, dy) = (f64::from(x) + 0.5 - 40.0, f64::from(y) + 0.5 - 30.0);
-    let inside = (20.5 - dx.hypot(dy)).clamp(0.0, 1.0);
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "0…255 by the clamp"
-    )]
-    let ink = (255.0 * inside).round() as u8;
-    ink
+    edge((f64::from(x) + 0.5 - 40.0).hypot(f64::from(y) + 0.5 - 30.0) - 20.0)
+}
+
+/// A folder with the picture of a disc.
+fn with_disc() -> Desk {
+    Desk::with("disc.png", png(80, 60, disc))
+}
+
+/// The first path of a drawing.
+fn first_path(svg: &str) -> BezPath {
+    let data = svg.split(" d=\"").nth(1).and_then(|s| s.split('"').next());
+    BezPath::from_svg(data.expect("path data")).expect("a path")
 }
 
 #[test]
 fn help_is_approved() {
-    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let desk = Desk::new();
     for command in [
         "",
         "build",
@@ -91,7 +50,7 @@ fn help_is_approved() {
             .filter(|a| !a.is_empty())
             .collect();
         let name = if command.is_empty() { "khatt" } else { command };
-        let out = khatt(here, &args);
+        let out = desk.run(&args);
         assert_eq!(out.status.code(), Some(0), "{command}");
         approved::check("cli", &format!("help-{name}"), &transcript(&args, &out));
     }
@@ -99,7 +58,7 @@ fn help_is_approved() {
 
 #[test]
 fn wrong_use_exits_2_with_a_usage_line() {
-    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let desk = Desk::new();
     let split = ["--quadratic", "split", "--keep", "corners"];
     let split = [&["convert", "a.otf", "-o", "a.ttf"], &split[..]].concat();
     let cases: [&[&str]; 6] = [
@@ -111,35 +70,31 @@ fn wrong_use_exits_2_with_a_usage_line() {
         &["trace", "a.png", "-o", "-", "--tolerance", "-1"],
     ];
     for args in cases {
-        let out = khatt(here, args);
-        assert_eq!(out.status.code(), Some(2), "{args:?}");
-        let stderr = String::from_utf8_lossy(&out.stderr);
-        assert!(
-            stderr.contains("Usage:") || stderr.contains("--help"),
-            "{stderr}"
-        );
+        let (status, said) = desk.told(args);
+        assert_eq!(status, Some(2), "{args:?}");
+        let usage = said.contains("Usage:") || said.contains("--help");
+        assert!(usage, "{said}");
     }
 }
 
 #[test]
 fn a_tolerance_is_what_projects_may_have() {
-    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let desk = Desk::new();
     for px in ["0", "0.0009", "1000.1", "inf", "NaN"] {
-        let out = khatt(here, &["trace", "a.png", "-o", "-", "--tolerance", px]);
-        let said = String::from_utf8_lossy(&out.stderr);
-        assert_eq!(out.status.code(), Some(2), "{px}: {said}");
+        let (status, said) = desk.told(&["trace", "a.png", "-o", "-", "--tolerance", px]);
+        assert_eq!(status, Some(2), "{px}: {said}");
         let range = "must be between 0.001 and 1000 pixels";
         assert!(said.contains(range), "{px}: {said}");
     }
     for px in ["0.001", "1000"] {
-        let out = khatt(here, &["trace", "a.png", "-o", "-", "--tolerance", px]);
-        assert_eq!(out.status.code(), Some(1), "there is no a.png");
+        // there is no a.png
+        desk.fails(&["trace", "a.png", "-o", "-", "--tolerance", px]);
     }
 }
 
 #[test]
 fn a_picture_is_the_same_on_any_number_of_threads() {
-    let dir = tempfile::tempdir().expect("a folder");
+    let desk = Desk::new();
     // rings of many sizes, some with corners and some that touch
     let rings = |x: u32, y: u32| {
         let (column, row) = (x / 48, y / 48);
@@ -152,13 +107,8 @@ fn a_picture_is_the_same_on_any_number_of_threads() {
         let inside = off < 24.5 - f64::from(column) && off > 3.0 * f64::from(row);
         if inside { 255 } else { 0 }
     };
-    fs::write(dir.path().join("rings.png"), png(300, 250, rings)).expect("a picture");
-    let run = |jobs: &str| {
-        khatt(
-            dir.path(),
-            &["trace", "rings.png", "-o", "-", "--jobs", jobs],
-        )
-    };
+    desk.write("rings.png", png(300, 250, rings));
+    let run = |jobs: &str| desk.run(&["trace", "rings.png", "-o", "-", "--jobs", jobs]);
     let one = run("1");
     assert!(String::from_utf8_lossy(&one.stdout).matches('M').count() > 20);
     for jobs in ["2", "7"] {
@@ -204,51 +154,38 @@ fn tiff(pages: usize, (width, height): (u32, u32), spare: usize) -> Vec<u8> {
 #[test]
 #[cfg(target_os = "linux")]
 fn pages_of_one_file_share_its_bytes() {
-    let dir = tempfile::tempdir().expect("a folder");
-    fs::write(dir.path().join("many.tif"), tiff(64, (40, 30), 32_000_000)).expect("a file");
+    let desk = Desk::with("many.tif", tiff(64, (40, 30), 32_000_000));
     let limited = "ulimit -v 1500000; exec \"$0\" trace many.tif -o out.svg --jobs 1";
-    let mut shell = Command::new("sh");
+    let mut shell = std::process::Command::new("sh");
     let shell = shell.args(["-c", limited, env!("CARGO_BIN_EXE_khatt")]);
-    let out = shell.current_dir(dir.path()).output().expect("a shell");
-    let said = String::from_utf8_lossy(&out.stderr);
+    let out = shell.current_dir(desk.path("")).output().expect("a shell");
+    let said = said(&out);
     assert!(said.contains("holds 64 pictures"), "{said}");
 }
 
 #[test]
 fn a_picture_becomes_one_path_in_its_own_pixels() {
-    let dir = tempfile::tempdir().expect("a folder");
-    fs::write(dir.path().join("disc.png"), png(80, 60, disc)).expect("a picture");
-    let out = khatt(dir.path(), &["trace", "disc.png", "-o", "disc.svg"]);
-    assert_eq!(
-        out.status.code(),
-        Some(0),
-        "{}",
-        String::from_utf8_lossy(&out.stderr)
-    );
-    let svg = fs::read_to_string(dir.path().join("disc.svg")).expect("the SVG");
+    let desk = with_disc();
+    desk.done(&["trace", "disc.png", "-o", "disc.svg"]);
+    let svg = desk.text("disc.svg");
     assert_eq!(svg.matches("<path").count(), 1);
     assert!(svg.contains("viewBox=\"0 0 80 60\""), "{svg}");
-    let data = svg.split(" d=\"").nth(1).and_then(|s| s.split('"').next());
-    let path = BezPath::from_svg(data.expect("path data")).expect("a path");
-    let centre = kurbo::Shape::bounding_box(&path).center();
+    let centre = kurbo::Shape::bounding_box(&first_path(&svg)).center();
     assert!(centre.distance((40.0, 30.0).into()) < 0.1, "{centre}");
-    let same = khatt(dir.path(), &["trace", "disc.png", "-o", "-"]);
+    let same = desk.run(&["trace", "disc.png", "-o", "-"]);
     assert_eq!(same.stdout, svg.as_bytes());
 }
 
 #[test]
 fn dust_is_what_the_user_says() {
-    let dir = tempfile::tempdir().expect("a folder");
+    let desk = Desk::new();
     let blotted = |x: u32, y: u32| {
         let blot = (10..13).contains(&x) && y == 10;
         if blot { 255 } else { disc(x, y) }
     };
-    fs::write(dir.path().join("disc.png"), png(80, 60, blotted)).expect("a picture");
+    desk.write("disc.png", png(80, 60, blotted));
     let contours = |args: &[&str]| {
-        let out = khatt(
-            dir.path(),
-            &[&["trace", "disc.png", "-o", "-"], args].concat(),
-        );
+        let out = desk.run(&[&["trace", "disc.png", "-o", "-"], args].concat());
         String::from_utf8_lossy(&out.stdout).matches('M').count()
     };
     assert_eq!(contours(&[]), 1);
@@ -258,28 +195,23 @@ fn dust_is_what_the_user_says() {
 
 #[test]
 fn faint_ink_and_dark_paper_are_traced_and_nothing_is_told() {
-    let dir = tempfile::tempdir().expect("a folder");
+    let desk = Desk::new();
     for (paper, ink, contours) in [(255, 160, 1), (120, 10, 1), (90, 200, 1), (255, 255, 0)] {
         let level = |x: u32, y: u32| (20..60).contains(&x) && (20..60).contains(&y);
-        let picture = image::GrayImage::from_fn(80, 80, |x, y| {
-            image::Luma([if level(x, y) { ink } else { paper }])
-        });
-        picture.save(dir.path().join("in.png")).expect("a picture");
-        let out = khatt(dir.path(), &["trace", "in.png", "-o", "out.svg"]);
-        let svg = fs::read_to_string(dir.path().join("out.svg")).expect("an SVG");
+        let level = |x: u32, y: u32| Luma([if level(x, y) { ink } else { paper }]);
+        let picture = GrayImage::from_fn(80, 80, level);
+        desk.write("in.png", encoded(picture, ImageFormat::Png));
+        let said = desk.done(&["trace", "in.png", "-o", "out.svg"]);
+        let svg = desk.text("out.svg");
         assert_eq!(svg.matches('M').count(), contours, "{paper} {ink}: {svg}");
-        let said = String::from_utf8_lossy(&out.stderr);
-        assert_eq!(
-            said.contains("no ink to trace"),
-            contours == 0,
-            "{paper} {ink}: {said}"
-        );
+        let blank = said.contains("no ink to trace");
+        assert_eq!(blank, contours == 0, "{paper} {ink}: {said}");
     }
 }
 
 #[test]
 fn pencil_is_averaged_unless_its_grain_is_to_stay() {
-    let dir = tempfile::tempdir().expect("a folder");
+    let desk = Desk::new();
     // a bar of which the paper's teeth have taken two thirds
     let grain = |x: u32, y: u32| {
         let mixed = x.wrapping_mul(0x9e37_79b9) ^ y.wrapping_mul(0x85eb_ca6b);
@@ -294,38 +226,34 @@ fn pencil_is_averaged_unless_its_grain_is_to_stay() {
             0
         }
     };
-    fs::write(dir.path().join("in.png"), png(44, 60, level)).expect("a picture");
+    desk.write("in.png", png(44, 60, level));
     for (more, one, told) in [
         (&[][..], true, true),
         (&["--grain", "soften", "--quiet"], true, false),
         (&["--grain", "keep"], false, false),
     ] {
         let args = [&["trace", "in.png", "-o", "out.svg"], more].concat();
-        let out = khatt(dir.path(), &args);
-        let svg = fs::read_to_string(dir.path().join("out.svg")).expect("an SVG");
+        let said = desk.done(&args);
+        let svg = desk.text("out.svg");
         assert_eq!(svg.matches('M').count() == 1, one, "{more:?}: {svg}");
-        let said = String::from_utf8_lossy(&out.stderr);
         assert_eq!(said.contains("grain"), told, "{more:?}: {said}");
     }
 }
 
 #[test]
 fn pictures_that_cannot_be_traced() {
-    let dir = tempfile::tempdir().expect("a folder");
-    fs::write(dir.path().join("text.png"), "this is no picture").expect("a file");
+    let desk = Desk::with("text.png", "this is no picture");
     for picture in ["missing.png", "text.png"] {
         let args = ["trace", picture, "-o", "out.svg"];
-        let out = khatt(dir.path(), &args);
-        assert_eq!(out.status.code(), Some(1), "{picture}");
-        assert!(!dir.path().join("out.svg").exists(), "{picture}");
-        approved::check("cli", &format!("trace-{picture}"), &transcript(&args, &out));
+        desk.refuses(&args, &format!("trace-{picture}"));
+        assert!(!desk.has("out.svg"), "{picture}");
     }
 }
 
 #[test]
 fn options_are_written_in_snake_case() {
-    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let out = khatt(here, &["methods", "--json"]);
+    let desk = Desk::new();
+    let out = desk.run(&["methods", "--json"]);
     let rows: serde_json::Value = serde_json::from_slice(&out.stdout).expect("JSON");
     let rows = rows.as_array().expect("a list");
     assert!(rows.len() >= 3, "only {} methods", rows.len());
@@ -343,13 +271,13 @@ fn options_are_written_in_snake_case() {
 
 #[test]
 fn completions_manual_and_schema_come_from_the_same_sources() {
-    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let desk = Desk::new();
     for (args, has) in [
         (&["completions", "bash"][..], "_khatt"),
         (&["man"], ".TH khatt"),
         (&["schema"], "\"max_error\""),
     ] {
-        let out = khatt(here, args);
+        let out = desk.run(args);
         assert_eq!(out.status.code(), Some(0), "{args:?}");
         assert!(
             String::from_utf8_lossy(&out.stdout).contains(has),
@@ -360,7 +288,7 @@ fn completions_manual_and_schema_come_from_the_same_sources() {
 
 #[test]
 fn features_are_plotted() {
-    let dir = tempfile::tempdir().expect("a folder");
+    let desk = Desk::new();
     let bar = |x: u32, y: u32| {
         if (20..60).contains(&x) && (20..120).contains(&y) {
             255
@@ -368,23 +296,18 @@ fn features_are_plotted() {
             0
         }
     };
-    fs::write(dir.path().join("bar.png"), png(80, 140, bar)).expect("a picture");
-    let out = khatt(dir.path(), &["features", "bar.png", "-o", "bar.svg"]);
-    assert_eq!(out.status.code(), Some(0), "{out:?}");
-    let svg = fs::read_to_string(dir.path().join("bar.svg")).expect("a diagram");
+    desk.write("bar.png", png(80, 140, bar));
+    desk.done(&["features", "bar.png", "-o", "bar.svg"]);
+    let svg = desk.text("bar.svg");
     assert!(svg.contains("4 corners (SC), 4 straight runs"), "{svg}");
     assert_eq!(
         svg.matches("class=\"sc\"").count(),
         8,
         "each corner in both drawings"
     );
-    fs::write(dir.path().join("blank.png"), png(20, 20, |_, _| 0)).expect("a picture");
-    let blank = khatt(dir.path(), &["features", "blank.png", "-o", "blank.svg"]);
-    assert_eq!(blank.status.code(), Some(1));
-    assert!(
-        String::from_utf8_lossy(&blank.stderr).contains("no ink"),
-        "{blank:?}"
-    );
+    desk.write("blank.png", png(20, 20, |_, _| 0));
+    let said = desk.fails(&["features", "blank.png", "-o", "blank.svg"]);
+    assert!(said.contains("no ink"), "{said}");
 }
 
 /// A line of 10 px with round ends from (20, 30) to (140, 75), of two levels.
@@ -401,35 +324,21 @@ fn slanting(x: u32, y: u32) -> u8 {
 
 #[test]
 fn features_of_two_levels_are_those_of_the_drawing() {
-    let dir = tempfile::tempdir().expect("a folder");
-    fs::write(dir.path().join("line.png"), png(160, 120, slanting)).expect("a picture");
-    let out = khatt(dir.path(), &["features", "line.png", "-o", "line.svg"]);
-    assert_eq!(out.status.code(), Some(0), "{out:?}");
-    let svg = fs::read_to_string(dir.path().join("line.svg")).expect("a diagram");
+    let desk = Desk::with("line.png", png(160, 120, slanting));
+    desk.done(&["features", "line.png", "-o", "line.svg"]);
+    let svg = desk.text("line.svg");
     // in steps its sides were five runs with eight ends
     assert!(svg.contains(" 2 straight runs"), "{svg}");
 }
 
 #[test]
 fn the_middle_of_a_line_of_two_levels_is_where_it_was_drawn() {
-    let dir = tempfile::tempdir().expect("a folder");
-    fs::write(dir.path().join("line.png"), png(160, 120, slanting)).expect("a picture");
-    let out = khatt(
-        dir.path(),
-        &["trace", "--centerline", "line.png", "-o", "line.svg"],
-    );
-    assert_eq!(out.status.code(), Some(0), "{out:?}");
-    let svg = fs::read_to_string(dir.path().join("line.svg")).expect("a drawing");
-    let d = svg
-        .split(" d=\"")
-        .nth(1)
-        .and_then(|rest| rest.split('"').next());
-    let path = BezPath::from_svg(d.expect("a path")).expect("curves");
+    let desk = Desk::with("line.png", png(160, 120, slanting));
+    desk.done(&["trace", "--centerline", "line.png", "-o", "line.svg"]);
+    let svg = desk.text("line.svg");
     let line = kurbo::Line::new((20.0, 30.0), (140.0, 75.0));
-    for p in path
-        .segments()
-        .flat_map(|s| [0.0, 0.25, 0.5, 0.75, 1.0].map(|t| s.eval(t)))
-    {
+    let along = |s: kurbo::PathSeg| [0.0, 0.25, 0.5, 0.75, 1.0].map(|t| s.eval(t));
+    for p in first_path(&svg).segments().flat_map(along) {
         let off = line.nearest(p, 1e-6).distance_sq.sqrt();
         // 0.44 in steps
         assert!(off < 0.25, "{off}: {svg}");
@@ -439,8 +348,7 @@ fn the_middle_of_a_line_of_two_levels_is_where_it_was_drawn() {
 /// As after `khatt methods | head -1`.
 #[test]
 fn a_reader_that_has_had_enough_is_no_error() {
-    let dir = tempfile::tempdir().expect("a folder");
-    fs::write(dir.path().join("disc.png"), png(80, 60, disc)).expect("a picture");
+    let desk = with_disc();
     let closed = || std::io::pipe().expect("a pipe").1;
     let cases: [&[&str]; 5] = [
         &["methods"],
@@ -450,44 +358,33 @@ fn a_reader_that_has_had_enough_is_no_error() {
         &["trace", "disc.png", "-o", "-"],
     ];
     for args in cases {
-        let out = command(dir.path(), args).stdout(closed()).output();
+        let out = desk.command(args).stdout(closed()).output();
         let out = out.expect("the program runs");
-        let stderr = String::from_utf8_lossy(&out.stderr);
-        assert_eq!((out.status.code(), &*stderr), (Some(0), ""), "{args:?}");
+        let told = (out.status.code(), said(&out));
+        assert_eq!(told, (Some(0), String::new()), "{args:?}");
     }
     // nor is one of messages
-    let failed = command(dir.path(), &["init", "letters"])
-        .stderr(closed())
-        .output();
+    let failed = desk.command(&["init", "letters"]).stderr(closed()).output();
     assert_eq!(failed.expect("the program runs").status.code(), Some(1));
 }
 
 #[test]
 fn no_more_threads_than_can_be_of_use() {
-    let dir = tempfile::tempdir().expect("a folder");
-    fs::write(dir.path().join("disc.png"), png(80, 60, disc)).expect("a picture");
-    let run = |jobs: &str| {
-        let args = ["trace", "disc.png", "-o", "-", "--jobs", jobs];
-        khatt(dir.path(), &args)
-    };
+    let desk = with_disc();
+    let run = |jobs: &str| desk.run(&["trace", "disc.png", "-o", "-", "--jobs", jobs]);
     for jobs in ["0", "1025", "99999", "99999999999999999999", "-1", "two"] {
         let out = run(jobs);
-        let stderr = String::from_utf8_lossy(&out.stderr);
-        assert_eq!(out.status.code(), Some(2), "{jobs}: {stderr}");
+        assert_eq!(out.status.code(), Some(2), "{jobs}: {out:?}");
     }
-    let many = run("99999");
-    let stderr = String::from_utf8_lossy(&many.stderr);
-    assert!(
-        stderr.contains("must be a whole number from 1 to 1024"),
-        "{stderr}"
-    );
+    let said = said(&run("99999"));
+    let range = "must be a whole number from 1 to 1024";
+    assert!(said.contains(range), "{said}");
     assert_eq!(run("1024").stdout, run("1").stdout);
 }
 
 #[test]
 fn names_that_promise_another_kind_are_refused() {
-    let dir = tempfile::tempdir().expect("a folder");
-    fs::write(dir.path().join("disc.png"), png(80, 60, disc)).expect("a picture");
+    let desk = with_disc();
     let wrong: [&[&str]; 5] = [
         &["trace", "disc.png", "-o", "out.png"],
         &["trace", "disc.png", "-o", "out.ufo"],
@@ -496,12 +393,9 @@ fn names_that_promise_another_kind_are_refused() {
         &["cut", "font.toml", "-o", "-"],
     ];
     for args in wrong {
-        let out = khatt(dir.path(), args);
-        let stderr = String::from_utf8_lossy(&out.stderr);
-        assert_eq!(out.status.code(), Some(1), "{args:?}: {stderr}");
+        let stderr = desk.fails(args);
         assert!(stderr.contains("  help: "), "{args:?}: {stderr}");
-        let left = fs::read_dir(dir.path()).expect("the folder").count();
-        assert_eq!(left, 1, "{args:?} wrote something");
+        assert_eq!(desk.files("").len(), 1, "{args:?} wrote something");
     }
     let right: [&[&str]; 4] = [
         &["trace", "disc.png", "-o", "out.SVG"],
@@ -510,8 +404,7 @@ fn names_that_promise_another_kind_are_refused() {
         &["features", "disc.png", "-o", "features.svg"],
     ];
     for args in right {
-        let out = khatt(dir.path(), args);
-        assert_eq!(out.status.code(), Some(0), "{args:?}: {out:?}");
+        desk.done(args);
     }
-    assert!(dir.path().join("o.UFO/metainfo.plist").exists());
+    assert!(desk.has("o.UFO/metainfo.plist"));
 }

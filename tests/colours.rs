@@ -1,17 +1,11 @@
 //! Sheets of several inks: layers where each ink lay, a palette of how they look.
-#![expect(
-    clippy::disallowed_methods,
-    reason = "the tests play the user, who writes files"
-)]
 
-use crate::cli::khatt;
+use crate::common::desk::{BUILD, Desk};
+use crate::common::pictures::encoded;
+use crate::common::read::face;
 use image::{ImageFormat, Rgb, RgbImage};
 use skrifa::raw::TableProvider;
 use skrifa::{FontRef, MetadataProvider};
-use std::fs;
-use std::io::Cursor;
-use std::path::Path;
-use std::process::Output;
 use ttf_parser::{Face, GlyphId, RgbaColor, colr};
 
 const PAPER: [u8; 3] = [250, 249, 245];
@@ -52,28 +46,19 @@ fn page(drawn: impl Fn(u32, f64, f64) -> [u8; 3]) -> Vec<u8> {
             u8::try_from((sum + 8) / 16).expect("a mean")
         }))
     });
-    let mut bytes = Cursor::new(Vec::new());
-    let written = picture.write_to(&mut bytes, ImageFormat::Png);
-    written.expect("a picture in memory");
-    bytes.into_inner()
+    encoded(picture, ImageFormat::Png)
 }
 
-/// Builds the page with an `ink` of the sheet.
-fn build(picture: &[u8], ink: &str) -> (tempfile::TempDir, Output) {
-    let dir = tempfile::tempdir().expect("a folder");
-    fs::write(dir.path().join("page.png"), picture).expect("a page");
+/// A project of the page with an `ink` of the sheet.
+fn project(picture: &[u8], ink: &str) -> Desk {
+    let desk = Desk::with("page.png", picture);
     let project = format!(
         "[font]\nfamily = \"Inks\"\n[[sheet]]\nimage = \"page.png\"\nlayout = {{ grid = [2, 5] }}\nink = {ink}\n\
          glyphs = \"A B C e acutecomb\"\npixels_per_em = 200\n[compose]\nletters = [\"é\"]\n\
          [output]\nttf = \"t.ttf\"\notf = \"t.otf\"\nwoff2 = \"t.woff2\"\nufo = \"t.ufo\"\nsvg = \"svg\"\n"
     );
-    fs::write(dir.path().join("font.toml"), project).expect("a project");
-    let out = khatt(dir.path(), &["build", "font.toml"]);
-    (dir, out)
-}
-
-fn error(out: &Output) -> String {
-    String::from_utf8_lossy(&out.stderr).into_owned()
+    desk.write("font.toml", project);
+    desk
 }
 
 /// Layers as ttf-parser paints them: glyph and colour.
@@ -132,8 +117,8 @@ fn alike(a: [u8; 3], b: [u8; 3]) -> bool {
 
 #[test]
 fn every_ink_is_a_layer_where_it_lay() {
-    let (dir, out) = build(&page(drawn), "[\"black\", \"red\"]");
-    assert_eq!(out.status.code(), Some(0), "{}", error(&out));
+    let desk = project(&page(drawn), "[\"black\", \"red\"]");
+    desk.done(&BUILD);
     // how the inks look on white paper
     let white = |ink: [u8; 3]| {
         [0, 1, 2]
@@ -154,14 +139,13 @@ fn every_ink_is_a_layer_where_it_lay() {
         ('e', vec![([0, 0, 350, 150], black)]),
     ];
     // black by its numbers is black
-    let (hex, out) = build(&page(drawn), "[\"#1e1c20\", \"#c8282d\"]");
-    assert_eq!(out.status.code(), Some(0), "{}", error(&out));
-    let ttf = |folder: &Path| fs::read(folder.join("t.ttf")).expect("a font");
-    assert_eq!(ttf(hex.path()), ttf(dir.path()));
+    let hex = project(&page(drawn), "[\"#1e1c20\", \"#c8282d\"]");
+    hex.done(&BUILD);
+    assert_eq!(hex.read("t.ttf"), desk.read("t.ttf"));
     for file in ["t.ttf", "t.otf", "t.woff2"] {
-        let bytes = fs::read(dir.path().join(file)).expect("a font");
+        let bytes = desk.read(file);
         let bytes = wuff::decompress_woff2(&bytes).unwrap_or(bytes);
-        let face = Face::parse(&bytes, 0).expect("a font");
+        let face = face(&bytes);
         for (letter, wanted) in &wanted {
             let found = layers(&face, *letter);
             assert_eq!(found.len(), wanted.len(), "{file} {letter}: {found:?}");
@@ -196,26 +180,25 @@ fn every_ink_is_a_layer_where_it_lay() {
         let ink = face.glyph_bounding_box(id).expect("ink");
         assert!((ink.width() - 200).abs() <= 2, "{ink:?}");
     }
-    let lib = fs::read_to_string(dir.path().join("t.ufo/lib.plist")).expect("the UFO");
+    let lib = desk.text("t.ufo/lib.plist");
     for key in ["colorLayers", "colorPalettes", "<string>A.color1</string>"] {
         assert!(lib.contains(key), "{key}: {lib}");
     }
-    let convert = khatt(dir.path(), &["convert", "t.ufo", "-o", "c.ttf"]);
-    let said = error(&convert);
+    let said = desk.done(&["convert", "t.ufo", "-o", "c.ttf"]);
     assert!(said.contains("not carried over: colours"), "{said}");
-    let svg = fs::read_to_string(dir.path().join("svg/A_.svg")).expect("a drawing");
+    let svg = desk.text("svg/A_.svg");
     assert_eq!(svg.matches("fill=\"#").count(), 2, "{svg}");
-    assert!(!dir.path().join("svg/A_.color1.svg").exists());
+    assert!(!desk.has("svg/A_.color1.svg"));
 }
 
 #[test]
 fn no_colours_are_made_where_none_are_asked_for() {
-    let (dir, out) = build(&page(drawn), "\"any\"");
-    assert_eq!(out.status.code(), Some(0), "{}", error(&out));
-    let bytes = fs::read(dir.path().join("t.ttf")).expect("a font");
+    let desk = project(&page(drawn), "\"any\"");
+    desk.done(&BUILD);
+    let bytes = desk.read("t.ttf");
     let font = FontRef::new(&bytes).expect("a font");
     assert!(font.colr().is_err() && font.cpal().is_err());
-    assert!(!Path::new(&dir.path().join("svg/A_.color0.svg")).exists());
+    assert!(!desk.has("svg/A_.color0.svg"));
 }
 
 #[test]
@@ -224,9 +207,8 @@ fn a_sheet_without_one_of_its_inks_or_without_colours_is_refused() {
         RED => BLACK,
         other => other,
     });
-    let (_dir, out) = build(&black, "[\"black\", \"red\"]");
-    assert_eq!(out.status.code(), Some(1));
-    let text = error(&out);
+    let both = "[\"black\", \"red\"]";
+    let text = project(&black, both).fails(&BUILD);
     assert!(
         text.contains("page.png has ink, but none of the colour that `ink` asks for (#c81e1e)"),
         "{text}"
@@ -234,25 +216,21 @@ fn a_sheet_without_one_of_its_inks_or_without_colours_is_refused() {
     let grey = image::load_from_memory(&black)
         .expect("a picture")
         .to_luma8();
-    let mut bytes = Cursor::new(Vec::new());
-    grey.write_to(&mut bytes, ImageFormat::Png)
-        .expect("a picture in memory");
-    let (dir, out) = build(&bytes.into_inner(), "[\"black\", \"red\"]");
-    assert_eq!(out.status.code(), Some(1));
-    let text = error(&out);
+    let desk = project(&encoded(grey, ImageFormat::Png), both);
+    let text = desk.fails(&BUILD);
     assert!(
         text.contains(
             "page.png has no colours by which the inks that `ink` lists could be told apart"
         ),
         "{text}"
     );
-    assert!(!dir.path().join("t.ttf").exists());
+    assert!(!desk.has("t.ttf"));
     for (ink, why) in [
         ("[\"red\", \"#c02020\"]", "too alike"),
         ("[]", "names each of them"),
         ("7", "a list of inks that become layers"),
     ] {
-        let (_dir, out) = build(&black, ink);
-        assert!(error(&out).contains(why), "{ink}: {}", error(&out));
+        let said = project(&black, ink).fails(&BUILD);
+        assert!(said.contains(why), "{ink}: {said}");
     }
 }

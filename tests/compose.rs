@@ -2,7 +2,7 @@
 
 use crate::common::approved;
 use crate::common::demo::{self, Demo, output};
-use crate::fonts::set;
+use crate::common::read::set;
 use khatt::numeric::distance::Polyline;
 use khatt::types::{Component, Font, Glyph};
 use kurbo::{Point, flatten};
@@ -38,7 +38,7 @@ fn the_skeletons_become_letters() {
         let words: Vec<&str> = words.chain(others).collect();
         assert_eq!(words.len(), 216);
         for word in words {
-            let names = set(&built.font, bytes, word);
+            let names = set(bytes, word);
             assert!(
                 !names.iter().any(|n| n == ".notdef"),
                 "{ending} {word}: {names:?}"

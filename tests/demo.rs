@@ -2,7 +2,7 @@
 
 use crate::common::approved;
 use crate::common::demo::{self, Demo, output};
-use harfrust::{ShapeOptions, ShaperData, UnicodeBuffer};
+use crate::common::read::set;
 use khatt::assemble::names;
 use khatt::pipeline::Built;
 use khatt::write;
@@ -71,23 +71,6 @@ fn outlines(built: &Built, names: &[&str]) -> String {
     out
 }
 
-/// Glyph names of a shaped text in visual order.
-fn shape(built: &Built, bytes: &[u8], text: &str) -> Vec<String> {
-    let font = FontRef::new(bytes).expect("a font");
-    let data = ShaperData::new(&font);
-    let shaper = data.shaper(&font).build();
-    let mut buffer = UnicodeBuffer::new();
-    buffer.push_str(text);
-    buffer.guess_segment_properties();
-    let glyphs = shaper.shape(buffer, ShapeOptions::default());
-    let name = |id: u32| built.font.glyphs()[id as usize].name.to_string();
-    glyphs
-        .glyph_infos()
-        .iter()
-        .map(|i| name(i.glyph_id))
-        .collect()
-}
-
 #[test]
 fn the_latin_sheet() {
     let Demo { built, outputs, .. } = demo::built("latin");
@@ -121,7 +104,7 @@ fn the_arabic_sheets_join() {
     for ending in ["ttf", "otf"] {
         let bytes = output(outputs, ending);
         approved::check("fonts", &format!("arabic-{ending}"), &dump(bytes));
-        let shaped = shape(built, bytes, "بسم الله لا خط");
+        let shaped = set(bytes, "بسم الله لا خط");
         let want = [
             "uni0637.fina",
             "uni062E.init",

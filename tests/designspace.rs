@@ -1,19 +1,13 @@
 //! UFOs of several weights become one family.
-#![expect(
-    clippy::disallowed_methods,
-    reason = "the tests play the user, who writes files"
-)]
 
-use crate::cli::khatt;
+use crate::common::desk::Desk;
 use khatt::types::{Font, Glyph, Info, Name, Outline};
 use khatt::write;
 use kurbo::BezPath;
 use norad::designspace::DesignSpaceDocument;
-use std::fs;
-use std::path::Path;
 
 /// Writes the UFO of a font of one letter.
-fn ufo(folder: &Path, name: &str, (family, weight): (&str, u16), letter: &str) {
+fn ufo(desk: &Desk, name: &str, (family, weight): (&str, u16), letter: &str) {
     let a = Glyph {
         outline: Outline::new(vec![BezPath::from_svg(letter).expect("a path")]).expect("closed"),
         ..Glyph::new(Name::new("A").expect("a name"), vec!['A'], 500.0)
@@ -28,9 +22,7 @@ fn ufo(folder: &Path, name: &str, (family, weight): (&str, u16), letter: &str) {
     let format = write::format("ufo").expect("a format");
     let files = (format.write)(&font.expect("a font")).expect("a UFO");
     for (path, content) in files.0 {
-        let path = folder.join(format!("{name}.ufo")).join(path);
-        fs::create_dir_all(path.parent().expect("a folder")).expect("a folder");
-        fs::write(path, content).expect("a file");
+        desk.write(&format!("ufo/{name}.ufo/{path}"), content);
     }
 }
 
@@ -40,24 +32,20 @@ const OTHER: &str = "M0 0L140 0L140 300L140 700L0 700Z";
 
 #[test]
 fn weights_share_an_axis_and_only_like_outlines_are_interpolated() {
-    let dir = tempfile::tempdir().expect("a folder");
-    let folder = dir.path();
-    let at = folder.join("ufo");
-    ufo(&at, "Bold", ("Family", 700), FAT);
-    ufo(&at, "Regular", ("Family", 400), THIN);
-    ufo(&at, "Odd", ("Family", 900), OTHER);
-    ufo(&at, "Twin", ("Family", 700), FAT);
-    ufo(&at, "Stranger", ("Strangers", 300), FAT);
+    let desk = Desk::new();
+    ufo(&desk, "Bold", ("Family", 700), FAT);
+    ufo(&desk, "Regular", ("Family", 400), THIN);
+    ufo(&desk, "Odd", ("Family", 900), OTHER);
+    ufo(&desk, "Twin", ("Family", 700), FAT);
+    ufo(&desk, "Stranger", ("Strangers", 300), FAT);
     let run = |masters: &[&str]| {
         let ufos: Vec<String> = masters.iter().map(|m| format!("ufo/{m}.ufo")).collect();
         let mut args = vec!["designspace", "-o", "build/Family.designspace"];
         args.extend(ufos.iter().map(String::as_str));
-        let out = khatt(folder, &args);
-        let said = String::from_utf8_lossy(&out.stderr).into_owned();
-        (out.status.code(), said)
+        desk.told(&args)
     };
     let read = || {
-        let document = DesignSpaceDocument::load(folder.join("build/Family.designspace"));
+        let document = DesignSpaceDocument::load(desk.path("build/Family.designspace"));
         document.expect("a designspace")
     };
 

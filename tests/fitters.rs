@@ -1,5 +1,6 @@
 //! What every fitter owes its caller, over the whole menu.
 
+use crate::common::menu::is_complete;
 use crate::common::shapes::{Shape, circle, degenerate, hard, line, smooth};
 use khatt::fit::Method;
 use khatt::fit::judge::{judge, points_to_curve};
@@ -229,37 +230,5 @@ fn numbers_are_counted() {
 
 #[test]
 fn the_menu_is_complete() {
-    let methods = Method::all();
-    let mut keys: Vec<_> = methods.iter().map(Method::key).collect();
-    assert_eq!(
-        methods.first(),
-        Some(&Method::default()),
-        "the default comes first"
-    );
-    for m in &methods {
-        assert!(!m.about().is_empty(), "{} says nothing of itself", m.key());
-        let text = toml::to_string(m).expect("options are plain values");
-        assert!(
-            text.contains(&format!("method = \"{}\"", m.key())),
-            "{text}"
-        );
-        assert_eq!(
-            toml::from_str::<Method>(&text).expect("what was written reads back"),
-            *m
-        );
-        let short = format!("method = \"{}\"", m.key());
-        assert_eq!(
-            toml::from_str::<Method>(&short).expect("options have defaults"),
-            *m
-        );
-        let wrong = format!("{short}\nno-such-option = 1");
-        assert!(
-            toml::from_str::<Method>(&wrong).is_err(),
-            "{} takes an unknown option",
-            m.key()
-        );
-    }
-    keys.sort_unstable();
-    keys.dedup();
-    assert_eq!(keys.len(), methods.len(), "keys differ");
+    is_complete(&Method::all(), Method::key, Method::about);
 }

@@ -1,14 +1,12 @@
 //! Written fonts, read back by two independent readers and set by a shaper.
 
-use harfrust::{ShapeOptions, ShaperData, UnicodeBuffer};
+use crate::common::desk::Desk;
+use crate::common::read::{face, set, skrifa_outline, ttf_parser_outline};
 use khatt::assemble::{self, Drawn};
 use khatt::quadratic::Method;
-use khatt::read::Pen;
 use khatt::types::{Files, Font, Info, Label, Outline};
 use khatt::write::{self, Curves};
-use kurbo::{BezPath, Circle, Ellipse, Point, Rect, Shape};
-use skrifa::outline::DrawSettings;
-use skrifa::prelude::{LocationRef, Size};
+use kurbo::{Circle, Ellipse, Rect, Shape};
 use skrifa::raw::TableProvider;
 use skrifa::{FontRef, GlyphId, MetadataProvider};
 
@@ -96,59 +94,19 @@ pub(crate) fn single(font: &Font, name: &str) -> Vec<u8> {
     files(font, name).0.remove("").expect("one file")
 }
 
-/// A glyph's outline as skrifa reads it; of CFF numbers it keeps whole units only.
-fn skrifa_outline(font: &FontRef<'_>, id: u32) -> BezPath {
-    let mut pen = Pen::default();
-    if let Some(glyph) = font.outline_glyphs().get(GlyphId::new(id)) {
-        let settings = DrawSettings::unhinted(Size::unscaled(), LocationRef::default());
-        glyph.draw(settings, &mut pen).expect("a readable outline");
-    }
-    pen.path()
-}
-
-struct TtfPen(BezPath);
-
-impl ttf_parser::OutlineBuilder for TtfPen {
-    fn move_to(&mut self, x: f32, y: f32) {
-        self.0.move_to((f64::from(x), f64::from(y)));
-    }
-    fn line_to(&mut self, x: f32, y: f32) {
-        self.0.line_to((f64::from(x), f64::from(y)));
-    }
-    fn quad_to(&mut self, cx: f32, cy: f32, x: f32, y: f32) {
-        self.0
-            .quad_to((f64::from(cx), f64::from(cy)), (f64::from(x), f64::from(y)));
-    }
-    fn curve_to(&mut self, ax: f32, ay: f32, bx: f32, by: f32, x: f32, y: f32) {
-        let p = |x: f32, y: f32| Point::new(f64::from(x), f64::from(y));
-        self.0.curve_to(p(ax, ay), p(bx, by), p(x, y));
-    }
-    fn close(&mut self) {
-        self.0.close_path();
-    }
-}
-
-/// A glyph's outline as ttf-parser reads it.
-fn ttf_parser_outline(face: &ttf_parser::Face<'_>, id: u16) -> BezPath {
-    let mut pen = TtfPen(BezPath::new());
-    // an empty glyph has no box, which is no failure
-    let _ = face.outline_glyph(ttf_parser::GlyphId(id), &mut pen);
-    pen.0
-}
-
 #[test]
 fn both_readers_find_what_was_written() {
     let font = font();
     for format in ["ttf", "otf"] {
         let bytes = single(&font, format);
         let first = FontRef::new(&bytes).expect("skrifa reads it");
-        let second = ttf_parser::Face::parse(&bytes, 0).expect("ttf-parser reads it");
+        let second = face(&bytes);
         assert_eq!(usize::from(second.number_of_glyphs()), font.glyphs().len());
         for (id, glyph) in (0_u16..).zip(font.glyphs()) {
             let wanted = font.shape(glyph).to_path();
             for read in [
-                skrifa_outline(&first, u32::from(id)),
-                ttf_parser_outline(&second, id),
+                skrifa_outline(&first, GlyphId::new(u32::from(id))),
+                ttf_parser_outline(&second, ttf_parser::GlyphId(id)),
             ] {
                 // TrueType runs the other way round, and rounds to whole units
                 let area = read.area() * if format == "ttf" { -1.0 } else { 1.0 };
@@ -200,7 +158,7 @@ fn left_bearings_are_the_left_edges() {
     let font = font();
     for format in ["ttf", "otf"] {
         let bytes = single(&font, format);
-        let face = ttf_parser::Face::parse(&bytes, 0).expect("ttf-parser reads it");
+        let face = face(&bytes);
         for id in 0..face.number_of_glyphs() {
             let bearing = face.glyph_hor_side_bearing(ttf_parser::GlyphId(id));
             let edge = match format {
@@ -208,7 +166,7 @@ fn left_bearings_are_the_left_edges() {
                 "ttf" => face
                     .glyph_bounding_box(ttf_parser::GlyphId(id))
                     .map_or(0.0, |b| f64::from(b.x_min)),
-                _ => Some(ttf_parser_outline(&face, id))
+                _ => Some(ttf_parser_outline(&face, ttf_parser::GlyphId(id)))
                     .filter(|path| !path.elements().is_empty())
                     .map_or(0.0, |path| path.bounding_box().x0),
             };
@@ -219,28 +177,6 @@ fn left_bearings_are_the_left_edges() {
             );
         }
     }
-}
-
-/// Glyph names of a text as a shaper sets it, in visual order.
-pub(crate) fn set(font: &Font, bytes: &[u8], text: &str) -> Vec<String> {
-    let face = FontRef::new(bytes).expect("a font");
-    let data = ShaperData::new(&face);
-    let shaper = data.shaper(&face).build();
-    let mut buffer = UnicodeBuffer::new();
-    buffer.push_str(text);
-    buffer.guess_segment_properties();
-    let shaped = shaper.shape(buffer, ShapeOptions::default());
-    let name = |id: u32| {
-        let at = usize::try_from(id).unwrap_or(usize::MAX);
-        font.glyphs()
-            .get(at)
-            .map_or_else(String::new, |g| g.name.to_string())
-    };
-    shaped
-        .glyph_infos()
-        .iter()
-        .map(|i| name(i.glyph_id))
-        .collect()
 }
 
 #[test]
@@ -258,7 +194,7 @@ fn arabic_joins() {
     let font = font();
     for format in ["ttf", "otf"] {
         let bytes = single(&font, format);
-        let names = |text| set(&font, &bytes, text);
+        let names = |text| set(&bytes, text);
         assert_eq!(
             names("بسم"),
             ["meem-ar.fina", "seen-ar.medi", "beh-ar.init"],
@@ -294,7 +230,8 @@ fn woff2_holds_the_same_font() {
         FontRef::new(&back).expect("a font"),
     );
     for id in 0..u32::try_from(font.glyphs().len()).expect("few glyphs") {
-        assert_eq!(skrifa_outline(&a, id), skrifa_outline(&b, id), "glyph {id}");
+        let [a, b] = [&a, &b].map(|f| skrifa_outline(f, GlyphId::new(id)));
+        assert_eq!(a, b, "glyph {id}");
     }
 }
 
@@ -302,14 +239,11 @@ fn woff2_holds_the_same_font() {
 fn ufo_opens_with_everything_in_it() {
     let font = font();
     let files = files(&font, "ufo");
-    let dir = tempfile::tempdir().expect("a folder");
+    let desk = Desk::new();
     for (path, bytes) in &files.0 {
-        let path = dir.path().join("test.ufo").join(path);
-        std::fs::create_dir_all(path.parent().expect("a parent")).expect("a folder");
-        std::io::Write::write_all(&mut std::fs::File::create(path).expect("a file"), bytes)
-            .expect("written");
+        desk.write(&format!("test.ufo/{path}"), bytes);
     }
-    let ufo = norad::Font::load(dir.path().join("test.ufo")).expect("norad opens it");
+    let ufo = norad::Font::load(desk.path("test.ufo")).expect("norad opens it");
     assert_eq!(ufo.glyph_count(), font.glyphs().len());
     assert_eq!(ufo.features, font.features);
     for glyph in font.glyphs() {

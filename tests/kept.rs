@@ -1,27 +1,13 @@
 //! What a conversion keeps of its source, chooses from it, and names where it cannot.
 
-use crate::convert::{by_hand, compiled, font, glyph, path, variable, written};
-use khatt::pipeline::convert::{Options, convert};
+use crate::convert::{converted, font, glyph, patched, path, table, variable, written};
+use crate::ufo::by_hand;
 use khatt::read::{self, ReadError, Reading};
 use khatt::types::{Anchor, Font};
-use khatt::write::{format, layout};
+use khatt::write::layout;
 use kurbo::{Point, Rect, Shape};
-use write_fonts::FontBuilder;
 use write_fonts::read::{FontRef, TableProvider};
 use write_fonts::types::Tag;
-
-fn converted(font: &Font, to: &str) -> Vec<u8> {
-    let files = convert(font, format(to).expect("a format"), &Options::default());
-    let files = files.expect("files").0;
-    files.into_values().next().expect("a file")
-}
-
-/// A table's bytes from one place to another.
-fn part(file: &[u8], tag: &[u8; 4], from: usize, to: usize) -> Vec<u8> {
-    let font = FontRef::new(file).expect("a font");
-    let table = font.table_data(Tag::new(tag)).expect("a table");
-    table.as_bytes()[from..to].to_vec()
-}
 
 #[test]
 fn fields_that_do_not_follow_from_outlines_come_through() {
@@ -36,11 +22,8 @@ fn fields_that_do_not_follow_from_outlines_come_through() {
         (b"OS/2", 4, 78),
     ];
     let ttf = written("ttf");
-    let source = FontRef::new(&ttf).expect("a font");
-    let mut builder = FontBuilder::new();
-    for tag in [b"head", b"hhea", b"post", b"OS/2"] {
-        let data = source.table_data(Tag::new(tag)).expect("a table");
-        let mut data = data.as_bytes().to_vec();
+    let changed = [b"head", b"hhea", b"post", b"OS/2"].map(|tag| {
+        let mut data = table(&ttf, tag);
         for (_, from, to) in FIELDS.iter().filter(|f| f.0 == tag) {
             data[*from..*to]
                 .iter_mut()
@@ -51,10 +34,9 @@ fn fields_that_do_not_follow_from_outlines_come_through() {
             // all styles that there are
             data[44..46].copy_from_slice(&[0, 0b0111_1111]);
         }
-        builder.add_raw(Tag::new(tag), data);
-    }
-    builder.copy_missing_tables(source);
-    let before = builder.build();
+        (tag, data)
+    });
+    let before = patched(&ttf, &changed);
     let mut after = before.clone();
     for format in ["otf", "ttf", "woff2", "otf"] {
         let read = read::font(&after, None, &[]).expect("a font").font;
@@ -63,7 +45,7 @@ fn fields_that_do_not_follow_from_outlines_come_through() {
             continue;
         }
         for (tag, from, to) in FIELDS {
-            let (was, is) = (part(&before, tag, from, to), part(&after, tag, from, to));
+            let [was, is] = [&before, &after].map(|file| table(file, tag)[from..to].to_vec());
             assert_eq!(was, is, "{} {from} in {format}", Tag::new(tag));
         }
     }
@@ -350,7 +332,7 @@ fn anchors_of_any_name_attach() {
         text.contains("@mark.top_left.1;") && text.contains("@mark._ber;"),
         "{text}"
     );
-    let file = compiled(&Font::new(font().info, glyphs).expect("a font"));
+    let file = converted(&Font::new(font().info, glyphs).expect("a font"), "ttf");
     let gpos = FontRef::new(&file).expect("a font").gpos().expect("GPOS");
     assert!(gpos.lookup_list().expect("lookups").lookup_count() >= 5);
 }

@@ -1,31 +1,17 @@
 //! What outputs do to files that lie where they go: nothing of the user's is lost; `--locked` tells all that differs.
-#![expect(
-    clippy::disallowed_methods,
-    reason = "the tests play the user, who writes files"
-)]
 
-use crate::cli::khatt;
-use crate::sheets::{LETTERS, files, page, project};
+use crate::common::desk::{BUILD, Desk};
 use std::fs;
-use std::path::Path;
-
-/// Exit status of a command and what it said.
-fn run(folder: &Path, args: &[&str]) -> (Option<i32>, String) {
-    let out = khatt(folder, args);
-    let said = String::from_utf8_lossy(&out.stderr).into_owned();
-    (out.status.code(), said)
-}
 
 /// The command fails, names `what`, and leaves every file as it was.
-fn refused(folder: &Path, args: &[&str], what: &str) {
-    let before = files(folder);
-    let (status, said) = run(folder, args);
-    assert_eq!(status, Some(1), "{args:?}: {said}");
+fn refused(desk: &Desk, args: &[&str], what: &str) {
+    let before = desk.files("");
+    let said = desk.fails(args);
     assert!(
         said.contains(what) && said.contains("help: "),
         "{args:?}: {said}"
     );
-    let after = files(folder);
+    let after = desk.files("");
     let lost: Vec<_> = before.keys().filter(|k| !after.contains_key(*k)).collect();
     assert!(lost.is_empty(), "{args:?}: {lost:?}");
     assert!(
@@ -41,48 +27,35 @@ fn kept(files: &std::collections::BTreeMap<String, Vec<u8>>) -> Vec<(&String, &V
 }
 
 /// The project with other outputs.
-fn outputs(folder: &Path, lines: &str) {
-    edit(folder, |text| {
+fn outputs(desk: &Desk, lines: &str) {
+    desk.edit(|text| {
         let (head, _) = text.split_once("[output]").expect("outputs");
         format!("{head}[output]\n{lines}\n")
     });
-}
-
-fn edit(folder: &Path, change: impl FnOnce(String) -> String) {
-    let path = folder.join("font.toml");
-    let text = fs::read_to_string(&path).expect("the project");
-    fs::write(path, change(text)).expect("a project");
-}
-
-fn put(folder: &Path, name: &str, content: &[u8]) {
-    let path = folder.join(name);
-    fs::create_dir_all(path.parent().expect("a folder")).expect("a folder");
-    fs::write(path, content).expect("a file");
 }
 
 #[cfg(unix)]
 #[test]
 fn a_link_stays_one_and_a_pipe_takes_what_is_written() {
     use std::os::unix::fs::{FileTypeExt, symlink};
-    let dir = project(LETTERS, &page(&[]));
-    let folder = dir.path();
-    put(folder, "real/old.ttf", b"mine");
-    symlink("real/old.ttf", folder.join("out.ttf")).expect("a link");
-    outputs(folder, "ttf = \"out.ttf\"");
-    assert_eq!(run(folder, &["build", "font.toml"]).0, Some(0));
-    let link = fs::symlink_metadata(folder.join("out.ttf")).expect("a link");
+    let desk = Desk::letters();
+    desk.write("real/old.ttf", b"mine");
+    symlink("real/old.ttf", desk.path("out.ttf")).expect("a link");
+    outputs(&desk, "ttf = \"out.ttf\"");
+    desk.done(&BUILD);
+    let link = fs::symlink_metadata(desk.path("out.ttf")).expect("a link");
     assert!(link.is_symlink());
-    let font = fs::read(folder.join("real/old.ttf")).expect("a font");
+    let font = desk.read("real/old.ttf");
     assert!(font.len() > 1000, "{} bytes", font.len());
-    let pipe = folder.join("pipe");
+    let pipe = desk.path("pipe");
     let made = std::process::Command::new("mkfifo").arg(&pipe).status();
     assert!(made.is_ok_and(|s| s.success()));
     let reader = std::thread::spawn({
         let pipe = pipe.clone();
         move || fs::read(pipe)
     });
-    outputs(folder, "ttf = \"pipe\"");
-    assert_eq!(run(folder, &["build", "font.toml"]).0, Some(0));
+    outputs(&desk, "ttf = \"pipe\"");
+    desk.done(&BUILD);
     let through = reader.join().expect("a reader").expect("bytes");
     assert!(through == font, "{} bytes", through.len());
     assert!(fs::metadata(&pipe).expect("the pipe").file_type().is_fifo());
@@ -90,94 +63,88 @@ fn a_link_stays_one_and_a_pipe_takes_what_is_written() {
 
 #[test]
 fn a_folder_of_the_users_files_is_not_replaced_by_files_of_the_same_kind() {
-    let dir = project(LETTERS, &page(&[]));
-    let folder = dir.path();
-    put(folder, "scans/other.png", b"mine");
+    let desk = Desk::letters();
+    desk.write("scans/other.png", b"mine");
     refused(
-        folder,
+        &desk,
         &["cut", "font.toml", "-o", "scans"],
         "scans/other.png",
     );
-    put(folder, "pics/holiday.png", b"mine");
+    desk.write("pics/holiday.png", b"mine");
     let keep = ["build", "font.toml", "--keep", "pics"];
-    refused(folder, &keep, "pics/holiday.png");
+    refused(&desk, &keep, "pics/holiday.png");
     // names that the build itself would write
-    put(folder, "drawings/o.svg", b"mine");
-    outputs(folder, "svg = \"drawings\"");
-    refused(folder, &["build", "font.toml"], "drawings/o.svg");
-    put(folder, "ours.ufo/metainfo.plist", b"mine");
-    put(folder, "ours.ufo/glyphs/o.glif", b"mine");
-    outputs(folder, "ufo = \"ours.ufo\"");
+    desk.write("drawings/o.svg", b"mine");
+    outputs(&desk, "svg = \"drawings\"");
+    refused(&desk, &BUILD, "drawings/o.svg");
+    desk.write("ours.ufo/metainfo.plist", b"mine");
+    desk.write("ours.ufo/glyphs/o.glif", b"mine");
+    outputs(&desk, "ufo = \"ours.ufo\"");
     let build = ["build", "font.toml", "--overwrite"];
-    refused(folder, &build, "ours.ufo/glyphs/o.glif");
-    put(folder, "file", b"mine");
+    refused(&desk, &build, "ours.ufo/glyphs/o.glif");
+    desk.write("file", b"mine");
     let cut = ["cut", "font.toml", "-o", "file"];
-    refused(folder, &cut, "file is a file");
+    refused(&desk, &cut, "file is a file");
 }
 
 #[test]
 fn a_folder_that_khatt_made_is_replaced_until_somebody_puts_a_file_into_it() {
-    let dir = project(LETTERS, &page(&[]));
-    let folder = dir.path();
-    outputs(folder, "svg = \"svg\"\nufo = \"a.ufo\"");
-    let build = ["build", "font.toml"];
-    assert_eq!(run(folder, &build).0, Some(0));
-    let first = files(&folder.join("svg"));
+    let desk = Desk::letters();
+    outputs(&desk, "svg = \"svg\"\nufo = \"a.ufo\"");
+    desk.done(&BUILD);
+    let first = desk.files("svg");
     assert!(first.contains_key("L_.svg"), "{:?}", first.keys());
 
-    edit(folder, |text| text.replace("N c L", "N c _"));
-    assert_eq!(run(folder, &build).0, Some(0));
-    let second = files(folder);
+    desk.edit(|text| text.replace("N c L", "N c _"));
+    desk.done(&BUILD);
+    let second = desk.files("");
     for gone in ["svg/L_.svg", "a.ufo/glyphs/L_.glif"] {
         assert!(!second.contains_key(gone), "{gone} is not built any more");
     }
 
-    put(folder, "svg/drawing.svg", b"mine");
-    refused(folder, &build, "svg/drawing.svg");
-    fs::remove_file(folder.join("svg/drawing.svg")).expect("a file");
-    put(folder, "a.ufo/notes.txt", b"mine");
-    refused(folder, &build, "a.ufo/notes.txt");
+    desk.write("svg/drawing.svg", b"mine");
+    refused(&desk, &BUILD, "svg/drawing.svg");
+    desk.remove("svg/drawing.svg");
+    desk.write("a.ufo/notes.txt", b"mine");
+    refused(&desk, &BUILD, "a.ufo/notes.txt");
 }
 
 #[test]
 fn a_folder_of_an_older_khatt_is_replaced_where_it_holds_what_is_written() {
-    let dir = project(LETTERS, &page(&[]));
-    let folder = dir.path();
+    let desk = Desk::letters();
     let cut = ["cut", "font.toml", "-o", "cells"];
-    assert_eq!(run(folder, &cut).0, Some(0));
-    let made = files(&folder.join("cells"));
-    let list = folder.join("cells/.khatt");
-    fs::remove_file(&list).expect("the list of what khatt made");
-    assert_eq!(run(folder, &cut).0, Some(0));
-    assert!(files(&folder.join("cells")) == made, "the list is back");
-    fs::remove_file(&list).expect("the list");
-    put(folder, "cells/01-010.png", b"mine");
-    refused(folder, &cut, "cells/01-001.png");
+    desk.done(&cut);
+    let made = desk.files("cells");
+    // the list of what khatt made
+    desk.remove("cells/.khatt");
+    desk.done(&cut);
+    assert!(desk.files("cells") == made, "the list is back");
+    desk.remove("cells/.khatt");
+    desk.write("cells/01-010.png", b"mine");
+    refused(&desk, &cut, "cells/01-001.png");
 }
 
 #[test]
 fn a_ufo_of_khatts_is_converted_anew_and_somebody_elses_is_not() {
-    let dir = project(LETTERS, &page(&[]));
-    let folder = dir.path();
-    assert_eq!(run(folder, &["build", "font.toml"]).0, Some(0));
+    let desk = Desk::letters();
+    desk.done(&BUILD);
     let convert = ["convert", "out/test.otf", "-o", "made.ufo"];
-    assert_eq!(run(folder, &convert).0, Some(0));
-    assert_eq!(run(folder, &convert).0, Some(0), "its own");
-    let lib = folder.join("made.ufo/lib.plist");
-    let text = fs::read_to_string(&lib).expect("the lib");
-    fs::write(&lib, text.replace("khatt.built", "somebody.built")).expect("a lib");
-    refused(folder, &convert, "made.ufo/");
+    desk.done(&convert);
+    // its own
+    desk.done(&convert);
+    let lib = desk.text("made.ufo/lib.plist");
+    let lib = lib.replace("khatt.built", "somebody.built");
+    desk.write("made.ufo/lib.plist", lib);
+    refused(&desk, &convert, "made.ufo/");
 
     let trace = ["trace", "page.png", "--centerline", "-o", "line.ufo"];
-    assert_eq!(run(folder, &trace).0, Some(0));
-    assert_eq!(run(folder, &trace).0, Some(0), "its own");
+    desk.done(&trace);
+    desk.done(&trace);
 }
 
 #[test]
 fn outputs_take_the_place_of_no_input_and_of_no_other_output() {
-    let dir = project(LETTERS, &page(&[]));
-    let folder = dir.path();
-    let build = ["build", "font.toml"];
+    let desk = Desk::letters();
     for (lines, what) in [
         ("report = \"font.toml\"", "font.toml"),
         ("proof = \"page.png\"", "page.png"),
@@ -187,34 +154,30 @@ fn outputs_take_the_place_of_no_input_and_of_no_other_output() {
         ("svg = \"new\"\notf = \"new/a.otf\"", "new/a.otf"),
         ("svg = \".\"", "font.toml"),
     ] {
-        outputs(folder, lines);
-        refused(folder, &build, what);
+        outputs(&desk, lines);
+        refused(&desk, &BUILD, what);
     }
     #[cfg(unix)]
     {
-        std::os::unix::fs::symlink(".", folder.join("here")).expect("a link");
-        outputs(folder, "report = \"here/page.png\"");
-        let (status, said) = run(folder, &build);
-        assert_eq!(status, Some(1), "{said}");
-        fs::remove_file(folder.join("here")).expect("the link");
+        std::os::unix::fs::symlink(".", desk.path("here")).expect("a link");
+        outputs(&desk, "report = \"here/page.png\"");
+        desk.fails(&BUILD);
+        desk.remove("here");
     }
-    outputs(folder, "ttf = \"a.ttf\"");
+    outputs(&desk, "ttf = \"a.ttf\"");
     for option in ["--depfile", "--sarif", "--keep"] {
         for (path, what) in [("./page.png", "page.png"), ("a.ttf", "a.ttf")] {
-            refused(folder, &["build", "font.toml", option, path], what);
+            refused(&desk, &["build", "font.toml", option, path], what);
         }
     }
 }
 
 #[test]
 fn no_command_writes_over_what_it_reads() {
-    let dir = project(LETTERS, &page(&[]));
-    let folder = dir.path();
-    assert_eq!(run(folder, &["build", "font.toml"]).0, Some(0));
-    edit(folder, |text| {
-        format!("cells_file = \"cells.toml\"\n{text}")
-    });
-    put(folder, "cells.toml", b"[o]\nrotation = 1\n");
+    let desk = Desk::letters();
+    desk.done(&BUILD);
+    desk.edit(|text| format!("cells_file = \"cells.toml\"\n{text}"));
+    desk.write("cells.toml", b"[o]\nrotation = 1\n");
     let cases: [(&[&str], &str); 10] = [
         (&["trace", "page.png", "-o", "out/../page.png"], "page.png"),
         (&["features", "page.png", "-o", "./page.png"], "page.png"),
@@ -241,47 +204,46 @@ fn no_command_writes_over_what_it_reads() {
         ),
     ];
     for (args, what) in cases {
-        refused(folder, args, what);
+        refused(&desk, args, what);
     }
-    put(folder, "font.toml", b"no project");
+    desk.write("font.toml", b"no project");
     let build = ["build", "font.toml", "--sarif", "font.toml"];
-    refused(folder, &build, "font.toml");
+    refused(&desk, &build, "font.toml");
 }
 
 #[test]
 fn locked_tells_all_that_a_build_would_change() {
-    let dir = project(LETTERS, &page(&[]));
-    let folder = dir.path();
+    let desk = Desk::letters();
     outputs(
-        folder,
+        &desk,
         "svg = \"svg\"\nufo = \"a.ufo\"\nreport = \"report.json\"",
     );
-    assert_eq!(run(folder, &["build", "font.toml"]).0, Some(0));
+    desk.done(&BUILD);
     let locked = ["build", "font.toml", "--locked"];
-    assert_eq!(run(folder, &locked).0, Some(0));
-    let report = fs::read(folder.join("report.json")).expect("a report");
+    desk.done(&locked);
+    let report = desk.read("report.json");
     for (stray, content) in [
         ("svg/zz.svg", &b"<svg/>"[..]),
         ("a.ufo/glyphs/zz.glif", b"<glyph/>"),
         ("report.json", b"junk"),
     ] {
-        put(folder, stray, content);
-        refused(folder, &locked, stray);
+        desk.write(stray, content);
+        refused(&desk, &locked, stray);
         if stray == "report.json" {
-            put(folder, stray, &report);
+            desk.write(stray, &report);
         } else {
-            fs::remove_file(folder.join(stray)).expect("a file");
+            desk.remove(stray);
         }
-        assert_eq!(run(folder, &locked).0, Some(0));
+        desk.done(&locked);
     }
     // no note of an older khatt's that it made the folder
-    fs::remove_file(folder.join("svg/.khatt")).expect("the list");
-    assert_eq!(run(folder, &locked).0, Some(0));
+    desk.remove("svg/.khatt");
+    desk.done(&locked);
     for more in [
         &["--depfile", "a.d"][..],
         &["--keep", "kept"],
         &["--timings"],
     ] {
-        assert_eq!(run(folder, &[&locked, more].concat()).0, Some(2));
+        assert_eq!(desk.told(&[&locked, more].concat()).0, Some(2));
     }
 }

@@ -1,11 +1,12 @@
 //! Labels against drawings, dots, and the way of the pen.
 
-use crate::cli::{khatt, png};
 use crate::common::demo::{self, Demo};
+use crate::common::desk::Desk;
 use crate::common::dots;
+use crate::common::pictures::{edge, png};
 use khatt::pipeline::project::Labels;
 use khatt::pipeline::reference::{Script, samples};
-use khatt::pipeline::{Nothing, Unwatched, World, match_letters};
+use khatt::pipeline::{World, match_letters};
 use khatt::recognise::centerline;
 use khatt::types::{Glyph, Gray, Outline};
 use khatt::write;
@@ -40,12 +41,7 @@ fn remarks(spoil: impl Fn(&mut Vec<String>)) -> Vec<String> {
     let mut labels: Vec<String> = text.split_whitespace().map(str::to_owned).collect();
     spoil(&mut labels);
     project.sheets[0].glyphs = Labels::Text(labels.join(" "));
-    let world = World {
-        inputs: &read,
-        watch: &Unwatched,
-        created: 0,
-        store: &Nothing,
-    };
+    let world = World::of(&read);
     let (cells, remarks) = match_letters(&project, world).expect("a page");
     assert_eq!(cells.len(), 89, "cells of the sheet");
     remarks.iter().map(ToString::to_string).collect()
@@ -252,32 +248,14 @@ fn the_centreline_is_the_way_of_the_pen() {
 
 #[test]
 fn a_centreline_as_ufo_has_open_contours_widths_and_dots() {
-    let folder = tempfile::tempdir().expect("a folder");
     let path = BezPath::from_svg("M60 80C80 40 120 40 120 160").expect("a path");
     let mut ink = stroked(&path, 10.0);
     let dot = |x: usize, y: usize| (x as f64 - 60.0).hypot(y as f64 - 30.0) < 6.0;
     ink = Gray::from_fn(200, 200, |x, y| if dot(x, y) { 1.0 } else { ink.at(x, y) });
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "coverage"
-    )]
-    let picture = png(200, 200, |x, y| {
-        (255.0 * ink.at(x as usize, y as usize)) as u8
-    });
-    let written = fs::File::create(folder.path().join("in.png"))
-        .and_then(|mut f| std::io::Write::write_all(&mut f, &picture));
-    written.expect("a picture");
-    let out = khatt(
-        folder.path(),
-        &["trace", "--centerline", "in.png", "-o", "i.ufo"],
-    );
-    assert!(
-        out.status.success(),
-        "{}",
-        String::from_utf8_lossy(&out.stderr)
-    );
-    let font = norad::Font::load(folder.path().join("i.ufo")).expect("a UFO");
+    let level = |x, y| edge(0.5 - f64::from(ink.at(x as usize, y as usize)));
+    let desk = Desk::with("in.png", png(200, 200, level));
+    desk.done(&["trace", "--centerline", "in.png", "-o", "i.ufo"]);
+    let font = norad::Font::load(desk.path("i.ufo")).expect("a UFO");
     let glyph = font.get_glyph("i").expect("the glyph is named by the file");
     assert!(glyph.codepoints.contains('i'));
     let [line, dot] = glyph.contours.as_slice() else {

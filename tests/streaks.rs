@@ -1,14 +1,9 @@
 //! Pale streaks in ink: filled and told, or kept, in a drawing and on the way from a page to a font.
-#![expect(
-    clippy::disallowed_methods,
-    reason = "the tests play the user, who writes files"
-)]
 
-use crate::cli::{khatt, png};
+use crate::common::desk::{BUILD, Desk};
+use crate::common::pictures::{LETTERS, edge, png};
 use crate::common::shapes::Dice;
-use crate::sheets::{LETTERS, edge, files, project};
 use khatt::numeric::{cast::single, coverage::blur};
-use std::fs;
 
 /// What the two lines along a bar are.
 #[derive(Clone, Copy, PartialEq)]
@@ -47,18 +42,12 @@ fn bars(kinds: &[Lines]) -> Vec<u8> {
 
 #[test]
 fn a_drawing_with_streaks_is_filled_unless_they_are_to_stay() {
-    let dir = tempfile::tempdir().expect("a folder");
+    let desk = Desk::new();
     // the SVG, and what is said
     let traced = |picture: &[u8], more: &[&str]| {
-        fs::write(dir.path().join("in.png"), picture).expect("a picture");
-        let out = khatt(
-            dir.path(),
-            &[&["trace", "in.png", "-o", "out.svg"], more].concat(),
-        );
-        let said = String::from_utf8_lossy(&out.stderr).into_owned();
-        assert_eq!(out.status.code(), Some(0), "{said}");
-        let svg = fs::read_to_string(dir.path().join("out.svg")).expect("an SVG");
-        (svg, said)
+        desk.write("in.png", picture);
+        let said = desk.done(&[&["trace", "in.png", "-o", "out.svg"], more].concat());
+        (desk.text("out.svg"), said)
     };
     let streaked = bars(&[Lines::Streaks]);
     let (svg, said) = traced(&streaked, &[]);
@@ -82,25 +71,10 @@ fn a_drawing_with_streaks_is_filled_unless_they_are_to_stay() {
 
 /// The contours of a font of bars, what is said while it is built, and while the page is cut.
 fn built(picture: &[u8], line: &str) -> (usize, [String; 2]) {
-    let dir = project(LETTERS, picture);
-    let path = dir.path().join("font.toml");
-    let text = fs::read_to_string(&path).expect("a project");
-    fs::write(
-        &path,
-        text.replace("[output]", &format!("{line}\n[output]")),
-    )
-    .expect("a project");
-    let said = [
-        &["build", "font.toml"][..],
-        &["cut", "font.toml", "-o", "cells"],
-    ]
-    .map(|args| {
-        let out = khatt(dir.path(), args);
-        let said = String::from_utf8_lossy(&out.stderr).into_owned();
-        assert_eq!(out.status.code(), Some(0), "{said}");
-        said
-    });
-    let drawings = files(&dir.path().join("out/svg")).into_iter();
+    let desk = Desk::project(LETTERS, picture);
+    desk.edit(|text| text.replace("[output]", &format!("{line}\n[output]")));
+    let said = [&BUILD[..], &["cut", "font.toml", "-o", "cells"]].map(|args| desk.done(args));
+    let drawings = desk.files("out/svg").into_iter();
     let contours = drawings.filter(|(name, _)| name != "_notdef.svg");
     let contours = contours.map(|(_, svg)| svg.iter().filter(|b| **b == b'M').count());
     (contours.sum(), said)
@@ -138,25 +112,18 @@ fn a_page_with_streaks_is_filled_and_told_once_unless_they_are_to_stay() {
 
 #[test]
 fn what_streaks_cannot_become_is_refused() {
-    let dir = project(LETTERS, &bars(&[Lines::None; 9]));
-    let path = dir.path().join("font.toml");
-    let text = fs::read_to_string(&path).expect("a project");
-    fs::write(
-        &path,
-        text.replace("[output]", "streaks = \"kept\"\n[output]"),
-    )
-    .expect("a project");
+    let desk = Desk::project(LETTERS, &bars(&[Lines::None; 9]));
+    desk.edit(|text| text.replace("[output]", "streaks = \"kept\"\n[output]"));
     for (args, status) in [
-        (&["build", "font.toml"][..], 1),
+        (&BUILD[..], 1),
         (
             &["trace", "page.png", "-o", "a.svg", "--streaks", "kept"],
             2,
         ),
     ] {
-        let out = khatt(dir.path(), args);
-        let said = String::from_utf8_lossy(&out.stderr);
-        assert_eq!(out.status.code(), Some(status), "{said}");
+        let (found, said) = desk.told(args);
+        assert_eq!(found, Some(status), "{said}");
         assert!(said.contains("fill") && said.contains("keep"), "{said}");
-        assert!(!dir.path().join("a.svg").exists() && !dir.path().join("out").exists());
+        assert!(!desk.has("a.svg") && !desk.has("out"));
     }
 }

@@ -1,19 +1,15 @@
 //! Print, draw, photograph, read: pages of the template come back whole from any side.
-#![expect(
-    clippy::disallowed_methods,
-    reason = "the tests play the user, who writes files"
-)]
 
-use crate::cli::{khatt, png, transcript};
-use crate::common::approved;
 use crate::common::camera::Camera;
+use crate::common::desk::{BUILD, Desk};
 use crate::common::moments::Moments;
-use khatt::pipeline::{self, Nothing, Project, Unwatched, World};
+use crate::common::pictures::{encoded, png};
+use crate::common::read;
+use khatt::pipeline::{self, Project, World};
 use khatt::scan::{self, Polarity};
-use khatt::template::{self, Direction, Field, Layout, Page, Paper, Place, TemplateError};
-use khatt::types::Sheet;
+use khatt::template::{self, Field, Found, Layout, Page, Paper, Place, TemplateError};
+use khatt::types::{Direction, Sheet};
 use kurbo::{Affine, BezPath, Circle, Rect, Shape};
-use std::fs;
 use std::path::Path;
 
 /// A flat-bed scanner.
@@ -46,7 +42,7 @@ fn small() -> Layout {
 }
 
 fn pages(layout: &Layout, n: usize) -> Vec<Page> {
-    template::pages(layout, Direction::RightToLeft, "Test Family", &labels(n)).expect("a layout")
+    template::pages(layout, Direction::Rtl, "Test Family", &labels(n)).expect("a layout")
 }
 
 /// A letter-like drawing for a cell, of its own size and place for every index, in em from the baseline, y up:
@@ -70,20 +66,28 @@ fn onto_page(layout: &Layout, place: &Place) -> Affine {
     Affine::new([em, 0.0, 0.0, -em, left, place.baseline])
 }
 
+/// A letter for every cell of a page.
+fn letters(layout: &Layout, page: &Page) -> Vec<BezPath> {
+    let places = page.places.iter();
+    let drawn = places.map(|p| onto_page(layout, p) * letter(p.index));
+    drawn.collect()
+}
+
 fn load(bytes: &[u8]) -> Sheet {
-    let sheets = scan::load(bytes, "photo", Polarity::DarkInk).expect("a picture");
+    let sheets = scan::load(bytes, "photo", Polarity::DarkInk.into()).expect("a picture");
     sheets.into_iter().next().expect("one page")
 }
 
-fn check(layout: &Layout, page: &Page, camera: Camera) {
-    let drawn: Vec<BezPath> = page
-        .places
-        .iter()
-        .map(|p| onto_page(layout, p) * letter(p.index))
-        .collect();
-    let (bytes, truth) = camera.take(page, &drawn);
-    let sheet = load(&bytes);
+/// A picture, and the page that is recognised in it.
+fn seen(layout: &Layout, bytes: &[u8]) -> (Sheet, Found) {
+    let sheet = load(bytes);
     let found = template::find(&sheet, layout).expect("the page is recognised");
+    (sheet, found)
+}
+
+fn check(layout: &Layout, page: &Page, camera: Camera) {
+    let (bytes, truth) = camera.take(page, &letters(layout, page));
+    let (sheet, found) = seen(layout, &bytes);
     assert_eq!(found.code, page.code, "{camera:?}: another page was read");
     for mark in layout.marks() {
         let off = found.view.at(mark).distance(truth.at(mark));
@@ -189,8 +193,7 @@ fn guides_are_not_ink() {
         ..FLATBED
     }
     .take(page, &[]);
-    let sheet = load(&bytes);
-    let found = template::find(&sheet, &layout).expect("the page is recognised");
+    let (sheet, found) = seen(&layout, &bytes);
     for drawing in template::drawings(&sheet, &layout, &found, &page.places, None) {
         let cell = &drawing.cell;
         let most = cell.gray.samples().iter().fold(0.0f32, |m, &v| m.max(v));
@@ -208,11 +211,8 @@ fn wrong_pages_are_named() {
     let page = &pages(&layout, 16)[0];
     let mut half = page.clone();
     half.size.height *= 0.5;
-    let (bytes, _) = Camera {
-        dpi: 150.0,
-        ..FLATBED
-    }
-    .take(&half, &[]);
+    let taken = |dpi: f64, page: &Page| Camera { dpi, ..FLATBED }.take(page, &[]).0;
+    let bytes = taken(150.0, &half);
     let found = template::find(&load(&bytes), &layout);
     assert!(
         matches!(found, Err(TemplateError::Marks { .. })),
@@ -220,11 +220,7 @@ fn wrong_pages_are_named() {
     );
     let mut blank = page.clone();
     blank.paints.clear();
-    let (bytes, _) = Camera {
-        dpi: 100.0,
-        ..FLATBED
-    }
-    .take(&blank, &[]);
+    let bytes = taken(100.0, &blank);
     let found = template::find(&load(&bytes), &layout);
     assert!(
         matches!(found, Err(TemplateError::Marks { found: 0, .. })),
@@ -238,8 +234,7 @@ fn gain_is_measured() {
     let page = &pages(&layout, 1)[0];
     for blur in [0.8, 1.6] {
         let (bytes, _) = Camera { blur, ..FLATBED }.take(page, &[]);
-        let sheet = load(&bytes);
-        let found = template::find(&sheet, &layout).expect("the page is recognised");
+        let (sheet, found) = seen(&layout, &bytes);
         let gain = template::gain(&sheet, &layout, &found).expect("the strip is in view");
         let px = gain.blur_mm * 300.0 / 25.4;
         // the lens' blur, and that of drawing and sampling, about half a pixel
@@ -267,7 +262,7 @@ fn outputs_are_what_they_say() {
     let pdf = template::pdf(&pages);
     assert!(pdf.starts_with(b"%PDF-") && pdf.ends_with(b"%%EOF"));
     let labels = labels(0);
-    let none = template::pages(&layout, Direction::LeftToRight, "x", &labels);
+    let none = template::pages(&layout, Direction::Ltr, "x", &labels);
     assert_eq!(none, Err(TemplateError::NoGlyphs));
 }
 
@@ -275,19 +270,13 @@ fn outputs_are_what_they_say() {
 fn a_sensor_that_makes_ink_bolder_is_seen_through() {
     let layout = small();
     let page = &pages(&layout, 8)[0];
-    let drawn: Vec<BezPath> = page
-        .places
-        .iter()
-        .map(|p| onto_page(&layout, p) * letter(p.index))
-        .collect();
     let camera = Camera {
         gamma: 1.6,
         blur: 1.6,
         ..FLATBED
     };
-    let (bytes, _) = camera.take(page, &drawn);
-    let sheet = load(&bytes);
-    let found = template::find(&sheet, &layout).expect("the page is recognised");
+    let (bytes, _) = camera.take(page, &letters(&layout, page));
+    let (sheet, found) = seen(&layout, &bytes);
     let gain = template::gain(&sheet, &layout, &found).expect("the strip is in view");
     assert!(gain.spread_mm > 0.03 && gain.level() > 0.6, "{gain:?}");
     let weight = |gain| {
@@ -340,15 +329,10 @@ fn ink_outside_the_fields_is_listed() {
         shade: 0.2,
         ..FLATBED
     };
-    let mut drawn: Vec<BezPath> = page
-        .places
-        .iter()
-        .map(|p| onto_page(&layout, p) * letter(p.index))
-        .collect();
+    let mut drawn = letters(&layout, page);
     drawn.push(blot.to_path(1e-3));
     let (bytes, view) = camera.take(page, &drawn);
-    let sheet = load(&bytes);
-    let found = template::find(&sheet, &layout).expect("the page is recognised");
+    let (sheet, found) = seen(&layout, &bytes);
     let stray = template::stray(&sheet, &layout, &found, &page.places);
     assert_eq!(stray.len(), 1, "{stray:?}");
     let (r, area) = stray[0];
@@ -377,38 +361,28 @@ report = "out/report.json"
 /// The pages that are printed for a project.
 fn printed(project: &str) -> (Layout, Vec<Page>) {
     let project = Project::parse(&project.replace("IMAGES", "[]")).expect("a project");
-    let world = World {
-        inputs: &|path: &Path| Err(format!("{} is not wanted", path.display())),
-        watch: &Unwatched,
-        created: 0,
-        store: &Nothing,
-    };
-    let pages = pipeline::sheets(&project, world).expect("pages");
+    let none = |path: &Path| Err(format!("{} is not wanted", path.display()));
+    let pages = pipeline::sheets(&project, World::of(&none)).expect("pages");
     (project.template, pages)
 }
 
 /// The picture of a page with a letter in every cell.
 fn drawn(layout: &Layout, page: &Page, camera: Camera) -> Vec<u8> {
-    let letters = page.places.iter();
-    let letters: Vec<BezPath> = letters
-        .map(|p| onto_page(layout, p) * letter(p.index))
-        .collect();
-    camera.take(page, &letters).0
+    camera.take(page, &letters(layout, page)).0
 }
 
 /// A picture's file and its bytes.
 type Picture<'a> = (&'a str, &'a [u8]);
 
 /// A folder with the project, whose pages are these pictures.
-fn folder(pictures: &[Picture<'_>]) -> tempfile::TempDir {
-    let dir = tempfile::tempdir().expect("a folder");
+fn folder(pictures: &[Picture<'_>]) -> Desk {
     let names: Vec<&str> = pictures.iter().map(|p| p.0).collect();
     let text = PROJECT.replace("IMAGES", &format!("{names:?}"));
-    fs::write(dir.path().join("font.toml"), text).expect("a project");
-    for (name, bytes) in pictures {
-        fs::write(dir.path().join(name), bytes).expect("a picture");
-    }
-    dir
+    let desk = Desk::with("font.toml", text);
+    pictures
+        .iter()
+        .for_each(|(name, bytes)| desk.write(name, bytes));
+    desk
 }
 
 #[test]
@@ -440,27 +414,16 @@ fn drawn_pages_become_a_font_whatever_their_order() {
         [("1.jpg", &first), ("2.png", &second)],
     ];
     let built = orders.map(|pictures| {
-        let dir = folder(&pictures);
-        let out = khatt(dir.path(), &["build", "font.toml"]);
-        let stderr = String::from_utf8_lossy(&out.stderr).into_owned();
-        assert_eq!(out.status.code(), Some(0), "{stderr}");
-        let report = fs::read(dir.path().join("out/report.json")).expect("a report");
-        let font = fs::read(dir.path().join("out/test.ttf")).expect("a font");
-        (
-            font,
-            serde_json::from_slice::<serde_json::Value>(&report).expect("JSON"),
-        )
+        let desk = folder(&pictures);
+        desk.done(&BUILD);
+        (desk.read("out/test.ttf"), desk.json("out/report.json"))
     });
     assert!(built[0].0 == built[1].0, "the order of the pictures shows");
-    let face = ttf_parser::Face::parse(&built[0].0, 0).expect("a font");
-    for (c, index) in ('A'..='P')
-        .zip(0..)
-        .chain([('&', 16), ('!', 18), ('T', 19)])
-    {
-        let mut outline = Outline(BezPath::new());
-        let id = face.glyph_index(c).expect("a character of the font");
-        face.outline_glyph(id, &mut outline).expect("an outline");
-        let (seen, truth) = (Moments::of(&outline.0), Moments::of(&letter(index)));
+    let face = read::face(&built[0].0);
+    let others = [('&', 16), ('!', 18), ('T', 19)];
+    for (c, index) in ('A'..='P').zip(0..).chain(others) {
+        let drawn = read::drawn(&face, c);
+        let (seen, truth) = (Moments::of(&drawn), Moments::of(&letter(index)));
         let weight = seen.area / 1e6 / truth.area - 1.0;
         assert!(weight.abs() < 0.02, "{c} weighs {weight:.3} more");
         let size = seen.radius / 1e3 / truth.radius - 1.0;
@@ -471,16 +434,8 @@ fn drawn_pages_become_a_font_whatever_their_order() {
     let pages = built[0].1["pages"].as_array().expect("a list").clone();
     assert_eq!(pages.len(), 2);
     for page in pages {
-        assert!(
-            page["blur_mm"]
-                .as_f64()
-                .is_some_and(|b| b > 0.03 && b < 0.2),
-            "{page}"
-        );
-        assert!(
-            page["spread_mm"].as_f64().is_some_and(|s| s.abs() < 0.02),
-            "{page}"
-        );
+        let [blur, spread] = ["blur_mm", "spread_mm"].map(|k| page[k].as_f64().expect("mm"));
+        assert!(blur > 0.03 && blur < 0.2 && spread.abs() < 0.02, "{page}");
     }
 }
 
@@ -489,59 +444,25 @@ fn one_of_a_templates_pages_scanned_again_redoes_no_other() {
     let (layout, pages) = printed(PROJECT);
     let first = drawn(&layout, &pages[0], FLATBED);
     let second = drawn(&layout, &pages[1], FLATBED);
-    let dir = folder(&[("1.png", &first), ("2.png", &second)]);
+    let desk = folder(&[("1.png", &first), ("2.png", &second)]);
     let build = || {
-        let args = ["build", "font.toml", "--cache-dir", "kept"];
-        let out = khatt(dir.path(), &args);
-        let said = String::from_utf8_lossy(&out.stderr).into_owned();
-        assert_eq!(out.status.code(), Some(0), "{said}");
-        let font = fs::read(dir.path().join("out/test.ttf")).expect("a font");
-        let kept = fs::read_dir(dir.path().join("kept"))
-            .expect("a folder")
-            .flatten();
-        let entries = kept.flat_map(|e| fs::read_dir(e.path()).into_iter().flatten());
-        (font, entries.count())
+        desk.done(&["build", "font.toml", "--cache-dir", "kept"]);
+        (desk.read("out/test.ttf"), desk.files("kept").len())
     };
     let (font, kept) = build();
     assert_eq!(kept, 3, "two pages and a build");
-    let again = drawn(
-        &layout,
-        &pages[1],
-        Camera {
-            quarters: 2,
-            ..FLATBED
-        },
-    );
-    fs::write(dir.path().join("2.png"), again).expect("a picture");
+    let quarters = 2;
+    let turned = Camera {
+        quarters,
+        ..FLATBED
+    };
+    desk.write("2.png", drawn(&layout, &pages[1], turned));
     let (_, kept) = build();
     assert_eq!(kept, 4, "one page more");
-    fs::write(dir.path().join("2.png"), second).expect("a picture");
+    desk.write("2.png", second);
     assert_eq!(build().0, font);
-    fs::remove_dir_all(dir.path().join("kept")).expect("what is kept");
+    desk.remove("kept");
     assert_eq!(build().0, font);
-}
-
-/// An outline of a font, font units.
-struct Outline(BezPath);
-
-impl ttf_parser::OutlineBuilder for Outline {
-    fn move_to(&mut self, x: f32, y: f32) {
-        self.0.move_to((f64::from(x), f64::from(y)));
-    }
-    fn line_to(&mut self, x: f32, y: f32) {
-        self.0.line_to((f64::from(x), f64::from(y)));
-    }
-    fn quad_to(&mut self, a: f32, b: f32, x: f32, y: f32) {
-        let (p, q) = ((f64::from(a), f64::from(b)), (f64::from(x), f64::from(y)));
-        self.0.quad_to(p, q);
-    }
-    fn curve_to(&mut self, a: f32, b: f32, c: f32, d: f32, x: f32, y: f32) {
-        let p = [(a, b), (c, d), (x, y)].map(|(x, y)| (f64::from(x), f64::from(y)));
-        self.0.curve_to(p[0], p[1], p[2]);
-    }
-    fn close(&mut self) {
-        self.0.close_path();
-    }
 }
 
 #[test]
@@ -553,23 +474,17 @@ fn wrong_pictures_are_told_apart_and_nothing_is_written() {
     };
     let (layout, pages) = printed(PROJECT);
     let [first, second] = [0, 1].map(|i| drawn(&layout, &pages[i], scan));
-    let upside_down = drawn(
-        &layout,
-        &pages[0],
-        Camera {
-            quarters: 2,
-            ..scan
-        },
-    );
+    let turned = Camera {
+        quarters: 2,
+        ..scan
+    };
+    let upside_down = drawn(&layout, &pages[0], turned);
     let (layout, other) = printed(&PROJECT.replace("A B C", "A C B"));
     let foreign = drawn(&layout, &other[0], scan);
     let half = {
         let whole = image::load_from_memory(&first).expect("a picture");
         let half = whole.crop_imm(0, 0, whole.width(), whole.height() / 2);
-        let mut bytes = std::io::Cursor::new(Vec::new());
-        let written = half.write_to(&mut bytes, image::ImageFormat::Png);
-        written.expect("a picture in memory");
-        bytes.into_inner()
+        encoded(half, image::ImageFormat::Png)
     };
     let cat = cat();
     let cases: [(&str, Vec<Picture<'_>>); 7] = [
@@ -592,24 +507,11 @@ fn wrong_pictures_are_told_apart_and_nothing_is_written() {
         ("text", vec![("1.png", b"no picture"), ("2.png", &second)]),
     ];
     for (name, pictures) in cases {
-        let dir = folder(&pictures);
-        let args = ["build", "font.toml"];
-        let out = khatt(dir.path(), &args);
-        assert_eq!(out.status.code(), Some(1), "{name}");
-        assert!(
-            !dir.path().join("out").exists(),
-            "{name}: nothing may be written"
-        );
-        approved::check("cli", &format!("template-{name}"), &transcript(&args, &out));
+        let desk = folder(&pictures);
+        desk.refuses(&BUILD, &format!("template-{name}"));
     }
-    let dir = folder(&[("2.png", &second), ("1.png", &upside_down)]);
-    let out = khatt(dir.path(), &["build", "font.toml"]);
-    assert_eq!(
-        out.status.code(),
-        Some(0),
-        "upside down: {}",
-        String::from_utf8_lossy(&out.stderr)
-    );
+    let desk = folder(&[("2.png", &second), ("1.png", &upside_down)]);
+    desk.done(&BUILD);
 }
 
 /// A picture that shows no page: a round face with eyes, fur and whiskers before a window.
@@ -640,34 +542,19 @@ fn cat() -> Vec<u8> {
 
 #[test]
 fn pages_to_draw_on_are_written_in_every_format() {
-    let dir = folder(&[]);
-    let made = |args: &[&str]| {
-        let out = khatt(dir.path(), args);
-        assert_eq!(
-            out.status.code(),
-            Some(0),
-            "{}",
-            String::from_utf8_lossy(&out.stderr)
-        );
-        out.stdout
-    };
-    made(&["sheet", "font.toml", "-o", "pages.pdf"]);
-    made(&["sheet", "font.toml", "-o", "page.svg"]);
-    made(&["sheet", "font.toml", "-o", "page.png", "--dpi", "100"]);
-    let file = |name: &str| fs::read(dir.path().join(name)).expect("a file");
-    assert_eq!(made(&["sheet", "font.toml", "-o", "-"]), file("pages.pdf"));
+    let desk = folder(&[]);
+    desk.done(&["sheet", "font.toml", "-o", "pages.pdf"]);
+    desk.done(&["sheet", "font.toml", "-o", "page.svg"]);
+    desk.done(&["sheet", "font.toml", "-o", "page.png", "--dpi", "100"]);
+    let printed = desk.run(&["sheet", "font.toml", "-o", "-"]);
+    assert_eq!(printed.stdout, desk.read("pages.pdf"));
     for n in 1..=2 {
-        assert!(file(&format!("page-{n}.svg")).starts_with(b"<svg"));
-        let picture = image::load_from_memory(&file(&format!("page-{n}.png"))).expect("a PNG");
+        assert!(desk.text(&format!("page-{n}.svg")).starts_with("<svg"));
+        let picture = desk.read(&format!("page-{n}.png"));
+        let picture = image::load_from_memory(&picture).expect("a PNG");
         assert_eq!((picture.width(), picture.height()), (488, 630));
     }
-    let out = khatt(dir.path(), &["sheet", "font.toml", "-o", "page.txt"]);
-    assert_eq!(out.status.code(), Some(1));
-    approved::check(
-        "cli",
-        "sheet-ending",
-        &transcript(&["sheet", "font.toml", "-o", "page.txt"], &out),
-    );
+    desk.refuses(&["sheet", "font.toml", "-o", "page.txt"], "sheet-ending");
 }
 
 #[test]
@@ -680,14 +567,9 @@ fn a_printed_page_under_another_layout_is_told() {
         "\"free\"",
         "\"boxes\"",
     ] {
-        let dir = folder(&[("page.png", &picture)]);
-        let path = dir.path().join("font.toml");
-        let text = fs::read_to_string(&path).expect("the project");
-        let text = text.replace("layout = \"template\"", &format!("layout = {other}"));
-        fs::write(&path, text).expect("a project");
-        let out = khatt(dir.path(), &["build", "font.toml"]);
-        let stderr = String::from_utf8_lossy(&out.stderr);
-        assert_eq!(out.status.code(), Some(1), "{other}: {stderr}");
+        let desk = folder(&[("page.png", &picture)]);
+        desk.edit(|text| text.replace("layout = \"template\"", &format!("layout = {other}")));
+        let stderr = desk.fails(&BUILD);
         assert!(
             stderr.contains("page.png: this is page 1 of those that `khatt sheet` prints")
                 && stderr.contains("write layout = \"template\""),
@@ -700,21 +582,16 @@ fn a_printed_page_under_another_layout_is_told() {
 /// What `khatt init` writes goes with what the README says to do next.
 #[test]
 fn a_new_project_prints_its_pages_and_builds_what_is_drawn_on_them() {
-    let dir = tempfile::tempdir().expect("a folder");
-    let done = |args: &[&str]| {
-        let out = khatt(dir.path(), args);
-        let stderr = String::from_utf8_lossy(&out.stderr);
-        assert_eq!(out.status.code(), Some(0), "{args:?}: {stderr}");
-    };
-    done(&["init", "letters"]);
-    done(&["sheet", "letters/font.toml", "-o", "pages.pdf"]);
-    let project = fs::read_to_string(dir.path().join("letters/font.toml")).expect("a project");
+    let desk = Desk::new();
+    desk.done(&["init", "letters"]);
+    desk.done(&["sheet", "letters/font.toml", "-o", "pages.pdf"]);
+    let project = desk.text("letters/font.toml");
     let (layout, pages) = printed(&project);
     let [page] = pages.as_slice() else {
         panic!("{} pages", pages.len());
     };
     let picture = drawn(&layout, page, FLATBED);
-    fs::write(dir.path().join("letters/page.png"), picture).expect("a picture");
-    done(&["build", "letters/font.toml"]);
-    assert!(dir.path().join("letters/build/MyLetters.ttf").exists());
+    desk.write("letters/page.png", picture);
+    desk.done(&["build", "letters/font.toml"]);
+    assert!(desk.has("letters/build/MyLetters.ttf"));
 }

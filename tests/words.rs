@@ -1,14 +1,13 @@
 //! Two hundred Arabic words, set: every join overlaps and has no step.
 
 use crate::common::demo::{self, Demo, output};
-use crate::fonts::{set, single};
-use harfrust::{ShapeOptions, ShaperData, UnicodeBuffer};
+use crate::common::read::{placed, set};
+use crate::fonts::single;
 use khatt::assemble::joining::Method;
 use khatt::assemble::{self, Assembled, Drawn, Options};
 use khatt::types::{Font, Info, Label, Outline};
 use khatt::write::layout;
 use kurbo::{Affine, BezPath, Line, ParamCurve, PathEl, Point, Rect, Shape};
-use skrifa::FontRef;
 use std::collections::BTreeSet;
 
 /// Letters that join on both sides, and those that join only the letter before them.
@@ -150,7 +149,7 @@ fn two_hundred_words_join() {
     assert_eq!(words.len(), 200);
     let mut joins = 0;
     for word in words {
-        let names = set(&font, &otf, word);
+        let names = set(&otf, word);
         assert!(!names.iter().any(|n| n == ".notdef"), "{word}: {names:?}");
         for pair in names.windows(2) {
             let joins_left = pair[1].ends_with(".init") || pair[1].ends_with(".medi");
@@ -231,7 +230,7 @@ fn pieces(shape: &BezPath, px_per_em: f64) -> Vec<Vec<(usize, usize)>> {
 
 /// Checks that a word has one body less for each join than its glyphs by themselves.
 fn is_one_body((font, otf): (&Font, &[u8]), word: &str, px_per_em: f64, height: f64) {
-    let names = set(font, otf, word);
+    let names = set(otf, word);
     let (mut whole, mut x, mut single, mut joins) = (BezPath::new(), 0.0, 0, 0);
     for name in &names {
         let glyph = font.glyph(name).expect("a glyph");
@@ -254,24 +253,6 @@ fn joined_letters_are_one_body() {
             is_one_body((&built.font, output(outputs, "otf")), word, 96.0, 45.0);
         }
     }
-}
-
-/// Glyph, advance and shift of a word as a shaper sets it, in visual order.
-fn placed(otf: &[u8], word: &str) -> Vec<(usize, i32, i32, i32)> {
-    let face = FontRef::new(otf).expect("a font");
-    let data = ShaperData::new(&face);
-    let mut buffer = UnicodeBuffer::new();
-    buffer.push_str(word);
-    buffer.guess_segment_properties();
-    let shaped = data
-        .shaper(&face)
-        .build()
-        .shape(buffer, ShapeOptions::default());
-    let glyphs = shaped.glyph_infos().iter().zip(shaped.glyph_positions());
-    let one = |(i, p): (&harfrust::GlyphInfo, &harfrust::GlyphPosition)| {
-        (i.glyph_id as usize, p.x_advance, p.x_offset, p.y_offset)
-    };
-    glyphs.map(one).collect()
 }
 
 #[test]
@@ -365,14 +346,14 @@ fn every_letter_in_every_context() {
     let otf = single(&font, "otf");
     for c in DUAL.chars() {
         let name = format!("uni{:04X}", u32::from(c));
-        let names = set(&font, &otf, &format!("{c}{c}{c} {c}"));
+        let names = set(&otf, &format!("{c}{c}{c} {c}"));
         let forms: Vec<String> = names.iter().map(|n| n.replace(&name, "")).collect();
         assert_eq!(forms, ["", "space", ".fina", ".medi", ".init"], "{c}");
     }
     for c in RIGHT.chars() {
         let name = format!("uni{:04X}", u32::from(c));
         assert_eq!(
-            set(&font, &otf, &format!("{c}ب{c}")),
+            set(&otf, &format!("{c}ب{c}")),
             [format!("{name}.fina"), "uni0628.init".to_owned(), name]
         );
     }
@@ -380,9 +361,9 @@ fn every_letter_in_every_context() {
         let name = format!("uni0644{:04X}", u32::from(alef));
         // with a vowel sign between the two as well
         for text in [format!("ل{alef}"), format!("ل\u{64e}{alef}")] {
-            assert!(set(&font, &otf, &text).contains(&name), "{text}");
+            assert!(set(&otf, &text).contains(&name), "{text}");
         }
-        let joined = set(&font, &otf, &format!("بل{alef}"));
+        let joined = set(&otf, &format!("بل{alef}"));
         assert!(joined.contains(&format!("{name}.fina")), "{joined:?}");
     }
 }

@@ -3,9 +3,9 @@
 
 use khatt::pipeline::convert::{self, convert};
 use khatt::pipeline::picture::{Options, trace_picture};
-use khatt::pipeline::{Nothing, Project, Unwatched, World, build, outputs, reference};
+use khatt::pipeline::{Project, World, build, outputs, reference};
 use khatt::recognise::{Alphabet, Look, Method, Pruning, Sample, Skeleton, centerline};
-use khatt::scan::{InkStreaks, Polarity, Reading, Texture, Tones, clean, load, load_as};
+use khatt::scan::{InkStreaks, Reading, Texture, Tones, clean, load};
 use khatt::types::{Bitmap, Font, Gray};
 use khatt::{corner, fit, read, write};
 use std::path::Path;
@@ -38,12 +38,7 @@ pub fn project(data: &[u8]) {
         Some("txt") => Ok(b"A B C d".to_vec()),
         _ => Ok(PAGE.to_vec()),
     };
-    let world = World {
-        inputs: &read,
-        watch: &Unwatched,
-        created: 0,
-        store: &Nothing,
-    };
+    let world = World::of(&read);
     if let Ok(built) = build(&project, world) {
         let _ = outputs(&project, &built, None, world);
     }
@@ -55,7 +50,7 @@ const PAGE: &[u8] = include_bytes!("../seeds/image/page.png");
 /// A picture file of any kind, cleaned as a page is, and its letters cut.
 pub fn image(data: &[u8]) {
     by_profile(data);
-    for page in load(data, "fuzz", Polarity::Auto).unwrap_or_default() {
+    for page in load(data, "fuzz", Reading::default()).unwrap_or_default() {
         if page.gray.samples().len() <= PIXELS {
             let _ = clean(page, Texture::default());
         }
@@ -67,7 +62,7 @@ pub fn pdf(data: &[u8]) {
     let mut bytes = b"%PDF-1.4\n".to_vec();
     bytes.extend(data.strip_prefix(b"%PDF-1.4\n").unwrap_or(data));
     by_profile(&bytes);
-    let _ = load(&bytes, "fuzz.pdf", Polarity::Auto);
+    let _ = load(&bytes, "fuzz.pdf", Reading::default());
 }
 
 /// A picture file of any kind whose light is what it says itself.
@@ -76,7 +71,7 @@ fn by_profile(data: &[u8]) {
         tones: Tones::Profile,
         ..Reading::default()
     };
-    let _ = load_as(data, "fuzz", reading);
+    let _ = load(data, "fuzz", reading);
 }
 
 /// An SVG drawing, written again in every format.

@@ -82,9 +82,7 @@ fn diagram(contours: &[Contour], rule: &Angle) -> String {
 /// The contour in a square: straight runs wide and green, SC red dots, LN blue rings.
 fn shape(out: &mut String, contour: &Contour, found: &Found, at: Point) {
     let points = contour.points();
-    let each = points.iter().map(|&p| Rect::from_points(p, p));
-    let bounds = each.reduce(|a, b| a.union(b)).unwrap_or(Rect::ZERO);
-    let Rect { x0, y0, x1, y1 } = bounds;
+    let Rect { x0, y0, x1, y1 } = contour.bounds();
     let scale = SIDE / (x1 - x0).max(y1 - y0).max(1e-9);
     let place = |i: usize| {
         let p = points[i % points.len()];

@@ -12,11 +12,11 @@ pub(crate) fn files(built: &Built) -> Files {
     for (n, letter) in built.letters.iter().enumerate() {
         let stem = format!("{:03}-{}", n + 1, letter.index + 1);
         let png = &letter.picture;
-        let size = (png.width(), png.height());
+        let size = (png.width, png.height);
         let mut add = |stage: &str, kind: &str, content: Vec<u8>| {
             files.0.insert(format!("{stage}/{stem}.{kind}"), content);
         };
-        add("1-cut", "png", png.bytes().to_vec());
+        add("1-cut", "png", png.bytes.clone());
         add(
             "2-trace",
             "svg",

@@ -173,7 +173,7 @@ pub(super) fn picture(path: &Path, tones: Tones) -> Result<Gray, Failure> {
         tones,
         ..Reading::default()
     };
-    let pages = scan::load_as(&files::read(path)?, &name, reading);
+    let pages = scan::load(&files::read(path)?, &name, reading);
     let pages = pages.map_err(|e| Failure::new(chain(&e)))?;
     let several = |pages: Vec<Sheet>| {
         let count = pages.len();

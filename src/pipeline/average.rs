@@ -86,7 +86,7 @@ fn lay(letter: &Letter, px_per_em: f64) -> Option<Laid> {
         }
     }
     let centre = moment / area;
-    let baseline = letter.picture.height() as f64 - letter.guides.baseline_px;
+    let baseline = letter.picture.height as f64 - letter.guides.baseline_px;
     let rings = letter.edge.iter().map(|ring| {
         let about = |p: &Point| ((p.to_vec2() - centre) * size).to_point();
         ring.points().iter().map(about).collect()

@@ -25,11 +25,11 @@ impl<T> Batch<T> {
         }
     }
 
-    /// What `work` makes of each page.
-    pub(super) fn map<U>(self, work: impl Fn(T) -> Result<U, Vec<Problem>>) -> Batch<U> {
+    /// What `work` makes of each page and its number.
+    pub(super) fn map<U>(self, work: impl Fn(usize, T) -> Result<U, Vec<Problem>>) -> Batch<U> {
         let (mut made, mut problems) = (Vec::new(), self.problems);
         for (number, value) in self.made {
-            match work(value) {
+            match work(number, value) {
                 Ok(value) => made.push((number, value)),
                 Err(more) => problems.extend(more),
             }

@@ -9,8 +9,8 @@ use super::doubt::Doubt;
 use super::focus;
 use super::labels;
 use super::letter::{Letter, placed};
-use super::letters;
 use super::level;
+use super::matching;
 use super::page::{Page, Traced};
 use super::palette;
 use super::problem::{Problem, all, unless};
@@ -49,14 +49,14 @@ pub struct Built {
 /// # Errors
 /// Everything that is wrong with the project, its pages and their cells.
 pub fn build(project: &Project, world: World<'_>) -> Result<Built, Vec<Problem>> {
-    let (project, mut doubts) = letters::resolve(project, world)?;
+    let (project, mut doubts) = matching::resolve(project, world)?;
     let project = &project;
     let Drawings {
         letters,
         words,
         pages,
     } = drawings(project, world)?;
-    doubts.extend(letters::doubts(project, &letters, world)?);
+    doubts.extend(matching::doubts(project, &letters, world)?);
     let corrections = Corrections::of(project)?;
     let draw = |sheet: &str, cell: Cell| {
         let options = corrections.trace(&cell.label, &project.trace);
@@ -143,7 +143,7 @@ fn batches(sources: &[Source<'_>], project: &Project, world: World<'_>) -> Vec<B
         .collect();
     let cut = |&(s, image): &(usize, Option<&Path>)| sources[s].read(image, world);
     let traced = |&(s, image): &(usize, Option<&Path>), cut: Batch<Page>| {
-        let traced = cut.map(|page| trace(page, &sources[s], project, world));
+        let traced = cut.map(|_, page| trace(page, &sources[s], project, world));
         if let Some(image) = image {
             cache::keep(&traced, (&sources[s], image), project, world);
         }
@@ -213,7 +213,7 @@ pub fn sheet_letters(
     number: usize,
     world: World<'_>,
 ) -> Result<(), Vec<Problem>> {
-    let (project, _) = letters::resolve(project, world)?;
+    let (project, _) = matching::resolve(project, world)?;
     let named = labels::of(&project, world)?;
     let mut found = project.sheets.iter().zip(&named);
     let Some((table, labels)) = found.nth(number.wrapping_sub(1)) else {
@@ -234,7 +234,7 @@ pub fn sheets_without_result(
     project: &Project,
     world: World<'_>,
 ) -> Result<Vec<usize>, Vec<Problem>> {
-    let (project, _) = letters::resolve(project, world)?;
+    let (project, _) = matching::resolve(project, world)?;
     let named = labels(&project, world)?;
     let sources = sources(&project, &named)?;
     let missing = sources.iter().filter(|source| {
@@ -256,11 +256,11 @@ pub fn pages<T>(
     world: World<'_>,
     work: impl Fn(Page) -> Result<T, Vec<Problem>>,
 ) -> Result<Vec<T>, Vec<Problem>> {
-    let (project, _) = letters::resolve(project, world)?;
+    let (project, _) = matching::resolve(project, world)?;
     let named = labels(&project, world)?;
     let pages = sources(&project, &named)?.into_iter().map(|source| {
         let images = source.images().into_iter();
-        let batches = images.map(|image| source.read(image, world).map(&work));
+        let batches = images.map(|image| source.read(image, world).map(|_, page| work(page)));
         source.join(batches.collect())
     });
     Ok(all(pages.collect())?.into_iter().flatten().collect())

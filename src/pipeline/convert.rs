@@ -1,28 +1,11 @@
 //! A font as it was read → the files of another format.
 
-use crate::quadratic::{self, QuadraticError, merge};
+use super::problem::Problem;
+use crate::quadratic::{self, merge};
 use crate::types::{Files, Font, Glyph, Outline};
-use crate::write::{Curves, Format, WriteError};
+use crate::write::{Curves, Format};
 use kurbo::PathEl;
 use rayon::prelude::*;
-use thiserror::Error;
-
-/// Why a font cannot be converted.
-#[derive(Debug, Clone, PartialEq, Error)]
-#[non_exhaustive]
-pub enum ConvertError {
-    /// A glyph has no quadratic form.
-    #[error("glyph {glyph}: {source}")]
-    Quadratic {
-        /// the glyph's name
-        glyph: String,
-        /// why
-        source: QuadraticError,
-    },
-    /// The format cannot hold the font.
-    #[error(transparent)]
-    Write(#[from] WriteError),
-}
 
 /// How outlines change their kind.
 #[derive(Debug, Clone, PartialEq)]
@@ -61,7 +44,7 @@ impl Default for Options {
 ///
 /// # Errors
 /// An outline cannot be converted within the tolerance, or the format cannot hold the font.
-pub fn convert(font: &Font, format: &Format, options: &Options) -> Result<Files, ConvertError> {
+pub fn convert(font: &Font, format: &Format, options: &Options) -> Result<Files, Problem> {
     let units = options.tolerance * f64::from(font.info.units_per_em) / 1000.0;
     let one = |g: &Glyph| outline(g, format.curves, units, options);
     let outlines: Vec<Outline> = font
@@ -70,8 +53,7 @@ pub fn convert(font: &Font, format: &Format, options: &Options) -> Result<Files,
         .map(one)
         .collect::<Result<_, _>>()?;
     let mut next = outlines.into_iter();
-    let changed =
-        font.try_map_outlines(|_| Ok::<_, ConvertError>(next.next().unwrap_or_default()))?;
+    let changed = font.try_map_outlines(|_| Ok::<_, Problem>(next.next().unwrap_or_default()))?;
     Ok((format.write)(&changed)?)
 }
 
@@ -80,7 +62,7 @@ fn outline(
     curves: Curves,
     units: f64,
     options: &Options,
-) -> Result<Outline, ConvertError> {
+) -> Result<Outline, Problem> {
     let has = |kind: fn(&PathEl) -> bool| {
         glyph
             .outline
@@ -98,10 +80,7 @@ fn outline(
         Curves::Quadratic if cubic || all || !quad => options
             .quadratic
             .convert(&glyph.outline, units)
-            .map_err(|source| ConvertError::Quadratic {
-                glyph: glyph.name.to_string(),
-                source,
-            }),
+            .map_err(|why| Problem::quadratic(glyph, why)),
         Curves::Cubic if quad => Ok(merge::merge(&glyph.outline, units)),
         _ => Ok(glyph.outline.clone()),
     }

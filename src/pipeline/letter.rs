@@ -11,9 +11,10 @@ use crate::trace;
 use crate::types::{Cell, Contour, Font, Frame, Gray, Guides, Label, Outline, Plate, Png};
 use kurbo::{BezPath, Rect};
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 /// What was drawn in a cell, still in the cell's px.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Letter {
     /// The page, as messages name it.
     pub sheet: String,
@@ -21,12 +22,12 @@ pub struct Letter {
     pub label: Label,
     /// Position of its cell in the page's reading order, from 0.
     pub index: usize,
+    /// The cell, for people to look at.
+    pub picture: Png,
     /// The ink's rectangle in the page's picture, px, y down.
     pub in_sheet: Rect,
     /// The cell's baseline and scale.
     pub guides: Guides,
-    /// The cell, for people to look at.
-    pub picture: Png,
     /// The scanned edge that outlines are measured against, px, y up, origin at the picture's bottom left.
     pub edge: Vec<Contour>,
     /// Its closed curves, px, y up, origin at the picture's bottom left.
@@ -92,7 +93,7 @@ impl Letter {
         let guides = &self.guides;
         Frame {
             units_per_px: f64::from(units_per_em) / guides.px_per_em,
-            baseline_px: self.picture.height() as f64 - guides.baseline_px,
+            baseline_px: self.picture.height as f64 - guides.baseline_px,
             origin_px: 0.0,
         }
     }

@@ -5,8 +5,7 @@ use super::build::Built;
 use super::letter::Letter;
 use super::problem::Problem;
 use super::project::{GateTable, Project};
-use super::record::corners;
-use super::report::{Report, mm_per_unit};
+use super::report::{Report, corners, mm_per_unit};
 use super::watch::Stage;
 use super::world::World;
 use crate::assemble::names;
@@ -87,12 +86,7 @@ fn quadratic(project: &Project, font: &Font, world: World<'_>) -> Result<Font, V
     let units = table.tolerance_em * f64::from(font.info.units_per_em);
     font.try_map_outlines(|glyph| {
         let quadratic = table.convert.convert(&glyph.outline, units);
-        quadratic.map_err(|source| {
-            vec![Problem::Quadratic {
-                glyph: glyph.name.to_string(),
-                source,
-            }]
-        })
+        quadratic.map_err(|why| Problem::quadratic(glyph, why).into())
     })
 }
 

@@ -96,7 +96,7 @@ fn read_turned(
     };
     let cut = |page: scan::Page| {
         let _time = world.watch.enter(Stage::Cut);
-        let cut = scan::cut_with(&page, labels, &options, pins).map_err(Problem::from)?;
+        let cut = scan::cut(&page, labels, &options, pins).map_err(Problem::from)?;
         Ok((cut, page.sheet.dpi))
     };
     let sheet = || load(table, turn, (project, world));
@@ -160,7 +160,7 @@ fn load(
         turn,
         grain,
     };
-    let mut pages = scan::load_as(&bytes, &name, reading)?;
+    let mut pages = scan::load(&bytes, &name, reading)?;
     let count = pages.len();
     let page = match table.page {
         None if count == 1 => pages.swap_remove(0),

@@ -10,9 +10,7 @@ use super::world::World;
 use crate::assemble::names;
 use crate::numeric::cast::index;
 use crate::numeric::median::{median, middle};
-use crate::scan::{
-    self, Cut, Direction, InkGrain, Order, Polarity, Reading, Reason, Rejected, Warning,
-};
+use crate::scan::{self, Cut, InkGrain, Order, Polarity, Reading, Reason, Rejected, Warning};
 use crate::template::{self, Drawing, Place, TemplateError};
 use crate::types::{Label, Sheet};
 use kurbo::Affine;
@@ -38,7 +36,7 @@ pub fn sheets(project: &Project, world: World<'_>) -> Result<Vec<template::Page>
             labels.iter().map(|l| (l.0.clone(), caption(l))).collect();
         let printed = template::pages(
             &project.template,
-            direction(table),
+            table.direction,
             &project.font.family,
             &captions,
         );
@@ -46,13 +44,6 @@ pub fn sheets(project: &Project, world: World<'_>) -> Result<Vec<template::Page>
     });
     let pages: Result<Vec<_>, Vec<Problem>> = pages.collect();
     Ok(pages?.concat())
-}
-
-const fn direction(table: &SheetTable) -> template::Direction {
-    match table.direction {
-        Direction::Ltr => template::Direction::LeftToRight,
-        Direction::Rtl => template::Direction::RightToLeft,
-    }
 }
 
 /// What is printed above a cell: letters and figures as they are, everything else by its name.
@@ -102,7 +93,7 @@ impl<'a> Printing<'a> {
             return Err(Problem::sheet(table, why));
         }
         let names: Vec<String> = labels.iter().map(|l| l.0.clone()).collect();
-        let pages = layout.places(&names, direction(table));
+        let pages = layout.places(&names, table.direction);
         Ok(Self {
             table,
             layout,
@@ -157,7 +148,7 @@ impl<'a> Printing<'a> {
             tones: self.table.tones,
             ..Reading::default()
         };
-        let mut sheets = scan::load_as(&bytes, &image.display().to_string(), reading)?;
+        let mut sheets = scan::load(&bytes, &image.display().to_string(), reading)?;
         match self.table.page {
             None => Ok(sheets),
             Some(n) if (1..=sheets.len()).contains(&n) => Ok(vec![sheets.swap_remove(n - 1)]),

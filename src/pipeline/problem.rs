@@ -8,7 +8,7 @@ use crate::{
     quadratic::QuadraticError,
     scan::ScanError,
     template::TemplateError,
-    types::{Cell, Label, OutlineError},
+    types::{Cell, Glyph, Label, OutlineError},
     write::WriteError,
 };
 use std::fmt;
@@ -181,6 +181,14 @@ impl Problem {
         Self::Sheet {
             sheet: table.name(),
             why: why.into(),
+        }
+    }
+
+    /// Why a glyph has no quadratic form.
+    pub(super) fn quadratic(glyph: &Glyph, source: QuadraticError) -> Self {
+        Self::Quadratic {
+            glyph: glyph.name.to_string(),
+            source,
         }
     }
 

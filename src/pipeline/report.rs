@@ -6,13 +6,12 @@ use super::letter::Letter;
 use super::page::Page;
 use super::problem::{Place, Problem};
 use super::project::GateTable;
-use super::record::corners;
 use crate::assemble::words::Gap;
 use crate::assemble::{Note, names};
 use crate::numeric::distance::largest;
 use crate::template::Gain;
 use crate::types::Font;
-use kurbo::Point;
+use kurbo::{Point, Rect};
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -174,6 +173,11 @@ impl Report {
         }
         out
     }
+}
+
+/// Left, top, right and bottom.
+pub(super) const fn corners(r: Rect) -> [f64; 4] {
+    [r.x0, r.y0, r.x1, r.y1]
 }
 
 fn composed(font: &Font) -> Vec<Composed> {

@@ -91,14 +91,8 @@ impl<'a> Source<'a> {
                 Err(problems) => Batch::failed(problems),
             };
         };
-        let mut batch = printing.read(image, world);
-        for (number, page) in mem::take(&mut batch.made) {
-            match self.checked(page, &printing.wanted(number)) {
-                Ok(page) => batch.made.push((number, page)),
-                Err(more) => batch.problems.extend(more),
-            }
-        }
-        batch
+        let batch = printing.read(image, world);
+        batch.map(|number, page| self.checked(page, &printing.wanted(number)))
     }
 
     /// The page corrected, where no name is without a drawing.

@@ -40,28 +40,16 @@ impl fmt::Display for Stage {
     }
 }
 
-/// Is told what a run does. It is called from many threads at once.
+/// Is told what a run does, or does not listen. It is called from many threads at once.
 pub trait Watch: Sync {
     /// A stage begins on this thread; it ends when the answer is dropped.
-    fn enter(&self, stage: Stage) -> Box<dyn Any>;
-
-    /// So many more cells are to be done.
-    fn expect(&self, cells: usize);
-
-    /// A cell is done.
-    fn done(&self);
-}
-
-/// Watches nothing.
-#[derive(Debug, Clone, Copy, Default)]
-pub struct Unwatched;
-
-impl Watch for Unwatched {
     fn enter(&self, _: Stage) -> Box<dyn Any> {
         Box::new(())
     }
 
+    /// So many more cells are to be done.
     fn expect(&self, _: usize) {}
 
+    /// A cell is done.
     fn done(&self) {}
 }

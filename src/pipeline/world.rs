@@ -40,9 +40,11 @@ pub trait Store: Sync {
     fn put(&self, key: &str, content: &[u8]);
 }
 
-/// Keeps nothing.
+/// Keeps nothing, and watches nothing.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Nothing;
+
+impl Watch for Nothing {}
 
 impl Store for Nothing {
     fn get(&self, _: &str) -> Option<Vec<u8>> {
@@ -65,7 +67,18 @@ pub struct World<'a> {
     pub store: &'a dyn Store,
 }
 
-impl World<'_> {
+impl<'a> World<'a> {
+    /// These files alone: nobody is told, nothing is kept, and the date is the epoch's.
+    #[must_use]
+    pub const fn of(inputs: &'a dyn Inputs) -> Self {
+        Self {
+            inputs,
+            watch: &Nothing,
+            created: 0,
+            store: &Nothing,
+        }
+    }
+
     /// The content of a file that the project names.
     pub(super) fn file(&self, path: &Path) -> Result<Vec<u8>, Problem> {
         self.inputs.read(path).map_err(|why| Problem::File {

@@ -204,11 +204,6 @@ impl Alphabet {
         Self { method, letters }
     }
 
-    /// The labels in order.
-    pub fn labels(&self) -> impl Iterator<Item = &str> {
-        self.letters.iter().map(|(l, _)| l.as_str())
-    }
-
     /// Letters that the picture may be, likeliest first, each label once; none for a picture without ink.
     #[must_use]
     pub fn rank(&self, look: &Look) -> Vec<Guess> {

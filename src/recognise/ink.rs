@@ -33,8 +33,7 @@ impl Ink {
         let main_side = boxes[main].side();
         let is_mark = |p: usize| p != main && boxes[p].side() < MARK_SIDE * main_side;
         let pick = |keep: &dyn Fn(usize) -> bool| {
-            let picked = label.iter().map(|l| l.is_some_and(keep)).collect();
-            Bitmap::new(bits.width(), bits.height(), picked).unwrap_or_else(|_| bits.clone())
+            bits.with_bits(label.iter().map(|l| l.is_some_and(keep)))
         };
         let marks = (0..count).filter(|&p| is_mark(p));
         let [x0, x1, y0, y1] = [x.0, x.1, y.0, y.1].map(|v| v as f64);
@@ -48,15 +47,8 @@ impl Ink {
     /// Body and marks together.
     pub(crate) fn whole(&self) -> Bitmap {
         let set = |i: usize| self.marks.iter().any(|m| m.bits()[i]);
-        let bits = self
-            .body
-            .bits()
-            .iter()
-            .enumerate()
-            .map(|(i, b)| *b || set(i))
-            .collect();
-        Bitmap::new(self.body.width(), self.body.height(), bits)
-            .unwrap_or_else(|_| self.body.clone())
+        let bits = self.body.bits().iter().enumerate();
+        self.body.with_bits(bits.map(|(i, b)| *b || set(i)))
     }
 }
 

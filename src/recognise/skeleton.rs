@@ -133,8 +133,7 @@ fn split_dots(ink: &Bitmap, radii: &[f64]) -> (Vec<PenDot>, Bitmap) {
     });
     let dots = dots.collect();
     let bits = label.iter().map(|p| p.is_some_and(|p| !compact(&sums[p])));
-    let lines = Bitmap::new(ink.width(), ink.height(), bits.collect());
-    (dots, lines.unwrap_or_else(|_| ink.clone()))
+    (dots, ink.with_bits(bits))
 }
 
 /// A line between two nodes, its inner pixels in order.

@@ -114,5 +114,5 @@ pub fn thin(bitmap: &Bitmap) -> Bitmap {
         let row = (y + 1) * field.stride + 1;
         field.ink[row..row + bitmap.width()].iter().copied()
     });
-    Bitmap::new(bitmap.width(), bitmap.height(), bits.collect()).unwrap_or_else(|_| bitmap.clone())
+    bitmap.with_bits(bits)
 }

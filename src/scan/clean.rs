@@ -3,7 +3,7 @@
 //! Light multiplies: what the scanner sees is light × reflectance. The light is the paper's level ([`Field`]) and
 //! divided out. One level of ink and one of noise are then measured for the whole page.
 
-use super::error::ScanError;
+use super::error::{Fault, ScanError};
 use super::grain::{self, InkGrain};
 use super::light::Field;
 use super::paper::Paper;
@@ -44,8 +44,6 @@ pub struct Page {
     pub sheet: Sheet,
     /// Standard deviation of the paper's noise, as a share of the ink's level.
     pub noise: f32,
-    /// Contrast of the ink against the paper before it was set to 1, of black against white.
-    pub contrast: f32,
     /// Over how much ink that is grain was averaged, a Gaussian's standard deviation, px; 0 of other ink.
     pub averaged_px: f64,
     /// Whether pale streaks in its ink were filled.
@@ -114,10 +112,8 @@ fn even(
     texture: Texture,
 ) -> Result<Page, ScanError> {
     let (width, height) = (sheet.gray.width(), sheet.gray.height());
-    let levels = Levels::measure(&sheet.gray, field, paper.as_ref()).ok_or_else(|| {
-        let source_name = sheet.source.clone();
-        ScanError::Blank { source_name }.or_polarity(sheet.guessed)
-    })?;
+    let levels = Levels::measure(&sheet.gray, field, paper.as_ref())
+        .ok_or_else(|| Fault::Blank.of(&sheet.source, sheet.guessed))?;
     let scatter_px = sheet.gray.scatter_px();
     let mut samples = sheet.gray.into_samples();
     let scale = 1.0 / (levels.ink - levels.paper);
@@ -130,7 +126,7 @@ fn even(
         }
     });
     let gray = Gray::new(width, height, samples)
-        .map_err(|e| ScanError::decode(&sheet.source, e))?
+        .map_err(|e| Fault::Decode(e.to_string()).of(&sheet.source, None))?
         .with_scatter(scatter_px);
     let seen = paper.as_ref().or(lit.as_ref());
     let averaged = match texture.grain {
@@ -144,7 +140,6 @@ fn even(
     Ok(Page {
         sheet: Sheet { gray, ..sheet },
         noise: levels.noise * scale,
-        contrast: levels.ink - levels.paper,
         averaged_px,
         filled,
         texture,

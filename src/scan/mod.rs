@@ -31,13 +31,13 @@ mod steps;
 mod streaks;
 
 pub use clean::{Page, Texture, clean, clean_otherwise};
-pub use cut::{Cut, Pin, Reason, Region, Rejected, Warning, cut, cut_with};
+pub use cut::{Cut, Pin, Reason, Region, Rejected, Warning, cut};
 pub use cut::{SMALL, SMALL_LETTER, is_full};
-pub use error::ScanError;
+pub use error::{Fault, ScanError};
 pub use grain::{InkGrain, grained};
 pub use ink::{Ink, Inks};
-pub use load::{Grain, Polarity, Reading, Tones, Turn, describes_light, load, load_as};
-pub use options::{Direction, Layout, Options, Order, Scale};
+pub use load::{Grain, Polarity, Reading, Tones, Turn, describes_light, load};
+pub use options::{Layout, Options, Order, Scale};
 pub use range::{full_range, is_all_dark};
 pub use separation::Colour;
 pub use shading::{Even, legible, shaded};

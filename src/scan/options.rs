@@ -1,6 +1,7 @@
 //! What a user says about a page.
 
 use super::Inks;
+use crate::types::Direction;
 use serde::{Deserialize, Serialize};
 
 /// How the cells lie on the page.
@@ -14,17 +15,6 @@ pub enum Layout {
     Free,
     /// Printed boxes, each around one letter.
     Boxes,
-}
-
-/// The side from which a row is read.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Direction {
-    /// Left to right.
-    #[default]
-    Ltr,
-    /// Right to left.
-    Rtl,
 }
 
 /// Whether neighbours in reading order stand beside or below each other.

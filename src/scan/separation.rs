@@ -7,10 +7,11 @@
 
 use super::chamfer::distances;
 use super::components::{Component, components};
-use super::error::ScanError;
+use super::error::Fault;
 use super::ink::{Ink, Inks, more, paper};
 use crate::numeric::cast::single;
 use crate::types::{Colours, Gray, Sheet};
+use serde::{Deserialize, Serialize};
 
 /// Coverage from which ink of a plate holds together, and that a piece of it must reach somewhere.
 const LOW: f32 = 0.33;
@@ -30,7 +31,7 @@ const REACH: u16 = 4;
 const TRAP: usize = 2;
 
 /// An ink as a page shows it.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Colour {
     /// The ink, as a project file names it.
     pub ink: String,
@@ -77,16 +78,12 @@ impl<'a> Separation<'a> {
         letters: &[Component],
         inks: &Inks,
         least: f64,
-    ) -> Result<Option<Self>, ScanError> {
+    ) -> Result<Option<Self>, Fault> {
         if inks.layers().is_empty() {
             return Ok(None);
         }
-        let source_name = || sheet.source.clone();
         let Some(colours) = &sheet.colours else {
-            return Err(ScanError::NoColours {
-                source_name: source_name(),
-                inks: inks.to_string(),
-            });
+            return Err(Fault::NoColours(inks.to_string()));
         };
         let paper = paper(colours);
         let mut seen: Vec<Vec<([u8; 3], f32)>> = vec![Vec::new(); inks.layers().len()];
@@ -99,10 +96,7 @@ impl<'a> Separation<'a> {
         }
         let solid = |(&ink, mut seen): (&Ink, Vec<([u8; 3], f32)>)| {
             if (seen.len() as f64) < least {
-                return Err(ScanError::OtherInk {
-                    source_name: source_name(),
-                    ink: ink.into(),
-                });
+                return Err(Fault::OtherInk(ink.into()));
             }
             let middle = seen.len() / 2;
             let look =
@@ -128,8 +122,7 @@ impl<'a> Separation<'a> {
                 },
             })
         };
-        let inks: Result<Vec<Solid>, ScanError> =
-            inks.layers().iter().zip(seen).map(solid).collect();
+        let inks: Result<Vec<Solid>, Fault> = inks.layers().iter().zip(seen).map(solid).collect();
         Ok(Some(Self {
             colours,
             paper,

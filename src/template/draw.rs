@@ -1,7 +1,8 @@
 //! Layout and glyph list → pages of filled paths.
 
-use super::layout::{Code, Direction, Layout, Place};
+use super::layout::{Code, Layout, Place};
 use super::{TemplateError, lettering};
+use crate::types::Direction;
 use kurbo::{Affine, BezPath, Circle, Line, Point, Rect, Shape, Size, Stroke, StrokeOpts, Vec2};
 use qrcode::{EcLevel, QrCode};
 

@@ -26,6 +26,6 @@ pub use draw::{Ink, Page, Paint, pages};
 pub use error::TemplateError;
 pub use find::{Found, find};
 pub use gain::{Gain, gain};
-pub use layout::{Code, Direction, Field, Layout, Paper, Place};
+pub use layout::{Code, Field, Layout, Paper, Place};
 pub use output::{pdf, png, svg};
 pub use stray::stray;

@@ -11,6 +11,7 @@
 //! ```
 
 use kurbo::{Point, Rect};
+use serde::{Deserialize, Serialize};
 use std::ops::Range;
 use thiserror::Error;
 
@@ -28,7 +29,10 @@ pub enum ContourError {
 
 /// A closed ring of at least three finite points, px, y up; neighbours differ and the first point is
 /// not repeated at the end.
-#[derive(Debug, Clone, PartialEq)]
+///
+/// As bytes it is its blur and its points.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(into = "(f64, Vec<Point>)", try_from = "(f64, Vec<Point>)")]
 pub struct Contour {
     points: Vec<Point>,
     blur_px: f64,
@@ -186,6 +190,20 @@ impl Contour {
             ranges,
             scatter_px: self.scatter_px,
         }
+    }
+}
+
+impl From<Contour> for (f64, Vec<Point>) {
+    fn from(ring: Contour) -> Self {
+        (ring.blur_px, ring.points)
+    }
+}
+
+impl TryFrom<(f64, Vec<Point>)> for Contour {
+    type Error = ContourError;
+
+    fn try_from((blur_px, points): (f64, Vec<Point>)) -> Result<Self, ContourError> {
+        Ok(Self::new(points)?.with_blur(blur_px))
     }
 }
 

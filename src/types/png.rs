@@ -1,15 +1,19 @@
 //! Pictures for people to look at, small enough to be kept by the thousand.
 
-use super::{Gray, RasterError};
+use super::Gray;
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, ImageEncoder, ImageFormat};
+use serde::{Deserialize, Serialize};
 
 /// A picture in 256 levels as a PNG file: dark ink on white.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Png {
-    width: usize,
-    height: usize,
-    bytes: Vec<u8>,
+    /// Columns, px.
+    pub width: usize,
+    /// Rows, px.
+    pub height: usize,
+    /// The file.
+    pub bytes: Vec<u8>,
 }
 
 impl Png {
@@ -36,16 +40,6 @@ impl Png {
         }
     }
 
-    /// A picture of `width` × `height` px whose file was made by [`Png::of`].
-    #[must_use]
-    pub const fn new(width: usize, height: usize, bytes: Vec<u8>) -> Self {
-        Self {
-            width,
-            height,
-            bytes,
-        }
-    }
-
     /// Ink in 255ths; paper alone where the file is none of that size.
     #[must_use]
     pub fn gray(&self) -> Gray {
@@ -56,26 +50,7 @@ impl Png {
     fn decoded(&self) -> Option<Gray> {
         let picture = image::load_from_memory_with_format(&self.bytes, ImageFormat::Png).ok()?;
         let ink: Vec<u8> = picture.into_luma8().iter().map(|v| 255 - v).collect();
-        let gray: Result<Gray, RasterError> = Gray::from_levels(self.width, self.height, &ink);
-        gray.ok()
-    }
-
-    /// Columns, px.
-    #[must_use]
-    pub const fn width(&self) -> usize {
-        self.width
-    }
-
-    /// Rows, px.
-    #[must_use]
-    pub const fn height(&self) -> usize {
-        self.height
-    }
-
-    /// The file.
-    #[must_use]
-    pub fn bytes(&self) -> &[u8] {
-        &self.bytes
+        Gray::from_levels(self.width, self.height, &ink).ok()
     }
 }
 
@@ -88,14 +63,18 @@ mod tests {
         let gray = Gray::from_fn(37, 11, |x, y| (x * 7 + y * 31) as f32 % 256.0 / 255.0);
         let png = Png::of(&gray);
         assert_eq!(png.gray().levels(), gray.levels());
-        assert_eq!((png.width(), png.height()), (37, 11));
+        assert_eq!((png.width, png.height), (37, 11));
     }
 
     #[test]
     fn no_picture_is_paper() {
         let empty = Png::of(&Gray::from_fn(0, 0, |_, _| 1.0));
         assert_eq!(empty.gray().samples().len(), 0);
-        let spoilt = Png::new(2, 3, vec![1, 2, 3]);
+        let spoilt = Png {
+            width: 2,
+            height: 3,
+            bytes: vec![1, 2, 3],
+        };
         assert_eq!(spoilt.gray().levels(), [0; 6]);
     }
 }

@@ -187,26 +187,6 @@ pub struct Bitmap {
 }
 
 impl Bitmap {
-    /// A picture of `width` × `height` px from row-major bits.
-    ///
-    /// # Errors
-    /// The number of bits is not width × height.
-    pub fn new(width: usize, height: usize, bits: Vec<bool>) -> Result<Self, RasterError> {
-        if width.checked_mul(height) == Some(bits.len()) {
-            Ok(Self {
-                width,
-                height,
-                bits,
-            })
-        } else {
-            Err(RasterError::Size {
-                width,
-                height,
-                samples: bits.len(),
-            })
-        }
-    }
-
     /// The pixels whose coverage is at least `level`.
     #[must_use]
     pub fn threshold(gray: &Gray, level: f32) -> Self {
@@ -216,6 +196,14 @@ impl Bitmap {
             height: gray.height(),
             bits,
         }
+    }
+
+    /// The picture with other bits, row-major; what is missing becomes paper.
+    #[must_use]
+    pub fn with_bits(&self, bits: impl IntoIterator<Item = bool>) -> Self {
+        let mut bits: Vec<bool> = bits.into_iter().collect();
+        bits.resize(self.bits.len(), false);
+        Self { bits, ..*self }
     }
 
     /// Columns, px.
@@ -262,8 +250,8 @@ mod tests {
             Gray::new(1, 1, vec![f32::NAN]),
             Err(RasterError::Value { .. })
         ));
-        assert!(Bitmap::new(3, 1, vec![true; 3]).is_ok());
-        assert!(Bitmap::new(3, 1, vec![true; 2]).is_err());
+        let ink = Bitmap::threshold(&Gray::from_fn(3, 1, |_, _| 0.0), 0.5).with_bits([true; 2]);
+        assert_eq!(ink.bits(), [true, true, false]);
     }
 
     #[test]

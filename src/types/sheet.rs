@@ -2,6 +2,7 @@
 
 use super::Gray;
 use kurbo::{Affine, Rect};
+use serde::{Deserialize, Serialize};
 
 /// A scanned page, its light evened out.
 #[derive(Debug, Clone)]
@@ -16,6 +17,17 @@ pub struct Sheet {
     pub guessed: Option<Shade>,
     /// The file it came from, as messages name it.
     pub source: String,
+}
+
+/// The side from which a row is read.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Direction {
+    /// Left to right.
+    #[default]
+    Ltr,
+    /// Right to left.
+    Rtl,
 }
 
 /// Whether ink is darker or lighter than its paper.
@@ -50,11 +62,11 @@ impl Colours {
 }
 
 /// The glyph name or character that a cell is said to hold, as the user wrote it.
-#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct Label(pub String);
 
 /// Heights that the page, never the cell's own ink, gives a cell.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Guides {
     /// The baseline, px below the cell's top edge.
     pub baseline_px: f64,

@@ -1,8 +1,8 @@
 //! Font units to the integers of a font file, checked.
 
 use super::WriteError;
-use crate::types::Font;
-use kurbo::Rect;
+use crate::types::{Font, Glyph};
+use kurbo::{BezPath, PathEl, Rect};
 use std::collections::BTreeMap;
 
 /// A number of font units as a signed 16-bit integer, rounded half up as FontTools does.
@@ -28,6 +28,22 @@ pub(super) fn to_u16(value: f64, what: impl FnOnce() -> String) -> Result<u16, W
     let fits = rounded >= 0.0 && rounded <= f64::from(u16::MAX);
     let rounded = fits.then_some(rounded as u16);
     rounded.ok_or_else(|| WriteError::range(what(), value))
+}
+
+/// Refuses coordinates so large that a difference of two would not fit the file.
+pub(super) fn check(shape: &BezPath, glyph: &Glyph) -> Result<(), WriteError> {
+    for el in shape.elements() {
+        let points = match *el {
+            PathEl::MoveTo(p) | PathEl::LineTo(p) => [p; 3],
+            PathEl::QuadTo(a, p) => [a, p, p],
+            PathEl::CurveTo(a, b, p) => [a, b, p],
+            PathEl::ClosePath => continue,
+        };
+        for v in points.iter().flat_map(|p| [p.x, p.y]) {
+            to_i16(2.0 * v, || format!("a coordinate of {}", glyph.name))?;
+        }
+    }
+    Ok(())
 }
 
 /// The glyphs' numbers by their names.

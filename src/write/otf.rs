@@ -1,9 +1,9 @@
 //! OpenType with CFF outlines: cubics as they were fitted.
 
-use super::numbers::{around, to_i16, to_u16};
+use super::numbers::{around, check, to_u16};
 use super::{WriteError, cff, sfnt};
 use crate::types::Font;
-use kurbo::{BezPath, PathEl, Point, Rect, Shape};
+use kurbo::{BezPath, Rect, Shape};
 use write_fonts::types::{Tag, Version16Dot16};
 
 /// An OpenType font with a `CFF ` table.
@@ -12,7 +12,7 @@ pub(super) fn bytes(font: &Font) -> Result<Vec<u8>, WriteError> {
     let mut advances = Vec::with_capacity(font.glyphs().len());
     for glyph in font.glyphs() {
         let shape = font.shape(glyph).to_path();
-        check(&shape, glyph.name.as_str())?;
+        check(&shape, glyph)?;
         shapes.push(shape);
         advances.push(i32::from(to_u16(glyph.advance, || {
             format!("the advance of {}", glyph.name)
@@ -39,23 +39,4 @@ const NOISE: f64 = 1e-3;
 fn extent(shape: &BezPath) -> Option<Rect> {
     let ink = shape.bounding_box().inset(-NOISE);
     (!shape.elements().is_empty()).then(|| ink.expand())
-}
-
-/// Refuses coordinates so large that a difference of two would not fit the file.
-fn check(shape: &BezPath, glyph: &str) -> Result<(), WriteError> {
-    let fits = |p: Point| {
-        for v in [p.x, p.y] {
-            to_i16(2.0 * v, || format!("a coordinate of {glyph}"))?;
-        }
-        Ok(())
-    };
-    for el in shape.elements() {
-        match *el {
-            PathEl::MoveTo(p) | PathEl::LineTo(p) => fits(p)?,
-            PathEl::QuadTo(a, b) => [a, b].into_iter().try_for_each(fits)?,
-            PathEl::CurveTo(a, b, c) => [a, b, c].into_iter().try_for_each(fits)?,
-            PathEl::ClosePath => {}
-        }
-    }
-    Ok(())
 }

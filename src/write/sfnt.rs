@@ -160,19 +160,15 @@ fn hmtx(font: &Font, advances: &[u16], extents: &[Option<Rect>]) -> Result<Hmtx,
         let bearing = to_i16(left, || format!("the left sidebearing of {}", glyph.name))?;
         metrics.push(LongMetric::new(advance, bearing));
     }
-    // a run of equal advances at the end is stored once
-    let last = metrics.last().map(|m| m.advance);
-    let tail = metrics
-        .iter()
-        .rev()
-        .take_while(|m| Some(m.advance) == last)
-        .count();
-    let bearings = metrics
-        .split_off(metrics.len() + 1 - tail.max(1))
-        .into_iter()
-        .map(|m| m.side_bearing)
-        .collect();
-    Ok(Hmtx::new(metrics, bearings))
+    let rest = metrics.split_off(stored(advances)).into_iter();
+    Ok(Hmtx::new(metrics, rest.map(|m| m.side_bearing).collect()))
+}
+
+/// How many of the advances are stored: a run of equal ones at the end is stored once.
+fn stored(advances: &[u16]) -> usize {
+    let last = advances.last();
+    let tail = advances.iter().rev().take_while(|a| Some(*a) == last);
+    advances.len() + 1 - tail.count().max(1)
 }
 
 fn hhea(font: &Font, advances: &[u16], extents: &[Option<Rect>]) -> Result<Hhea, WriteError> {
@@ -184,12 +180,6 @@ fn hhea(font: &Font, advances: &[u16], extents: &[Option<Rect>]) -> Result<Hhea,
     let least =
         |f: &dyn Fn(&(f64, Rect)) -> f64| inked.iter().map(f).reduce(f64::min).unwrap_or(0.0);
     let word = |v: f64, what: &str| to_i16(v, || what.to_owned()).map(FWord::new);
-    let last = advances.last();
-    let tail = advances
-        .iter()
-        .rev()
-        .take_while(|a| Some(*a) == last)
-        .count();
     let own = match carried(font, b"hhea") {
         Some(own) => own,
         None => line(&font.info)?,
@@ -199,7 +189,7 @@ fn hhea(font: &Font, advances: &[u16], extents: &[Option<Rect>]) -> Result<Hhea,
         min_left_side_bearing: word(least(&|(_, r)| r.x0), "a left sidebearing")?,
         min_right_side_bearing: word(least(&|(a, r)| a - r.x1), "a right sidebearing")?,
         x_max_extent: word(-least(&|(_, r)| -r.x1), "the right edge of a glyph")?,
-        number_of_h_metrics: count(advances.len() + 1 - tail.max(1), "the number of advances")?,
+        number_of_h_metrics: count(stored(advances), "the number of advances")?,
         ..own
     })
 }

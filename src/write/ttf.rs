@@ -1,10 +1,10 @@
 //! TrueType: quadratic outlines, composites, and no instructions.
 
-use super::numbers::{count, ids, to_i16};
+use super::numbers::{check, count, ids, to_i16};
 use super::{WriteError, sfnt};
 use crate::numeric::cast::single;
 use crate::types::{Component, Font, Glyph};
-use kurbo::{BezPath, PathEl, Rect};
+use kurbo::{Affine, BezPath, PathEl, Point, Rect};
 use std::collections::BTreeMap;
 use write_fonts::tables::glyf::{
     Anchor, Bbox, Component as Part, ComponentFlags, CompositeGlyph, GlyfLocaBuilder,
@@ -159,28 +159,17 @@ fn simple(font: &Font, glyph: &Glyph) -> Result<Written, WriteError> {
     for contour in shape.contours() {
         path.extend(contour.reverse_subpaths());
     }
-    for el in path.elements() {
-        check(el, glyph)?;
+    if path
+        .elements()
+        .iter()
+        .any(|el| matches!(el, PathEl::CurveTo(..)))
+    {
+        return Err(WriteError::Cubic(glyph.name.to_string()));
     }
+    check(&path, glyph)?;
     SimpleGlyph::from_bezpath(&path)
         .map(Written::Simple)
         .map_err(|e| WriteError::table(&format!("glyf ({})", glyph.name), format!("{e:?}")))
-}
-
-/// Refuses cubics, and coordinates so large that a difference of two would not fit the file.
-fn check(el: &PathEl, glyph: &Glyph) -> Result<(), WriteError> {
-    let points = match *el {
-        PathEl::CurveTo(..) => return Err(WriteError::Cubic(glyph.name.to_string())),
-        PathEl::MoveTo(p) | PathEl::LineTo(p) => [p, p],
-        PathEl::QuadTo(a, b) => [a, b],
-        PathEl::ClosePath => return Ok(()),
-    };
-    for p in points {
-        for v in [p.x, p.y] {
-            to_i16(2.0 * v, || format!("a coordinate of {}", glyph.name))?;
-        }
-    }
-    Ok(())
 }
 
 fn composite(
@@ -224,22 +213,14 @@ fn place(
         ..ComponentFlags::default()
     };
     let id = GlyphId16::new(count(base, "a glyph id")?);
-    let s = |v: F2Dot14| f64::from(v.to_f32());
-    let map = |px: i16, py: i16| {
-        let (px, py) = (f64::from(px), f64::from(py));
-        let t = &transform;
-        (
-            s(t.xx) * px + s(t.xy) * py + f64::from(x),
-            s(t.yx) * px + s(t.yy) * py + f64::from(y),
-        )
-    };
-    let mut bounds: Option<Rect> = None;
-    for p in shape.contours.iter().flat_map(|c| c.iter()) {
-        let (px, py) = map(p.x, p.y);
-        let at = Rect::new(px, py, px, py);
-        bounds = Some(bounds.map_or(at, |r| r.union(at)));
-    }
-    let r = bounds.unwrap_or(Rect::ZERO);
+    // as the file says it
+    let t = &transform;
+    let [xx, yx, xy, yy] = [t.xx, t.yx, t.xy, t.yy].map(|v| f64::from(v.to_f32()));
+    let map = Affine::new([xx, yx, xy, yy, f64::from(x), f64::from(y)]);
+    let points = shape.contours.iter().flat_map(|c| c.iter());
+    let points = points.map(|p| map * Point::new(f64::from(p.x), f64::from(p.y)));
+    let bounds = points.map(|p| Rect::from_points(p, p));
+    let r = bounds.reduce(|a, b| a.union(b)).unwrap_or(Rect::ZERO);
     let bbox = Bbox {
         x_min: to_i16(r.x0, what)?,
         y_min: to_i16(r.y0, what)?,

@@ -18,8 +18,8 @@ mod moments;
 use camera::Camera;
 use khatt::read::Pen;
 use khatt::scan::{self, Polarity};
-use khatt::template::{self, Direction, Layout, Page};
-use khatt::types::Cell;
+use khatt::template::{self, Layout, Page};
+use khatt::types::{Cell, Direction};
 use kurbo::{Affine, BezPath, Shape};
 use moments::Moments;
 use skrifa::instance::{LocationRef, Size};
@@ -89,7 +89,7 @@ fn page_rows(
         })
         .collect();
     let (bytes, view) = cam.take(page, &drawn);
-    let sheet = scan::load(&bytes, "page", Polarity::DarkInk).map_err(|e| e.to_string())?;
+    let sheet = scan::load(&bytes, "page", Polarity::DarkInk.into()).map_err(|e| e.to_string())?;
     let found = template::find(&sheet[0], layout).map_err(|e| e.to_string())?;
     if found.code != page.code {
         return Err(format!("read as {}", found.code));
@@ -125,8 +125,7 @@ fn main() {
     let names: Vec<(String, String)> = (0..layout.per_page() * 3)
         .map(|i| (format!("g{i}"), letters[i % letters.len()].0.to_string()))
         .collect();
-    let pages =
-        template::pages(&layout, Direction::LeftToRight, "Simulation", &names).expect("pages");
+    let pages = template::pages(&layout, Direction::Ltr, "Simulation", &names).expect("pages");
     let (mut rows, mut lost) = (Vec::new(), Vec::new());
     for i in 0..count {
         let page = &pages[(i * 5 % 3) as usize];

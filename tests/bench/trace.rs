@@ -9,7 +9,7 @@
 )]
 
 use khatt::pipeline::picture::{Options, trace_picture};
-use khatt::scan::{InkStreaks, Polarity, load};
+use khatt::scan::{InkStreaks, Reading, load};
 use khatt::types::Gray;
 use std::error::Error;
 use std::io::Write as _;
@@ -28,7 +28,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let options = Options::default();
     let (mut ours, mut potraces) = (Vec::new(), Vec::new());
     for file in &files {
-        let pages = load(&fs::read(file)?, file, Polarity::Auto)?;
+        let pages = load(&fs::read(file)?, file, Reading::default())?;
         for page in &pages {
             ours.push(least(|| {
                 Ok(trace_picture(&page.gray, InkStreaks::default(), &options).map(|_| ())?)

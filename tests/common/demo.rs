@@ -1,6 +1,6 @@
 //! The demo sheets, built once for all tests.
 
-use khatt::pipeline::{self, Built, Nothing, Project, Unwatched, World};
+use khatt::pipeline::{self, Built, Project, World};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
@@ -36,12 +36,7 @@ fn build(name: &str) -> Demo {
     let text = fs::read_to_string(folder.join(format!("{name}.toml"))).expect("a project");
     let project = Project::parse(&text).expect("a project file");
     let read = |path: &Path| fs::read(folder.join(path)).map_err(|e| e.to_string());
-    let world = World {
-        inputs: &read,
-        watch: &Unwatched,
-        created: 0,
-        store: &Nothing,
-    };
+    let world = World::of(&read);
     let built = pipeline::build(&project, world).expect("a font");
     let outputs = pipeline::outputs(&project, &built, None, world).expect("outputs");
     let single = outputs.files.into_iter().filter_map(|(path, files)| {

@@ -2,9 +2,9 @@
 
 use super::check;
 use crate::scan::{
-    self, Direction, InkGrain, InkStreaks, Inks, Options, Order, Polarity, Scale, Texture, Tones,
-    Turn,
+    self, InkGrain, InkStreaks, Inks, Options, Order, Polarity, Scale, Texture, Tones, Turn,
 };
+use crate::types::Direction;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 

@@ -1,7 +1,8 @@
 //! What a UFO says about itself.
 
 use crate::read::whole;
-use crate::types::{Info, Metrics};
+use crate::types::{Info, Metrics, UFO_DATE};
+use chrono::NaiveDateTime;
 use plist::Value;
 
 /// Keys of the information that a font has as they are.
@@ -98,20 +99,10 @@ fn vendor(text: &str) -> Option<[u8; 4]> {
     format!("{text:4}").into_bytes().try_into().ok()
 }
 
-/// Seconds since 1970 of `YYYY/MM/DD HH:MM:SS`, UTC, by the proleptic Gregorian calendar.
+/// Seconds since 1970 of a UFO's date, UTC.
 fn seconds(date: &str) -> Option<i64> {
-    let numbers = date.split(['/', ' ', ':']).map(|n| n.parse().ok());
-    let numbers: Vec<i64> = numbers.collect::<Option<_>>()?;
-    let [year, month, day, h, m, s]: [i64; 6] = numbers.try_into().ok()?;
-    // years begin in March here, so that the leap day ends them; day 0 is 0000-03-01
-    let (year, month) = if month > 2 {
-        (year, month - 3)
-    } else {
-        (year - 1, month + 9)
-    };
-    let leaps = year.div_euclid(4) - year.div_euclid(100) + year.div_euclid(400);
-    let days = 365 * year + leaps + (153 * month + 2) / 5 + day - 1 - 719_468;
-    Some(((days * 24 + h) * 60 + m) * 60 + s)
+    let date = NaiveDateTime::parse_from_str(date, UFO_DATE).ok()?;
+    Some(date.and_utc().timestamp())
 }
 
 /// The keys of the information whose values the font does not have.

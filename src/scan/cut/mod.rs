@@ -30,7 +30,7 @@ pub use remarks::{SMALL, SMALL_LETTER, is_full};
 use super::clean::Page;
 use super::components::{Component, gap};
 use super::deskew::{Edges, skew_deg};
-use super::error::ScanError;
+use super::error::{Fault, ScanError};
 use super::options::Options;
 use super::perspective::Scene;
 use super::separation::{Colour, Separation};
@@ -48,9 +48,10 @@ const DUST: f64 = 0.85;
 const LEAST_SKEW_DEG: f64 = 0.01;
 
 /// What a page was cut into.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Cut {
     /// The letters in reading order; a named cell without ink is left out and warned of.
+    #[serde(skip)]
     pub cells: Vec<Cell>,
     /// Ink that is in no cell.
     pub rejected: Vec<Rejected>,
@@ -66,12 +67,13 @@ pub struct Cut {
     /// The inks of the layers, the lowest first; none where letters have no layers.
     pub colours: Vec<Colour>,
     /// How badly the letters stand for what their names say, 0 to 1; above a third the page may lie on its side or
-    /// head. `None` where the names say too little.
+    /// head. `None` where the names say too little, or have said it.
+    #[serde(skip)]
     pub misfit: Option<f64>,
 }
 
 /// A piece of ink that is in no cell.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Rejected {
     /// Its rectangle in the sheet's picture, px.
     pub in_sheet: Rect,
@@ -108,7 +110,7 @@ pub enum Reason {
 }
 
 /// Something a user should look at.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Warning {
     /// Position in reading order, where it is about one cell.
     pub index: Option<usize>,
@@ -217,34 +219,22 @@ struct Layer {
     doubtful: Vec<usize>,
 }
 
-/// Cuts a clean page into cells: `labels` in reading order, `_` for a cell to be skipped.
+/// Cuts a clean page into cells: `labels` in reading order, `_` for a cell to be skipped; a user says the places of
+/// the cells that have `pins`.
 ///
 /// # Errors
 /// The layout does not hold the labels, ink has no label, or the em cannot be measured.
-pub fn cut(page: &Page, labels: &[Label], options: &Options) -> Result<Cut, ScanError> {
-    cut_with(page, labels, options, &[])
-}
-
-/// The same where a user says the places of some cells.
-///
-/// # Errors
-/// As of [`cut`].
-pub fn cut_with(
+pub fn cut(
     page: &Page,
     labels: &[Label],
     options: &Options,
     pins: &[Pin],
 ) -> Result<Cut, ScanError> {
     let cut = cut_page(page, labels, options, pins);
-    cut.map_err(|e| e.or_polarity(page.sheet.guessed))
+    cut.map_err(|fault| fault.of(&page.sheet.source, page.sheet.guessed))
 }
 
-fn cut_page(
-    page: &Page,
-    labels: &[Label],
-    options: &Options,
-    pins: &[Pin],
-) -> Result<Cut, ScanError> {
+fn cut_page(page: &Page, labels: &[Label], options: &Options, pins: &[Pin]) -> Result<Cut, Fault> {
     let gray = &page.sheet.gray;
     let (low, ink) = level::pieces(gray, page.noise);
     let Inks {

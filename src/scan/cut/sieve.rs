@@ -4,7 +4,7 @@ use super::{Reason, Rejected};
 use crate::numeric::median::weighted;
 use crate::scan::clean::Page;
 use crate::scan::components::Component;
-use crate::scan::error::ScanError;
+use crate::scan::error::Fault;
 use crate::scan::options::Options;
 use crate::scan::paper::Paper;
 use kurbo::Rect;
@@ -43,16 +43,13 @@ pub(super) struct Inks {
 }
 
 /// Parts the letters' ink from dust, from what lies beside the paper or runs along its edge, and from other inks.
-pub(super) fn sort(all: Vec<Component>, page: &Page, options: &Options) -> Result<Inks, ScanError> {
+pub(super) fn sort(all: Vec<Component>, page: &Page, options: &Options) -> Result<Inks, Fault> {
     let gray = &page.sheet.gray;
     let (found, mut beyond): (Vec<_>, Vec<_>) = all.into_iter().partition(|c| on_paper(c, page));
     let found = take_rims(found, page, &mut beyond);
     let (mut letters, mut other) = options.ink.part(found, page.sheet.colours.as_ref());
     if letters.is_empty() && !other.is_empty() {
-        return Err(ScanError::OtherInk {
-            source_name: page.sheet.source.clone(),
-            ink: options.ink.to_string(),
-        });
+        return Err(Fault::OtherInk(options.ink.to_string()));
     }
     let least = speck_limit(&letters);
     let mut specks = 0;

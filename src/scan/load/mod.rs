@@ -6,7 +6,7 @@ mod polarity;
 mod profile;
 mod tones;
 
-use super::error::{MAX_PIXELS, ScanError};
+use super::error::{Fault, MAX_PIXELS, ScanError};
 use super::header;
 use super::paper::is_outermost;
 use crate::numeric::median::range;
@@ -57,23 +57,6 @@ pub enum Polarity {
     LightInk,
 }
 
-/// The pages of a file in order, almost always one: PNG, JPEG, TIFF, BMP, GIF, WebP, PNM or PCX of 8 or
-/// 16 bit, or the scans inside a PDF. `source` names the file in messages.
-///
-/// Ink is 1 − luma (or luma, see [`Polarity`]), black and white of the file being 1 and 0: levels and noise
-/// stay as they were scanned, numbers in proportion to light ([`Tones`]). Transparency lies over white paper; where
-/// colour says nothing, opacity is the ink.
-///
-/// # Errors
-/// The content is no picture of these kinds, ends too early, is damaged, or is larger than a page can be.
-pub fn load(bytes: &[u8], source: &str, polarity: Polarity) -> Result<Vec<Sheet>, ScanError> {
-    let reading = Reading {
-        polarity,
-        ..Reading::default()
-    };
-    load_as(bytes, source, reading)
-}
-
 /// How a picture file is read.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Reading {
@@ -85,6 +68,15 @@ pub struct Reading {
     pub turn: Turn,
     /// How closely its colours are looked at.
     pub grain: Grain,
+}
+
+impl From<Polarity> for Reading {
+    fn from(polarity: Polarity) -> Self {
+        Self {
+            polarity,
+            ..Self::default()
+        }
+    }
 }
 
 /// How a picture must be turned to stand upright, beyond what its file says: clockwise.
@@ -138,29 +130,17 @@ impl Turn {
     }
 }
 
-/// The same, read in another way.
+/// The pages of a file in order, almost always one: PNG, JPEG, TIFF, BMP, GIF, WebP, PNM or PCX of 8 or
+/// 16 bit, or the scans inside a PDF. `source` names the file in messages.
+///
+/// Ink is 1 − luma (or luma, see [`Polarity`]), black and white of the file being 1 and 0: levels and noise
+/// stay as they were scanned, numbers in proportion to light ([`Tones`]). Transparency lies over white paper; where
+/// colour says nothing, opacity is the ink.
 ///
 /// # Errors
-/// As of [`load`].
-pub fn load_as(bytes: &[u8], source: &str, reading: Reading) -> Result<Vec<Sheet>, ScanError> {
-    let tones = reading.tones;
-    let pictures = if pdf::is_pdf(bytes) {
-        pdf::pages(bytes, source, tones)?
-    } else {
-        let pages = header::tiff_pages(bytes);
-        if pages.is_empty() {
-            vec![decode(bytes, source, tones)?]
-        } else {
-            // decoders begin at the first page: one copy, whose header points to one after the other
-            let mut file = bytes.to_vec();
-            let mut begun = |first: [u8; 4]| {
-                file[header::TIFF_FIRST].copy_from_slice(&first);
-                decode(&file, source, tones)
-            };
-            let decoded = pages.into_iter().map(&mut begun);
-            decoded.collect::<Result<_, ScanError>>()?
-        }
-    };
+/// The content is no picture of these kinds, ends too early, is damaged, or is larger than a page can be.
+pub fn load(bytes: &[u8], source: &str, reading: Reading) -> Result<Vec<Sheet>, ScanError> {
+    let pictures = pictures(bytes, reading.tones).map_err(|fault| fault.of(source, None))?;
     let several = pictures.len() > 1;
     let name = |n: usize| {
         if several {
@@ -171,8 +151,26 @@ pub fn load_as(bytes: &[u8], source: &str, reading: Reading) -> Result<Vec<Sheet
     };
     let sheets = pictures.into_iter().zip(1..);
     sheets
-        .map(|(picture, n)| sheet(picture, &name(n), reading))
+        .map(|(picture, n)| sheet(picture, name(n), reading))
         .collect()
+}
+
+/// The pictures of a file in order.
+fn pictures(bytes: &[u8], tones: Tones) -> Result<Vec<Picture>, Fault> {
+    if pdf::is_pdf(bytes) {
+        return pdf::pages(bytes, tones);
+    }
+    let pages = header::tiff_pages(bytes);
+    if pages.is_empty() {
+        return Ok(vec![decode(bytes, tones)?]);
+    }
+    // decoders begin at the first page: one copy, whose header points to one after the other
+    let mut file = bytes.to_vec();
+    let begun = |first: [u8; 4]| {
+        file[header::TIFF_FIRST].copy_from_slice(&first);
+        decode(&file, tones)
+    };
+    pages.into_iter().map(begun).collect()
 }
 
 /// A page as its file has it, upright.
@@ -184,7 +182,7 @@ struct Picture {
     dpi: Option<f64>,
 }
 
-fn sheet(picture: Picture, source: &str, reading: Reading) -> Result<Sheet, ScanError> {
+fn sheet(picture: Picture, source: String, reading: Reading) -> Result<Sheet, ScanError> {
     let Picture { image, light, dpi } = picture;
     let image = reading.turn.apply(image);
     let (width, height) = (image.width() as usize, image.height() as usize);
@@ -203,27 +201,21 @@ fn sheet(picture: Picture, source: &str, reading: Reading) -> Result<Sheet, Scan
         samples.par_iter_mut().for_each(|v| *v = 1.0 - *v);
         colours = None; // what light ink swallows says nothing of it
     }
-    let gray = Gray::new(width, height, samples).map_err(|e| ScanError::decode(source, e))?;
+    let gray = Gray::new(width, height, samples)
+        .map_err(|e| Fault::Decode(e.to_string()).of(&source, None))?;
     Ok(Sheet {
         gray,
         colours,
         dpi,
         guessed: (guess.certainty == Certainty::Doubtful).then_some(guess.shade),
-        source: source.to_owned(),
+        source,
     })
 }
 
 /// The light of a picture's numbers, which `told` says where `tones` leaves it to the file.
-fn light(
-    tones: Tones,
-    source: &str,
-    told: impl FnOnce() -> Result<Light, String>,
-) -> Result<Light, ScanError> {
+fn light(tones: Tones, told: impl FnOnce() -> Result<Light, String>) -> Result<Light, Fault> {
     let known = tones.light().map_or_else(told, Ok);
-    known.map_err(|why| ScanError::Tones {
-        source_name: source.to_owned(),
-        why,
-    })
+    known.map_err(Fault::Tones)
 }
 
 /// Whether a picture file says itself that its numbers are not in proportion to light, so that [`Tones::Profile`]
@@ -231,74 +223,59 @@ fn light(
 #[must_use]
 pub fn describes_light(bytes: &[u8]) -> bool {
     let told = |mut decoder: Box<dyn ImageDecoder + '_>| profile::of_file(bytes, &mut decoder).ok();
-    let light = opened(bytes, "").ok().and_then(told);
+    let light = opened(bytes).ok().and_then(told);
     light.is_some() && light != Tones::Linear.light()
 }
 
 /// The picture as the file has it, turned upright as its orientation tag says.
-fn decode(bytes: &[u8], source: &str, tones: Tones) -> Result<Picture, ScanError> {
-    let mut decoder = opened(bytes, source)?;
+fn decode(bytes: &[u8], tones: Tones) -> Result<Picture, Fault> {
+    let mut decoder = opened(bytes)?;
     if bytes.starts_with(b"\xff\xd8") && !header::jpeg_is_whole(bytes) {
-        return Err(ScanError::Truncated {
-            source_name: source.to_owned(),
-        });
+        return Err(Fault::Truncated);
     }
-    let light = light(tones, source, || profile::of_file(bytes, &mut decoder))?;
+    let light = light(tones, || profile::of_file(bytes, &mut decoder))?;
     let orientation = decoder.orientation().unwrap_or(Orientation::NoTransforms);
     let image = DynamicImage::from_decoder(decoder);
-    let mut image = image.map_err(|e| unreadable(e, source))?;
+    let mut image = image.map_err(unreadable)?;
     image.apply_orientation(orientation);
     let dpi = header::dpi(bytes);
     Ok(Picture { image, light, dpi })
 }
 
 /// What decodes a picture file that is no PDF, held to what a page may take.
-fn opened<'a>(bytes: &'a [u8], source: &str) -> Result<Box<dyn ImageDecoder + 'a>, ScanError> {
-    let source_name = || source.to_owned();
-    let fail = |e: ImageError| unreadable(e, source);
-    let kind = || ScanError::Kind {
-        source_name: source_name(),
-    };
+fn opened(bytes: &[u8]) -> Result<Box<dyn ImageDecoder + '_>, Fault> {
     // a PNG's is unpacked before any limit holds
     let profile = header::png_chunk(bytes, b"iCCP").map_or(0, <[u8]>::len);
     if profile as u64 > MAX_BYTES / DEFLATE {
-        return Err(ScanError::decode(
-            source,
-            "its colour profile is larger than a page",
-        ));
+        let why = "its colour profile is larger than a page";
+        return Err(Fault::Decode(why.to_owned()));
     }
     let mut decoder: Box<dyn ImageDecoder + '_> = if header::is_pcx(bytes) {
-        Box::new(PCXDecoder::new(Cursor::new(bytes)).map_err(fail)?)
+        Box::new(PCXDecoder::new(Cursor::new(bytes)).map_err(unreadable)?)
     } else {
         let reader = ImageReader::new(Cursor::new(bytes)).with_guessed_format();
-        let mut reader = reader.map_err(|_| kind())?;
-        reader.format().ok_or_else(kind)?;
+        let mut reader = reader.map_err(|_| Fault::Kind)?;
+        reader.format().ok_or(Fault::Kind)?;
         reader.no_limits();
-        Box::new(reader.into_decoder().map_err(fail)?)
+        Box::new(reader.into_decoder().map_err(unreadable)?)
     };
     let (width, height) = decoder.dimensions();
     if u64::from(width) * u64::from(height) > MAX_PIXELS || decoder.total_bytes() > MAX_BYTES {
-        return Err(ScanError::Large {
-            source_name: source_name(),
-            width,
-            height,
-        });
+        return Err(Fault::Large { width, height });
     }
     // `from_decoder` does not hold the decoder to any limit by itself.
     let mut limits = Limits::no_limits();
     limits.max_alloc = Some(2 * MAX_BYTES);
-    limits.reserve(decoder.total_bytes()).map_err(fail)?;
-    decoder.set_limits(limits).map_err(fail)?;
+    limits.reserve(decoder.total_bytes()).map_err(unreadable)?;
+    decoder.set_limits(limits).map_err(unreadable)?;
     Ok(decoder)
 }
 
 /// What a decoder says is wrong.
-fn unreadable(wrong: ImageError, source: &str) -> ScanError {
+fn unreadable(wrong: ImageError) -> Fault {
     match wrong {
-        ImageError::IoError(e) if e.kind() == ErrorKind::UnexpectedEof => ScanError::Truncated {
-            source_name: source.to_owned(),
-        },
-        e => ScanError::decode(source, e),
+        ImageError::IoError(e) if e.kind() == ErrorKind::UnexpectedEof => Fault::Truncated,
+        e => Fault::Decode(e.to_string()),
     }
 }
 

@@ -1,7 +1,7 @@
 //! The scans that a PDF file holds: the largest picture of each page, at its own resolution.
 
 use super::{Picture, Tones, light, profile};
-use crate::scan::error::{MAX_PIXELS, ScanError};
+use crate::scan::error::{Fault, MAX_PIXELS};
 use hayro_syntax::Pdf;
 use hayro_syntax::object::stream::{FilterResult, ImageDecodeParams};
 use hayro_syntax::object::{Array, Dict, Name, Stream};
@@ -19,26 +19,21 @@ pub(super) fn is_pdf(bytes: &[u8]) -> bool {
 }
 
 /// The picture of each page, upright, with its resolution where it covers the page.
-pub(super) fn pages(bytes: &[u8], source: &str, tones: Tones) -> Result<Vec<Picture>, ScanError> {
-    let fail = |why: &str| ScanError::decode(source, why);
+pub(super) fn pages(bytes: &[u8], tones: Tones) -> Result<Vec<Picture>, Fault> {
     let pdf = Pdf::new(bytes.to_vec()).map_err(|_| fail("the PDF file cannot be read"))?;
-    let pages = pdf.pages().iter().map(|p| page(p, source, tones, &fail));
-    let found: Result<Vec<_>, ScanError> = pages.collect();
-    found.and_then(|f| {
-        if f.is_empty() {
-            Err(fail("the PDF file has no page"))
-        } else {
-            Ok(f)
-        }
-    })
+    let pages = pdf.pages().iter().map(|p| page(p, tones));
+    let found: Vec<Picture> = pages.collect::<Result<_, _>>()?;
+    if found.is_empty() {
+        return Err(fail("the PDF file has no page"));
+    }
+    Ok(found)
 }
 
-fn page(
-    page: &Page<'_>,
-    source: &str,
-    tones: Tones,
-    fail: &dyn Fn(&str) -> ScanError,
-) -> Result<Picture, ScanError> {
+fn fail(why: &str) -> Fault {
+    Fault::Decode(why.to_owned())
+}
+
+fn page(page: &Page<'_>, tones: Tones) -> Result<Picture, Fault> {
     let objects = &page.resources().x_objects;
     let pictures = objects.keys().filter_map(|key| {
         let stream = objects.get::<Stream<'_>>(&key)?;
@@ -51,18 +46,14 @@ fn page(
     let ((width, height), stream) = largest
         .ok_or_else(|| fail("a page of the PDF file holds no scan, only drawn text or lines"))?;
     if u64::from(width) * u64::from(height) > MAX_PIXELS {
-        return Err(ScanError::Large {
-            source_name: source.to_owned(),
-            width,
-            height,
-        });
+        return Err(Fault::Large { width, height });
     }
     if claims_more(stream.dict(), width.max(height)) {
         return Err(fail(
             "its scan's coding claims other rows and columns than the scan has",
         ));
     }
-    let light = light(tones, source, || profile::of_pdf(stream.dict()))?;
+    let light = light(tones, || profile::of_pdf(stream.dict()))?;
     let image = decode(&stream, (width, height)).map_err(fail)?;
     let media = page.media_box();
     let (across, down) = (

@@ -61,7 +61,7 @@ fn read(picture: RgbImage, polarity: Polarity) -> Sheet {
             light: Tones::Linear.light().unwrap(),
             dpi: None,
         },
-        "page",
+        "page".to_owned(),
         Reading {
             polarity,
             ..Reading::default()

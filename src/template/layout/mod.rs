@@ -5,6 +5,7 @@ mod tests;
 
 use super::TemplateError;
 use crate::numeric::cast::index;
+use crate::types::Direction;
 use kurbo::{Point, Rect, Size};
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -391,8 +392,8 @@ impl Layout {
         let columns = self.columns();
         let (row, column) = (i / columns, i % columns);
         let column = match direction {
-            Direction::LeftToRight => column,
-            Direction::RightToLeft => columns - 1 - column,
+            Direction::Ltr => column,
+            Direction::Rtl => columns - 1 - column,
         };
         let (pitch, size) = (self.pitch(), self.field());
         let corner = Point::new(
@@ -436,16 +437,4 @@ const LEAST: f64 = 3.0;
 /// How many cells of at least `cell` mm fit a length.
 fn fit(length: f64, cell: f64) -> usize {
     index(length / cell + 1e-9).min(MOST)
-}
-
-/// The order in which the cells of a row are read.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Direction {
-    /// Left to right.
-    #[default]
-    #[serde(rename = "ltr")]
-    LeftToRight,
-    /// Right to left.
-    #[serde(rename = "rtl")]
-    RightToLeft,
 }

@@ -50,7 +50,7 @@ fn fields_neither_overlap_nor_leave_the_paper() {
             ..Layout::default()
         };
         layout.check().unwrap();
-        let pages = layout.places(&labels, Direction::RightToLeft);
+        let pages = layout.places(&labels, Direction::Rtl);
         assert_eq!(pages.len(), 2);
         for (i, a) in pages[0].iter().enumerate() {
             assert!(layout.paper_mm().to_rect().contains_rect(a.field));
@@ -95,7 +95,7 @@ fn fields_may_stand_anywhere() {
     ]);
     layout.check().unwrap();
     let labels: Vec<String> = ["a", "b", "c"].map(str::to_owned).to_vec();
-    let pages = layout.places(&labels, Direction::LeftToRight);
+    let pages = layout.places(&labels, Direction::Ltr);
     assert_eq!(pages.iter().map(Vec::len).collect::<Vec<_>>(), [2, 1]);
     assert_eq!(pages[1][0].index, 2);
     assert_eq!(pages[0][1].field, Rect::new(110.0, 60.0, 180.0, 140.0));
@@ -127,7 +127,7 @@ fn fields_may_stand_anywhere() {
 fn a_printing_is_known_by_its_name_and_places() {
     let labels: Vec<String> = ["a", "b"].map(str::to_owned).to_vec();
     let id = |layout: &Layout, name: &str, labels: &[String]| {
-        layout.id(name, &layout.places(labels, Direction::LeftToRight))
+        layout.id(name, &layout.places(labels, Direction::Ltr))
     };
     let layout = Layout::default();
     let same = Layout {

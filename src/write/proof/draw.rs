@@ -65,7 +65,7 @@ impl Drawn {
 
 /// From the cell picture's px (y down) to font units with y down.
 fn picture_to_user(entry: &Entry) -> Affine {
-    let up = to_picture(entry.picture.height()).inverse();
+    let up = to_picture(entry.picture.height).inverse();
     Affine::FLIP_Y * entry.frame.to_units() * up
 }
 
@@ -123,6 +123,6 @@ pub(super) fn path_data(path: &BezPath) -> String {
 
 /// The cell's picture in a data URI.
 pub(super) fn picture(png: &Png) -> String {
-    let data = STANDARD.encode(png.bytes());
+    let data = STANDARD.encode(&png.bytes);
     format!("data:image/png;base64,{data}")
 }

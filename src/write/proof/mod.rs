@@ -196,7 +196,7 @@ fn cell(entry: &Entry, info: &Info, memory: &Memory) -> Markup {
     html! {
         figure id=(format!("glyph-{name}")) data-name=(name) data-worst=(format!("{worst:.2}")) data-changed=(changed.unwrap_or(-1.0)) {
             svg viewBox=(drawn.view_box) role="img" aria-label=(name) {
-                g.scan { image href=(picture(&entry.picture)) transform=(drawn.picture) width=(entry.picture.width()) height=(entry.picture.height()) {} }
+                g.scan { image href=(picture(&entry.picture)) transform=(drawn.picture) width=(entry.picture.width) height=(entry.picture.height) {} }
                 path.guides d=(drawn.guides) {}
                 path.fill d=(drawn.path) {}
                 @if let Some(change) = change.as_ref().filter(|c| !c.path.is_empty()) { path.before d=(change.path) {} }

@@ -9,7 +9,8 @@ pub(super) mod states;
 
 use super::WriteError;
 use super::layout;
-use crate::types::{Files, Font, Glyph, Info, Layer};
+use crate::types::{Files, Font, Glyph, Info, Layer, UFO_DATE};
+use chrono::DateTime;
 use files::{bytes, failed};
 use kurbo::{BezPath, PathEl, Point, Vec2};
 use norad::fontinfo::{NonNegativeIntegerOrFloat, StyleMapStyle};
@@ -176,24 +177,10 @@ fn info(info: &Info) -> FontInfo {
     }
 }
 
-/// Seconds since 1970 as `YYYY/MM/DD HH:MM:SS`, UTC, by the proleptic Gregorian calendar.
+/// Seconds since 1970 as a UFO writes them, UTC; the first one where a date cannot be told.
 fn date(seconds: i64) -> String {
-    let (days, rest) = (seconds.div_euclid(86400), seconds.rem_euclid(86400));
-    // years begin in March here, so that the leap day ends them; day 0 is 0000-03-01
-    let day = days + 719_468;
-    let (era, day) = (day.div_euclid(146_097), day.rem_euclid(146_097));
-    let year = (day - day / 1460 + day / 36_524 - day / 146_096) / 365;
-    let day = day - (365 * year + year / 4 - year / 100);
-    let month = (5 * day + 2) / 153;
-    let day = day - (153 * month + 2) / 5 + 1;
-    let (month, next) = if month < 10 {
-        (month + 3, 0)
-    } else {
-        (month - 9, 1)
-    };
-    let year = year + era * 400 + next;
-    let (h, m, s) = (rest / 3600, rest / 60 % 60, rest % 60);
-    format!("{year:04}/{month:02}/{day:02} {h:02}:{m:02}:{s:02}")
+    let date = DateTime::from_timestamp(seconds, 0).unwrap_or_default();
+    date.format(UFO_DATE).to_string()
 }
 
 fn convert_glyph(glyph: &Glyph) -> Result<norad::Glyph, WriteError> {

@@ -3,7 +3,7 @@
 use super::{Outcome, Score, letters, same, stem};
 use khatt::pipeline::reference::{Script, spelling};
 use khatt::recognise::{Alphabet, Guess, Look, Method, Sample, once};
-use khatt::scan::{Polarity, load};
+use khatt::scan::{Reading, load};
 use khatt::types::{Gray, Label};
 use std::fs;
 
@@ -115,7 +115,7 @@ fn crops(folder: &str) -> Outcome<Vec<Sample>> {
     let mut crops = Vec::new();
     for path in paths {
         let name = path.display().to_string();
-        let pages = load(&fs::read(&path)?, &name, Polarity::Auto)?;
+        let pages = load(&fs::read(&path)?, &name, Reading::default())?;
         crops.extend(pages.first().map(|page| Sample {
             label: named(stem(&name)),
             gray: levelled(&page.gray),

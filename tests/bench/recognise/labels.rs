@@ -2,7 +2,7 @@
 
 use super::{Outcome, stem};
 use khatt::pipeline::project::Labels;
-use khatt::pipeline::{Nothing, Project, Unwatched, World, match_letters};
+use khatt::pipeline::{Project, World, match_letters};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -29,12 +29,7 @@ pub(super) fn run(references: &[&str]) -> Outcome {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("glyphs");
     let project = Project::parse(&fs::read_to_string(folder.join("latin.toml"))?)?;
     let read = |path: &Path| fs::read(folder.join(path)).map_err(|e| e.to_string());
-    let world = World {
-        inputs: &read,
-        watch: &Unwatched,
-        created: 0,
-        store: &Nothing,
-    };
+    let world = World::of(&read);
     let paths = references.iter().map(std::path::absolute);
     let paths: Vec<PathBuf> = paths.collect::<Result<_, _>>()?;
     let mut sets: Vec<(String, Vec<PathBuf>)> = Vec::new();

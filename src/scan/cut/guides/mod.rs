@@ -13,7 +13,7 @@ use crate::numeric::view::View;
 use crate::scan::clean::Page;
 use crate::scan::components::Component;
 use crate::scan::cut::largest;
-use crate::scan::error::ScanError;
+use crate::scan::error::Fault;
 use crate::scan::letters::{Head, Kind, Shape};
 use crate::scan::options::{Options, Scale};
 use baselines::{Letter, OVERSHOOT, ruled};
@@ -45,7 +45,7 @@ pub(super) fn measure(
     page: &Page,
     options: &Options,
     upright: impl Fn(&Slot) -> View,
-) -> Result<Guides, ScanError> {
+) -> Result<Guides, Fault> {
     let names = GlyphData::default();
     let letter = |s: &Slot| {
         let (view, gray) = (upright(s), &page.sheet.gray);
@@ -101,20 +101,12 @@ fn scale(
     drop: &[f64],
     page: &Page,
     options: &Options,
-) -> Result<(f64, Option<Warning>), ScanError> {
-    let source_name = || page.sheet.source.clone();
-    let height = |head, what| {
-        head_height(letters, drop, head).ok_or_else(|| ScanError::NoHeight {
-            source_name: source_name(),
-            what,
-        })
-    };
+) -> Result<(f64, Option<Warning>), Fault> {
+    let height = |head, what| head_height(letters, drop, head).ok_or(Fault::NoHeight(what));
     let px = match options.scale {
         Some(Scale::PixelsPerEm(px)) => px,
         Some(Scale::EmMm(mm)) => {
-            let dpi = page.sheet.dpi.ok_or_else(|| ScanError::NoResolution {
-                source_name: source_name(),
-            })?;
+            let dpi = page.sheet.dpi.ok_or(Fault::NoResolution)?;
             mm / MM_PER_INCH * dpi
         }
         Some(Scale::XHeight(em)) => height(Head::X, "the height of x")? / em,

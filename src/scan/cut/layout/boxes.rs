@@ -9,9 +9,8 @@ use super::{Task, listed};
 use crate::numeric::view::View;
 use crate::scan::components::{Component, enclosed};
 use crate::scan::cut::{Layer, Levels, Reason};
-use crate::scan::error::ScanError;
-use crate::scan::options::Direction;
-use crate::types::Label;
+use crate::scan::error::Fault;
+use crate::types::{Direction, Label};
 use kurbo::{Affine, Rect};
 use std::mem;
 
@@ -35,14 +34,14 @@ pub(super) fn place(
     all: &mut Vec<Component>,
     labels: &[Label],
     task: &Task<'_>,
-) -> Result<Layer, ScanError> {
+) -> Result<Layer, Fault> {
     let frames = frames(task);
     let mut order = rows(&frames);
     if task.options.direction == Direction::Rtl {
         order.iter_mut().for_each(|r| r.reverse());
     }
     let rows: Vec<usize> = order.iter().map(Vec::len).collect();
-    listed::check(&task.options.lines, &rows, task.source())?;
+    listed::check(&task.options.lines, &rows)?;
     let mut rejected = Vec::new();
     let mut inside: Vec<Vec<usize>> = vec![Vec::new(); frames.len()];
     let mut freed = Vec::new();
@@ -75,7 +74,7 @@ pub(super) fn place(
         let held = inside.iter().flatten().map(|&i| all[i].area).sum();
         let outside = rejected.iter().filter(|r| r.1 == Reason::Outside);
         let outside = outside.map(|r| all[r.0].area).sum();
-        return Err(too_many(task, frames.len(), labels, (held, outside)));
+        return Err(too_many(frames.len(), labels, (held, outside)));
     }
     let boxes = order.iter().enumerate();
     let boxes = boxes.flat_map(|(r, row)| row.iter().enumerate().map(move |(c, &f)| (r, c, f)));
@@ -86,12 +85,7 @@ pub(super) fn place(
         level: frames[f].y1,
         parts: mem::take(&mut inside[f]),
     });
-    let slots = named(
-        all,
-        places.collect(),
-        (labels, task.source()),
-        &mut rejected,
-    )?;
+    let slots = named(all, places.collect(), labels, &mut rejected)?;
     Ok(Layer {
         slots,
         rows: order.len(),
@@ -103,25 +97,15 @@ pub(super) fn place(
 }
 
 /// Why there are more names than boxes: too many names, or no boxes.
-fn too_many(
-    task: &Task<'_>,
-    found: usize,
-    labels: &[Label],
-    (held, outside): (usize, usize),
-) -> ScanError {
-    let (source_name, names) = (task.source().to_owned(), labels.len());
+fn too_many(found: usize, labels: &[Label], (held, outside): (usize, usize)) -> Fault {
+    let names = labels.len();
     match labels.get(found) {
-        Some(extra) if held as f64 > HELD * outside as f64 => ScanError::TooManyNames {
-            source_name,
+        Some(extra) if held as f64 > HELD * outside as f64 => Fault::TooManyNames {
             cells: found,
             names,
             extra: extra.0.clone(),
         },
-        _ => ScanError::NoBoxes {
-            source_name,
-            found,
-            names,
-        },
+        _ => Fault::NoBoxes { found, names },
     }
 }
 

@@ -3,13 +3,13 @@
 //! Where a list breaks says nothing, unless most of its lines are as long as their rows. Then each line is a row, and
 //! one with a name too many or too few has shifted all names after it.
 
-use crate::scan::error::ScanError;
+use crate::scan::error::Fault;
 
 /// Checks lines of names, by how many each has, against the cells or letters of each row.
 ///
 /// # Errors
 /// Lines are rows, and one that is as long as its row does not begin with it.
-pub(super) fn check(lines: &[usize], rows: &[usize], source: &str) -> Result<(), ScanError> {
+pub(super) fn check(lines: &[usize], rows: &[usize]) -> Result<(), Fault> {
     let both = || lines.iter().zip(rows);
     let fit = both().filter(|(names, cells)| names == cells).count();
     if lines.len() > rows.len() || 2 * fit <= lines.len() {
@@ -21,8 +21,7 @@ pub(super) fn check(lines: &[usize], rows: &[usize], source: &str) -> Result<(),
         if named == passed {
             odd = (names != cells).then_some((line, names, cells));
         } else if let Some((line, names, cells)) = odd.filter(|_| names == cells) {
-            return Err(ScanError::Line {
-                source_name: source.to_owned(),
+            return Err(Fault::Line {
                 line: line + 1,
                 names,
                 cells,
@@ -39,8 +38,8 @@ mod tests {
 
     /// The line that shifts those after it, from 1, and how many names it has.
     fn slip(lines: &[usize], rows: &[usize]) -> Option<(usize, usize)> {
-        match check(lines, rows, "page.png") {
-            Err(ScanError::Line { line, names, .. }) => Some((line, names)),
+        match check(lines, rows) {
+            Err(Fault::Line { line, names, .. }) => Some((line, names)),
             _ => None,
         }
     }

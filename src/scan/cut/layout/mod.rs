@@ -14,9 +14,9 @@ use super::Layer;
 use crate::numeric::view::View;
 use crate::scan::clean::Page;
 use crate::scan::components::Component;
-use crate::scan::error::ScanError;
-use crate::scan::options::{Direction, Layout, Options, Order};
-use crate::types::{Gray, Label};
+use crate::scan::error::Fault;
+use crate::scan::options::{Layout, Options, Order};
+use crate::types::{Direction, Gray, Label};
 
 /// A page to be laid out, and how.
 pub(super) struct Task<'a> {
@@ -33,10 +33,6 @@ impl<'a> Task<'a> {
     const fn gray(&self) -> &'a Gray {
         &self.page.sheet.gray
     }
-
-    fn source(&self) -> &'a str {
-        &self.page.sheet.source
-    }
 }
 
 /// Where the layout puts the pieces of a page.
@@ -44,11 +40,9 @@ pub(super) fn place(
     all: &mut Vec<Component>,
     labels: &[Label],
     task: &Task<'_>,
-) -> Result<Layer, ScanError> {
+) -> Result<Layer, Fault> {
     if !labels.is_empty() && labels.iter().all(|l| l.0 == "_") {
-        return Err(ScanError::NoNames {
-            source_name: task.source().to_owned(),
-        });
+        return Err(Fault::NoNames);
     }
     match task.options.layout {
         Layout::Grid(rows, columns) => {

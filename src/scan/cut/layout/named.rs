@@ -3,7 +3,7 @@
 use crate::numeric::median::middle;
 use crate::scan::components::Component;
 use crate::scan::cut::{Reason, Slot};
-use crate::scan::error::ScanError;
+use crate::scan::error::Fault;
 use crate::types::Label;
 
 /// Ink in a place without a name counts from this share of a usual place's ink.
@@ -34,9 +34,9 @@ pub(super) struct Place {
 pub(super) fn named(
     all: &[Component],
     places: Vec<Place>,
-    (labels, source): (&[Label], &str),
+    labels: &[Label],
     rejected: &mut Vec<(usize, Reason)>,
-) -> Result<Vec<Slot>, ScanError> {
+) -> Result<Vec<Slot>, Fault> {
     let ink = |parts: &[usize]| parts.iter().map(|&i| all[i].area).sum::<usize>();
     let least = least(places.iter().map(|p| ink(&p.parts)));
     let mut slots = Vec::new();
@@ -53,8 +53,7 @@ pub(super) fn named(
                 parts: place.parts,
             }),
             None if ink(&place.parts) as f64 > least => {
-                return Err(ScanError::TooFewNames {
-                    source_name: source.to_owned(),
+                return Err(Fault::TooFewNames {
                     row: place.row + 1,
                     column: place.column + 1,
                     names: labels.len(),

@@ -200,22 +200,13 @@ fn a_forgotten_name_is_told() {
     let forgotten = names.remove(12);
     assert_eq!(forgotten, "uni062D");
     let error = cut_page(&paper, &names.join(" "), &free()).unwrap_err();
-    let ScanError::Count {
-        found,
-        rows,
-        names: given,
-        doubts,
-        ..
-    } = &error
-    else {
-        panic!("{error}");
-    };
-    assert_eq!((*found, *given), (31, 30));
-    assert_eq!(rows, "8, 8, 8, 7");
-    assert!(
-        doubts.contains("of row 2 seems to have no name"),
-        "{doubts}"
-    );
+    let told = error.to_string();
+    for part in [
+        "has 31 letters in rows of 8, 8, 8, 7, and 30 names",
+        "of row 2 seems to have no name",
+    ] {
+        assert!(told.contains(part), "{told}");
+    }
 }
 
 /// Letters that look alike may each be the one without a name, and names of letters that look alike the one without a
@@ -229,7 +220,7 @@ fn all_places_where_a_name_may_be_forgotten_are_told() {
     let paper = page(&rows, 0.0, 0.0);
     let all: Vec<&str> = rows.iter().flat_map(|r| r.split(' ')).collect();
     let told = |names: &[&str]| match cut_page(&paper, &names.join(" "), &free()) {
-        Err(ScanError::Count { doubts, .. }) => doubts,
+        Err(Fault::Count { doubts, .. }) => doubts,
         other => panic!("{other:?}"),
     };
     let mut fewer = all.clone();
@@ -276,7 +267,7 @@ fn a_letter_under_a_tail_hides_no_forgotten_name() {
         names.remove(forgotten);
         let told = cut_page(&paper, &names.join(" "), &free());
         assert!(
-            matches!(told, Err(ScanError::Count { .. })),
+            matches!(told, Err(Fault::Count { .. })),
             "{forgotten} of {all}"
         );
     }
@@ -287,10 +278,7 @@ fn a_letter_under_a_tail_hides_no_forgotten_name() {
 fn far_more_names_than_ink_are_refused_before_they_are_read() {
     let names = vec!["uni062D"; 20_000].join(" ");
     let told = cut_page(&page(&ROWS, 0.0, 0.0), &names, &free());
-    assert!(matches!(
-        told,
-        Err(ScanError::FewPieces { names: 20_000, .. })
-    ));
+    assert!(matches!(told, Err(Fault::FewPieces { names: 20_000, .. })));
 }
 
 #[test]
@@ -299,10 +287,7 @@ fn a_page_of_lines_alone_is_told() {
     paper.bar(60.0, 100.0, 640.0, 20.0);
     paper.bar(60.0, 250.0, 640.0, 20.0);
     let error = cut_page(&paper, "A B", &free()).unwrap_err();
-    assert!(
-        matches!(error, ScanError::NoLetters { names: 2, .. }),
-        "{error}"
-    );
+    assert!(matches!(error, Fault::NoLetters(2)), "{error}");
 }
 
 /// A name whose letter was not drawn takes no other one's dot.
@@ -318,7 +303,7 @@ fn a_name_too_many_is_told() {
         let mut names: Vec<&str> = rows.iter().flat_map(|r| r.split(' ')).collect();
         names.insert(at, "uni0648");
         let told = cut_page(&paper, &names.join(" "), &free());
-        assert!(matches!(told, Err(ScanError::Count { .. })), "before {at}");
+        assert!(matches!(told, Err(Fault::Count { .. })), "before {at}");
     }
 }
 
@@ -342,8 +327,8 @@ fn a_name_too_many_that_takes_one_of_three_dots_is_told() {
         let mut names = all.clone();
         names.insert(at, "uni0648");
         match cut(&names, &[]).unwrap_err() {
-            ScanError::Count { .. } => {}
-            ScanError::SpareName { among, .. } => {
+            Fault::Count { .. } => {}
+            Fault::SpareName { among, .. } => {
                 let told = among.split("number ").skip(1);
                 let told = told.filter_map(|s| s.split(')').next()?.parse().ok());
                 let told: Vec<usize> = told.collect();
@@ -394,7 +379,7 @@ fn letters_whose_place_is_said_stand_in_the_rows_of_their_neighbours() {
         };
         let pins: Vec<Pin> = pinned.iter().map(pin).collect();
         let page = clean(paper.scan(), Texture::default()).unwrap();
-        let cut = cut_with(&page, &labels(&ROWS.join(" ")), &free(), &pins).unwrap();
+        let cut = cut(&page, &labels(&ROWS.join(" ")), &free(), &pins).unwrap();
         assert_whole(&cut, 0.0, "pinned");
         for cell in &cut.cells {
             let foot = 100.0 + PITCH.1 * (cell.index / 8) as f64;
@@ -512,18 +497,12 @@ fn a_line_of_names_that_is_no_row_is_told() {
         assert_eq!(cut(lines).map(|c| c.cells.len()), Ok(39), "{lines:?}");
     }
     let error = cut(&[8, 7, 8, 8, 8]).map(|c| c.cells.len()).unwrap_err();
-    assert!(
-        matches!(
-            error,
-            ScanError::Line {
-                line: 2,
-                names: 7,
-                cells: 8,
-                ..
-            }
-        ),
-        "{error}"
-    );
+    let told = Fault::Line {
+        line: 2,
+        names: 7,
+        cells: 8,
+    };
+    assert_eq!(error, told);
 }
 
 /// A page of [`ROWS`] whose longer strokes are each in two parts.

@@ -14,6 +14,12 @@ fn second(name: &str, bars: &[(f64, f64, f64, f64)]) -> Rect {
     cut.cells[1].in_sheet - Vec2::new(0.0, 20.0)
 }
 
+/// Takes the second letter's dot from the page.
+fn take_dot(paper: &mut Paper) {
+    let is_dot = |r: &Rect| r.y0 <= 79.0 && (200.0..=225.0).contains(&r.x0);
+    paper.bars.retain(|b| !is_dot(&b.0));
+}
+
 #[test]
 fn dust_smaller_than_dots_is_none_where_a_letter_has_no_dots() {
     for mote in [(209.0, 112.0, 4.0, 4.0), (215.0, 65.0, 4.0, 4.0)] {
@@ -56,9 +62,7 @@ fn letters_without_signs_have_none() {
         let mut paper = grid_page(0.0);
         paper.bar(235.0, 70.0, 8.0, 8.0);
         let names = NAMES.replacen('i', name, 1);
-        paper
-            .bars
-            .retain(|b| b.0.y0 > 79.0 || b.0.x0 < 200.0 || b.0.x0 > 225.0);
+        take_dot(&mut paper);
         let cut = cut_page(&paper, &names, &options(Layout::Grid(4, 5))).unwrap();
         let found = cut.cells[1].in_sheet;
         assert!(found.width() < 10.0, "{name}: {found:?}");
@@ -100,9 +104,7 @@ fn the_sign_of_a_kaf_lies_within_it() {
         ("ك.medi", (222.0, 112.0, 8.0, 8.0), false),
     ] {
         let mut paper = grid_page(0.0);
-        paper
-            .bars
-            .retain(|b| b.0.y0 > 79.0 || b.0.x0 < 200.0 || b.0.x0 > 225.0);
+        take_dot(&mut paper);
         for (x, y, w, h) in [stroke, mote] {
             paper.bar(x, y + 20.0, w, h);
         }
@@ -121,9 +123,7 @@ fn the_sign_of_a_kaf_lies_within_it() {
 fn dust_thicker_than_the_strokes_is_no_piece_of_them() {
     for (side, kept) in [(6.0, true), (12.0, false)] {
         let mut paper = grid_page(0.0);
-        paper
-            .bars
-            .retain(|b| b.0.y0 > 79.0 || b.0.x0 < 200.0 || b.0.x0 > 225.0);
+        take_dot(&mut paper);
         paper.bar(219.0, 96.0, side, side);
         let names = NAMES.replacen('i', "l", 1);
         let cut = cut_page(&paper, &names, &options(Layout::Grid(4, 5))).unwrap();
@@ -134,9 +134,7 @@ fn dust_thicker_than_the_strokes_is_no_piece_of_them() {
 #[test]
 fn a_thin_end_that_is_parted_stays_with_its_letter() {
     let mut paper = grid_page(0.0);
-    paper
-        .bars
-        .retain(|b| b.0.y0 > 79.0 || b.0.x0 < 200.0 || b.0.x0 > 225.0);
+    take_dot(&mut paper);
     // less ink than dust may have, in the line of a stroke and close to it
     paper.bar(217.0, 97.0, 11.0, 2.0);
     let names = NAMES.replacen('i', "l", 1);
@@ -197,10 +195,7 @@ fn with_spots(spots: usize) -> Vec<f64> {
         names[i] = form;
     }
     for &i in &cells[..spots] {
-        let (x, y) = (
-            90.0 + 120.0 * (i % 5) as f64,
-            120.0 + 100.0 * (i / 5) as f64,
-        );
+        let (x, y) = foot(i);
         paper.bar(x, y + 4.0, 5.0, 5.0);
     }
     let cut = cut_page(&paper, &names.join(" "), &options(Layout::Grid(4, 5))).unwrap();
@@ -332,7 +327,7 @@ fn dust_beside_a_grid_does_not_move_it() {
     let letters = |paper: &Paper| {
         let cut = cut_page(paper, &names, &options(Layout::Grid(3, 23)))?;
         let boxes = cut.cells.iter().map(|c| c.in_sheet);
-        Ok::<Vec<Rect>, ScanError>(boxes.collect())
+        Ok::<Vec<Rect>, Fault>(boxes.collect())
     };
     for place in 0..10 {
         let mut dusty = paper.clone();

@@ -22,7 +22,7 @@ fn beside_black(sheet: &Sheet, [left, top, right, bottom]: [usize; 4]) -> Sheet 
 /// The skew of a page and how many letters it was cut into.
 fn cut_sheet(sheet: Sheet) -> (f64, usize) {
     let page = clean(sheet, Texture::default()).unwrap();
-    let cut = cut(&page, &labels(NAMES), &options(Layout::Grid(4, 5))).unwrap();
+    let cut = cut(&page, &labels(NAMES), &options(Layout::Grid(4, 5)), &[]).unwrap();
     (cut.skew_deg, cut.cells.len())
 }
 
@@ -71,6 +71,7 @@ fn a_letter_that_touches_a_lid_is_cut_free() {
         &clean(sheet, Texture::default()).unwrap(),
         &labels(NAMES),
         &options(Layout::Grid(4, 5)),
+        &[],
     )
     .unwrap();
     assert_eq!(cut.cells.len(), 20);
@@ -89,7 +90,7 @@ fn a_shadow_over_half_of_a_page_can_be_read_as_the_page() {
         }),
         ..plain.clone()
     };
-    let cut = |page: &Page| cut(page, &labels(NAMES), &options(Layout::Grid(4, 5)));
+    let cut = |page: &Page| cut(page, &labels(NAMES), &options(Layout::Grid(4, 5)), &[]);
     let lit = cut(&clean(sheet(), Texture::default()).unwrap()).map_or(0, |cut| cut.cells.len());
     assert!(lit < 20, "what is dark seems to lie beside the page");
     let page = clean_otherwise(sheet(), Texture::default())

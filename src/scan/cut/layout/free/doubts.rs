@@ -3,7 +3,7 @@
 
 use super::reading::{Reading, Role};
 use crate::scan::cut::layout::touching::Touch;
-use crate::scan::error::ScanError;
+use crate::scan::error::Fault;
 
 /// So many places are told; where more are in doubt, it is not one name that was forgotten.
 const TOLD: usize = 3;
@@ -109,17 +109,13 @@ impl Unread {
     /// The error of a page that has so many names; `label` says the text of one, and its number on the page.
     pub(super) fn error<'a>(
         &self,
-        source: &str,
         names: usize,
         label: impl Fn(usize) -> (&'a str, usize),
-    ) -> ScanError {
+    ) -> Fault {
         // places that only dirt makes are no rows
         let rows: Vec<usize> = self.rows.iter().copied().filter(|&n| n > 0).collect();
         if rows.is_empty() {
-            return ScanError::NoLetters {
-                source_name: source.to_owned(),
-                names,
-            };
+            return Fault::NoLetters(names);
         }
         let place = |row: usize| {
             let before = self.rows.iter().take(row);
@@ -171,8 +167,7 @@ impl Unread {
             doubts.push(format!("{more} more places are in doubt"));
         }
         let each: Vec<String> = rows.iter().map(usize::to_string).collect();
-        ScanError::Count {
-            source_name: source.to_owned(),
+        Fault::Count {
             found: rows.iter().sum(),
             rows: each.join(", "),
             names,

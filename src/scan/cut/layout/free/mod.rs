@@ -18,10 +18,9 @@ use crate::numeric::median::{median, weighted};
 use crate::scan::components::Component;
 use crate::scan::cut::sieve::{LATTICE_COVER, stroke_width};
 use crate::scan::cut::{self, Layer, Levels, Reason, Slot};
-use crate::scan::error::ScanError;
+use crate::scan::error::Fault;
 use crate::scan::letters::{Pieces, Shape};
-use crate::scan::options::Direction;
-use crate::types::Label;
+use crate::types::{Direction, Label};
 use doubts::Unread;
 use glyphs_reader::glyphdata::GlyphData;
 use kurbo::Rect;
@@ -63,13 +62,12 @@ pub(super) fn place(
     all: &mut Vec<Component>,
     labels: &[Label],
     task: &Task<'_>,
-) -> Result<Layer, ScanError> {
+) -> Result<Layer, Fault> {
     let claims = task.claims;
     let unclaimed = |index: &usize| claims.iter().all(|(c, _)| c != index);
     let names: Vec<usize> = (0..labels.len()).filter(unclaimed).collect();
     if names.len() > HELD * all.len() {
-        return Err(ScanError::FewPieces {
-            source_name: task.source().to_owned(),
+        return Err(Fault::FewPieces {
             pieces: all.len(),
             names: names.len(),
         });
@@ -86,8 +84,8 @@ pub(super) fn place(
         let index = names.get(k).copied().unwrap_or_default();
         (labels.get(index).map_or("", |l| l.0.as_str()), index + 1)
     };
-    let (read, parted) = read(all, &shapes, task)
-        .map_err(|unread| unread.error(task.source(), names.len(), label))?;
+    let (read, parted) =
+        read(all, &shapes, task).map_err(|unread| unread.error(names.len(), label))?;
     let spare = read.spare.map(|s| [*s.start(), *s.end()].map(|k| names[k]));
     let doubtful = read.doubtful.iter().map(|&k| names[k]).collect();
     let mut names = names.into_iter();
@@ -96,10 +94,10 @@ pub(super) fn place(
     claims.iter().for_each(|c| seat(all, &mut rows, c));
     rows.sort_by_key(|row| row.iter().map(|l| l.0).min());
     let counts: Vec<usize> = rows.iter().map(Vec::len).collect();
-    listed::check(&task.options.lines, &counts, task.source())?;
+    listed::check(&task.options.lines, &counts)?;
     // lines that are the page's rows say how many letters there are
     if let Some(among) = spare.filter(|_| task.options.lines != counts) {
-        return Err(spare_name(labels, among, task.source()));
+        return Err(spare_name(labels, among));
     }
     let mut layer = layer(rows, labels);
     layer.rejected.extend(read.out);
@@ -108,7 +106,7 @@ pub(super) fn place(
     Ok(layer)
 }
 
-fn spare_name(labels: &[Label], among: [usize; 2], source: &str) -> ScanError {
+fn spare_name(labels: &[Label], among: [usize; 2]) -> Fault {
     let name = |i: usize| format!("“{}” (number {})", labels[i].0, i + 1);
     let [first, last] = among;
     let among = if first == last {
@@ -116,8 +114,7 @@ fn spare_name(labels: &[Label], among: [usize; 2], source: &str) -> ScanError {
     } else {
         format!("one of those from {} to {}", name(first), name(last))
     };
-    ScanError::SpareName {
-        source_name: source.to_owned(),
+    Fault::SpareName {
         names: labels.len(),
         among,
     }

@@ -16,7 +16,7 @@ use crate::scan::cut::largest;
 use crate::scan::cut::marks::{self, SMALL, group};
 use crate::scan::cut::sieve::LATTICE_COVER;
 use crate::scan::cut::{Layer, Levels, Reason, gap};
-use crate::scan::error::ScanError;
+use crate::scan::error::Fault;
 use crate::scan::letters::{Pieces, Shape};
 use crate::types::Label;
 use axis::Axis;
@@ -37,8 +37,8 @@ pub(super) fn place(
     all: &mut Vec<Component>,
     labels: &[Label],
     plan: &Plan<'_>,
-) -> Result<Layer, ScanError> {
-    listed::check(&plan.task.options.lines, &plan.lines(), plan.task.source())?;
+) -> Result<Layer, Fault> {
+    listed::check(&plan.task.options.lines, &plan.lines())?;
     plan.too_many(labels)?;
     let lines = lines(all, plan);
     let is_lined = !lines.is_empty();
@@ -49,15 +49,12 @@ pub(super) fn place(
     all.extend(freed);
     let mut letters: Vec<usize> = (0..all.len()).filter(|i| !lines.contains(i)).collect();
     let mut rejected: Vec<(usize, Reason)> = lines.iter().map(|&i| (i, Reason::Line)).collect();
-    let blank = || ScanError::Blank {
-        source_name: plan.task.source().to_owned(),
-    };
     let lattice: Vec<&Component> = lines.iter().map(|&i| &all[i]).collect();
     let plan = &Plan {
         printed: ruling::heights(&lattice, &plan.task.upright),
         ..plan.clone()
     };
-    let mut shared = share(all, &letters, labels, plan).ok_or_else(blank)?;
+    let mut shared = share(all, &letters, labels, plan).ok_or(Fault::Blank)?;
     let names = GlyphData::default();
     let label = |cell: usize| labels.get(plan.index((cell / plan.columns, cell % plan.columns))?);
     let one_piece = |l: &Label| Shape::of(l, &names).pieces == Pieces::One;
@@ -72,7 +69,7 @@ pub(super) fn place(
     let printed = furniture::find(all, &shared, &asked);
     if !printed.is_empty() {
         letters.retain(|i| !printed.contains(i));
-        shared = share(all, &letters, labels, plan).ok_or_else(blank)?;
+        shared = share(all, &letters, labels, plan).ok_or(Fault::Blank)?;
         rejected.extend(printed.into_iter().map(|i| (i, Reason::Furniture)));
     }
     let parted = across::part(all, &mut letters, &mut shared, (labels, plan));
@@ -95,12 +92,7 @@ pub(super) fn place(
             parts,
         })
     });
-    let slots = named(
-        all,
-        places.collect(),
-        (labels, plan.task.source()),
-        &mut rejected,
-    )?;
+    let slots = named(all, places.collect(), labels, &mut rejected)?;
     Ok(Layer {
         slots,
         rows: plan.rows,

@@ -1,7 +1,7 @@
 //! The grid that a user said.
 
 use crate::scan::cut::layout::{Task, position};
-use crate::scan::error::ScanError;
+use crate::scan::error::Fault;
 use crate::scan::options::Order;
 use crate::types::Label;
 
@@ -23,7 +23,7 @@ impl<'a> Plan<'a> {
         task: &'a Task<'a>,
         rows: usize,
         columns: usize,
-    ) -> Result<Self, ScanError> {
+    ) -> Result<Self, Fault> {
         let gray = task.gray();
         let fits = |n: usize, side: usize| n > 0 && n <= side / LEAST_CELL;
         let fine = fits(rows, gray.height()) && fits(columns, gray.width());
@@ -33,7 +33,7 @@ impl<'a> Plan<'a> {
             task,
             printed: Vec::new(),
         })
-        .ok_or(ScanError::NoGrid { rows, columns })
+        .ok_or(Fault::NoGrid { rows, columns })
     }
 
     pub(super) fn place(&self, index: usize) -> (usize, usize) {
@@ -52,11 +52,10 @@ impl<'a> Plan<'a> {
         }
     }
 
-    pub(super) fn too_many(&self, labels: &[Label]) -> Result<(), ScanError> {
+    pub(super) fn too_many(&self, labels: &[Label]) -> Result<(), Fault> {
         let cells = self.rows * self.columns;
         labels.get(cells).map_or(Ok(()), |extra| {
-            Err(ScanError::TooManyNames {
-                source_name: self.task.source().to_owned(),
+            Err(Fault::TooManyNames {
                 cells,
                 names: labels.len(),
                 extra: extra.0.clone(),
