@@ -14,7 +14,7 @@
 //! and the middle of each end becomes a cursive anchor (`entry`, `exit`): text programs shift letters until the ends
 //! of two meet.
 
-use super::stroke::{self, Edges, End, Side, Tab, Warp};
+use super::stroke::{self, Edges, End, OPENING, Side, Tab, Warp};
 use super::{Draft, Note};
 use crate::types::Outline;
 use kurbo::{BezPath, Shape};
@@ -72,10 +72,6 @@ const DEPTH: f64 = 0.012;
 
 /// Thinnest and thickest stroke that can be a joining one, em.
 const THICKNESS: (f64, f64) = (0.008, 0.3);
-
-/// How much thicker a stroke becomes over a length of its end at most, part of that length: half a right angle
-/// between its edges. What opens wider is a body's bow or tooth.
-const OPENING: f64 = 1.0;
 
 /// The most that an edge's slope is changed: a sixth of a right angle. A stroke that runs on more
 /// steeply than that is no end but a bend.

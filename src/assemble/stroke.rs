@@ -194,8 +194,12 @@ const DEPTHS: u32 = 17;
 const GROWTH: f64 = 0.015;
 
 /// Roundness grows ever less further in. Where the next growth is at least this part of one, the stroke
-/// itself widens.
+/// itself widens, unless it opens: then its end is cut at a slant.
 const TAPER: f64 = 0.8;
+
+/// How much thicker a stroke becomes over a length of its end at most, part of that length: half a right angle
+/// between its edges. What opens wider is a slanted end, or a body's bow or tooth.
+pub(super) const OPENING: f64 = 1.0;
 
 /// Every stroke end on that side: each place that sticks out, measured where its roundness is over,
 /// `depth` inside at least.
@@ -208,6 +212,30 @@ pub(super) fn ends(contours: &[BezPath], side: Side, depth: f64) -> Vec<End> {
         }
     }
     out
+}
+
+/// How far inside a tip the roundness of a stroke's end is over, and its slant; of what opens all along, where it first
+/// does so steadily. None where the contour ends before.
+fn over(thickness: impl Fn(f64) -> Option<f64>, depth: f64) -> Option<f64> {
+    let growth = |inside: f64| {
+        let here = thickness(inside)?;
+        let next = thickness(inside + depth)?;
+        let further = thickness(inside + 2.0 * depth).unwrap_or(f64::INFINITY);
+        let is_steady = next - here <= (GROWTH * here).max((further - next) / TAPER);
+        Some((is_steady, next - here))
+    };
+    let (mut opening, mut inside) = (None, depth);
+    for quarter in 4..4 + DEPTHS {
+        inside = 0.25 * depth * f64::from(quarter);
+        let Some((is_steady, growth)) = growth(inside) else {
+            return opening;
+        };
+        if is_steady && growth < OPENING * depth {
+            return Some(inside);
+        }
+        opening = opening.or(is_steady.then_some(inside));
+    }
+    opening.or(Some(inside))
 }
 
 impl Walk {
@@ -223,19 +251,7 @@ impl Walk {
             ))
         };
         let thickness = |inside: f64| at(inside).map(|(a, b)| (a.at.y - b.at.y).abs());
-        let is_over = |inside: f64| {
-            let here = thickness(inside)?;
-            let next = thickness(inside + depth)?;
-            let further = thickness(inside + 2.0 * depth).unwrap_or(f64::INFINITY);
-            Some(next - here <= (GROWTH * here).max((further - next) / TAPER))
-        };
-        let mut inside = depth;
-        for quarter in 4..4 + DEPTHS {
-            inside = 0.25 * depth * f64::from(quarter);
-            if is_over(inside)? {
-                break;
-            }
-        }
+        let inside = over(thickness, depth)?;
         let ((after, before), (far_after, far_before)) = (at(inside)?, at(inside + depth)?);
         let slope = |near: Place, far: Place| (far.at.y - near.at.y) / side.inward(depth);
         let one = (after.at.y, slope(after, far_after));
@@ -403,6 +419,23 @@ mod tests {
             let end = &ends(&[BezPath::from_svg(svg).unwrap()], Side::Left, 12.0)[0];
             let depth = end.cut - end.tip;
             assert!((least..most).contains(&depth), "{svg}: {depth}");
+        }
+    }
+
+    #[test]
+    fn an_end_cut_at_a_slant_is_measured_behind_it_and_a_tooth_at_once() {
+        for (svg, least, edges) in [
+            ("M0 0L36 75L200 75L200 0Z", 36.0, (0.0, 75.0)),
+            ("M0 0L80 160L200 160L200 -160L80 -160Z", 12.0, (-24.0, 24.0)),
+        ] {
+            let end = &ends(&[BezPath::from_svg(svg).unwrap()], Side::Left, 12.0)[0];
+            let depth = end.cut - end.tip;
+            assert!((least..least + 3.1).contains(&depth), "{svg}: {depth}");
+            let (low, high) = end.edges;
+            assert!(
+                (low - edges.0).abs() < 1e-3 && (high - edges.1).abs() < 1e-3,
+                "{end:?}"
+            );
         }
     }
 
