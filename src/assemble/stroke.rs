@@ -201,6 +201,9 @@ const TAPER: f64 = 0.8;
 /// between its edges. What opens wider is a slanted end, or a body's bow or tooth.
 pub(super) const OPENING: f64 = 1.0;
 
+/// And behind a slanted end, which is no bow: that opens ever less.
+const PARALLEL: f64 = 0.25;
+
 /// Every stroke end on that side: each place that sticks out, measured where its roundness is over,
 /// `depth` inside at least.
 pub(super) fn ends(contours: &[BezPath], side: Side, depth: f64) -> Vec<End> {
@@ -230,7 +233,8 @@ fn over(thickness: impl Fn(f64) -> Option<f64>, depth: f64) -> Option<f64> {
         let Some((is_steady, growth)) = growth(inside) else {
             return opening;
         };
-        if is_steady && growth < OPENING * depth {
+        let most = if opening.is_some() { PARALLEL } else { OPENING };
+        if is_steady && growth < most * depth {
             return Some(inside);
         }
         opening = opening.or(is_steady.then_some(inside));
@@ -437,6 +441,13 @@ mod tests {
                 "{end:?}"
             );
         }
+    }
+
+    #[test]
+    fn a_bow_opens_where_it_is_measured() {
+        let bow = "M0 120C0 54 54 0 120 0L400 0L400 240L120 240C54 240 0 186 0 120Z";
+        let end = &ends(&[BezPath::from_svg(bow).unwrap()], Side::Left, 12.0)[0];
+        assert!(end.slopes.1 - end.slopes.0 > OPENING, "{end:?}");
     }
 
     #[test]
