@@ -201,8 +201,11 @@ const TAPER: f64 = 0.8;
 /// between its edges. What opens wider is a slanted end, or a body's bow or tooth.
 pub(super) const OPENING: f64 = 1.0;
 
-/// And behind a slanted end, which is no bow: that opens ever less.
+/// And behind a slanted end, as soon as that is passed, which takes a first depth: a bow opens ever less.
 const PARALLEL: f64 = 0.25;
+const PASSED: u32 = 5;
+/// Of what a slant opens the stroke's other edge makes this share at most.
+const ONE_EDGE: f64 = 1.0 / 3.0;
 
 /// Every stroke end on that side: each place that sticks out, measured where its roundness is over,
 /// `depth` inside at least.
@@ -218,8 +221,9 @@ pub(super) fn ends(contours: &[BezPath], side: Side, depth: f64) -> Vec<End> {
 }
 
 /// How far inside a tip the roundness of a stroke's end is over, and its slant; of what opens all along, where it first
-/// does so steadily. None where the contour ends before.
-fn over(thickness: impl Fn(f64) -> Option<f64>, depth: f64) -> Option<f64> {
+/// does so steadily. None where the contour ends before. `edges` says where the contour passes at a distance inside.
+fn over(edges: impl Fn(f64) -> Option<Edges>, depth: f64) -> Option<f64> {
+    let thickness = |inside: f64| edges(inside).map(|(a, b)| (a - b).abs());
     let growth = |inside: f64| {
         let here = thickness(inside)?;
         let next = thickness(inside + depth)?;
@@ -227,19 +231,36 @@ fn over(thickness: impl Fn(f64) -> Option<f64>, depth: f64) -> Option<f64> {
         let is_steady = next - here <= (GROWTH * here).max((further - next) / TAPER);
         Some((is_steady, next - here))
     };
-    let (mut opening, mut inside) = (None, depth);
-    for quarter in 4..4 + DEPTHS {
+    // a slant is one edge's; both open at a tooth
+    let is_one_edge = |inside: f64, growth: f64| {
+        let moved = edges(inside).zip(edges(inside + depth));
+        moved.is_some_and(|(here, next)| {
+            let (one, other) = ((next.0 - here.0).abs(), (next.1 - here.1).abs());
+            one.min(other) < ONE_EDGE * growth
+        })
+    };
+    // where it opens steadily, and how fast
+    let mut slant: Option<(f64, f64)> = None;
+    let (mut quarter, mut left) = (4_u32, DEPTHS);
+    let mut inside = depth;
+    while left > 0 {
         inside = 0.25 * depth * f64::from(quarter);
         let Some((is_steady, growth)) = growth(inside) else {
-            return opening;
+            return slant.map(|(first, _)| first);
         };
-        let most = if opening.is_some() { PARALLEL } else { OPENING };
+        let most = if slant.is_some() { PARALLEL } else { OPENING };
         if is_steady && growth < most * depth {
             return Some(inside);
         }
-        opening = opening.or(is_steady.then_some(inside));
+        (quarter, left) = (quarter + 1, left - 1);
+        if is_steady && slant.is_none() {
+            slant = Some((inside, growth));
+        }
+        if slant.is_some_and(|(_, fast)| growth > TAPER * fast) && is_one_edge(inside, growth) {
+            left = left.max(PASSED);
+        }
     }
-    opening.or(Some(inside))
+    Some(slant.map_or(inside, |(first, _)| first))
 }
 
 impl Walk {
@@ -254,8 +275,7 @@ impl Walk {
                 self.cross(tip, cut, side, back)?,
             ))
         };
-        let thickness = |inside: f64| at(inside).map(|(a, b)| (a.at.y - b.at.y).abs());
-        let inside = over(thickness, depth)?;
+        let inside = over(|inside| at(inside).map(|(a, b)| (a.at.y, b.at.y)), depth)?;
         let ((after, before), (far_after, far_before)) = (at(inside)?, at(inside + depth)?);
         let slope = |near: Place, far: Place| (far.at.y - near.at.y) / side.inward(depth);
         let one = (after.at.y, slope(after, far_after));
@@ -430,6 +450,7 @@ mod tests {
     fn an_end_cut_at_a_slant_is_measured_behind_it_and_a_tooth_at_once() {
         for (svg, least, edges) in [
             ("M0 0L36 75L200 75L200 0Z", 36.0, (0.0, 75.0)),
+            ("M0 0L69 95L200 95L200 0Z", 69.0, (0.0, 95.0)),
             ("M0 0L80 160L200 160L200 -160L80 -160Z", 12.0, (-24.0, 24.0)),
         ] {
             let end = &ends(&[BezPath::from_svg(svg).unwrap()], Side::Left, 12.0)[0];
