@@ -14,8 +14,8 @@
 //! Where letters stand well and a hand's strokes vary, `v` is nothing, and so is every letter's stray.
 //!
 //! A letter that strays by more than its strokes are thick may have its body where the others' strokes would meet it,
-//! so that none of its own is told (`Height::may_be`). Its ends are taken from all that are as thick: the likeliest
-//! that lie apart, and off the usual height, as other letters' do.
+//! so that none of its own is told. Of all its ends that are as thick (`Height::may_be`) those are taken then that
+//! differ least from each other and from the usual height, in deviations of the other letters.
 
 use super::joining::{self, Height, Method, Options};
 use super::{AssembleError, Drawn};
