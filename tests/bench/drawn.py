@@ -5,11 +5,11 @@
         --unsteady 2.2 cairo-400.ttf lateef-400.ttf
 
 A page has every Arabic form of the font, each in its own way turned (1.5° in one standard deviation), scaled in both directions and slanted
-(3 %), bent by slow waves (some 12 thousandths of the em) and off its place (0.2 mm), all times --unsteady. Counted are the words of words.txt
+(3 %), bent by slow waves (6 thousandths of the em) and off its place (0.2 mm), all times --unsteady. Counted are the words of words.txt
 with a gap at a join, the joining strokes that cannot be brought to the others' height or are not found, and the letters that are moved to
 their row. --keep FOLDER keeps pages and fonts.
 """
-import argparse, math, os, subprocess, sys, tempfile, zlib
+import argparse, contextlib, io, math, os, subprocess, sys, tempfile, zlib
 
 import numpy as np
 
@@ -62,10 +62,8 @@ def row(args, name, folder):
         return f"| {name} | no such font below {', '.join(args.fonts)} |"
     picture = os.path.join(folder, "page.png")
     if not os.path.exists(picture + ".json"):
-        with open(os.devnull, "w") as nowhere:
-            sys.stdout, shown = nowhere, sys.stdout
+        with contextlib.redirect_stdout(io.StringIO()):
             draw(args.bench, path, args.unsteady, picture)
-            sys.stdout = shown
     project = untried.page(args.bench, path, ["--forms"], "", folder)[1]
     build = subprocess.run([args.khatt, "build", "--no-cache", project], capture_output=True, text=True)
     if build.returncode:
