@@ -8,6 +8,7 @@ use khatt::assemble::names;
 use khatt::pipeline::picture::{Options, trace_picture};
 use khatt::recognise;
 use khatt::scan::{self, InkGrain, InkStreaks, Reading, Tones};
+use khatt::trace::Edges;
 use khatt::types::{Gray, Label, Sheet};
 use khatt::write::{self, centerline};
 use khatt::{corner, fit};
@@ -49,8 +50,12 @@ pub(crate) struct Trace {
     /// What becomes of pale streaks in ink, as of a ballpoint: they are filled, or stay [default: fill]
     #[arg(long, value_name = "STREAKS", value_parser = PossibleValuesParser::new(InkStreaks::ALL.map(|s| s.0)))]
     streaks: Option<String>,
+    /// What becomes of ragged edges, as of a felt pen on paper: curves run smoothly along them, or follow them
+    /// [default: smooth]
+    #[arg(long, value_name = "EDGES", value_parser = PossibleValuesParser::new(Edges::ALL.map(|e| e.0)))]
+    edges: Option<String>,
     /// Give the middle of the lines that a pen drew, with their width, in place of their outline
-    #[arg(long, conflicts_with_all = ["fit", "corners", "tolerance", "speckle"])]
+    #[arg(long, conflicts_with_all = ["fit", "corners", "tolerance", "speckle", "edges"])]
     centerline: bool,
 }
 
@@ -154,6 +159,7 @@ impl Trace {
         if let Some(area) = self.speckle {
             options.trace.speckle_px2 = area;
         }
+        options.trace.edges = named(Edges::ALL, self.edges.as_deref());
         let fit = |m: &fit::Method| self.fit.as_deref() == Some(m.key());
         if let Some(method) = fit::Method::all().into_iter().find(fit) {
             options.fit = method;

@@ -39,6 +39,8 @@ pub struct Options {
     pub speckle_px2: f64,
     /// What the contour runs along.
     pub boundary: Boundary,
+    /// What becomes of ragged edges; of [`Boundary::Iso`] alone.
+    pub edges: Edges,
 }
 
 /// What a contour runs along.
@@ -52,6 +54,22 @@ pub enum Boundary {
     Chain,
 }
 
+/// What becomes of edges that are ragged all along, as a felt pen's on paper.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Edges {
+    /// What they waver is no part of the drawing: curves need not follow it.
+    #[default]
+    Smooth,
+    /// They are followed as they are.
+    Keep,
+}
+
+impl Edges {
+    /// All, by the names that they have in projects.
+    pub const ALL: [(&'static str, Self); 2] = [("smooth", Self::Smooth), ("keep", Self::Keep)];
+}
+
 impl Default for Options {
     fn default() -> Self {
         Self {
@@ -59,6 +77,7 @@ impl Default for Options {
             // a blot of 2 × 2 px: no scanner resolves a drawn mark that small
             speckle_px2: 4.0,
             boundary: Boundary::Iso,
+            edges: Edges::Smooth,
         }
     }
 }
@@ -84,10 +103,14 @@ pub fn trace(gray: &Gray, options: &Options) -> Vec<Contour> {
         let rings = rings_at(&lifted, options.level).into_iter();
         even = large(rings, options).filter_map(spaced).collect();
     }
-    let ragged = ragged::ragged_px(&even);
+    let ragged = match options.edges {
+        Edges::Smooth => ragged::ragged_px(&even),
+        Edges::Keep => 0.0,
+    };
+    let scatter = gray.scatter_px().hypot(ragged::waver_px(ragged));
     let told = |c: Contour| {
         let c = c.with_blur(blur).with_ragged(ragged);
-        c.with_scatter(gray.scatter_px())
+        c.with_scatter(scatter)
     };
     even.into_iter().map(told).collect()
 }

@@ -100,7 +100,7 @@ impl Contour {
         self.blur_px
     }
 
-    /// The same ring, of ink whose edge strays by a standard deviation of `rough_px` within a few pixels.
+    /// The same ring, of ink whose raggedness hides what is drawn within such a length, px.
     #[must_use]
     pub const fn with_ragged(mut self, ragged_px: f64) -> Self {
         self.ragged_px = ragged_px;
@@ -120,7 +120,8 @@ impl Contour {
         self
     }
 
-    /// How far off its points are beyond what they show themselves, a standard deviation, px ([`Gray::scatter_px`]).
+    /// How far off its points are beyond what they show themselves, a standard deviation, px: those of the picture
+    /// ([`Gray::scatter_px`]), and the wavering of ragged ink.
     ///
     /// [`Gray::scatter_px`]: super::Gray::scatter_px
     #[must_use]

@@ -81,6 +81,13 @@ def scratches(rng, ink, dot, em):
     return scanned(rng, ink * (1 - 0.95 * gaussian_filter(pale, 0.7 * dot)) * (0.95 + 0.05 * np.tanh(grain(rng, ink.shape, 1.5 * dot))), dot)
 
 
+def fibres(rng, ink, dot, em):
+    """A felt pen's: ink runs along the paper's fibres, so that edges stray as much as on a real page of one."""
+    y, x = places(ink)
+    strays = [0.6 * dot * grain(rng, ink.shape, dot) + 0.3 * dot * grain(rng, ink.shape, 6 * dot) for _ in "yx"]
+    return scanned(rng, map_coordinates(ink, [y + strays[0], x + strays[1]], order=1, mode="nearest"), dot)
+
+
 def pencil(rng, ink, dot, em):
     """Graphite on the paper's tooth."""
     tooth, coarse = grain(rng, ink.shape, 1.3 * dot), grain(rng, ink.shape, 3 * dot)
@@ -180,6 +187,7 @@ WAYS = {
     ),
     "ballpoint": streaks,
     "ballpoint that skips": scratches,
+    "felt pen": fibres,
     "pencil": pencil,
     "blue": coloured((240, 238, 232), (35, 55, 160)),
     "red": coloured((240, 238, 232), (200, 45, 50)),
