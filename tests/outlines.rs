@@ -4,6 +4,7 @@ use khatt::numeric::cast::single;
 use khatt::numeric::coverage::blur;
 use khatt::pipeline::picture::{Options, trace_picture};
 use khatt::scan::InkStreaks;
+use khatt::trace::{self, Edges};
 use khatt::types::Gray;
 use khatt::write::picture::to_picture;
 use kurbo::{Affine, BezPath, ParamCurve, ParamCurveArclen, PathEl, PathSeg, Point, Shape, Vec2};
@@ -396,6 +397,55 @@ fn no_ink_is_lost() {
         let here = got.iter().filter(|p| p.winding(c) != 0).count();
         assert_eq!(here, 1, "a disk of {r} px at {c}");
     }
+}
+
+/// How far ink runs along paper's fibres at a place, px: in blots of 2 and of 6 px.
+fn fibres(p: Point) -> f64 {
+    let blots = |px: f64, salt: u64| {
+        let (x, y) = (p.x / px, p.y / px);
+        let at = |i: f64, j: f64| {
+            let mixed = (i.to_bits() ^ j.to_bits().rotate_left(29) ^ salt)
+                .wrapping_mul(0x9e37_79b9_7f4a_7c15);
+            f64::from((mixed >> 40) as u32) / f64::from(1_u32 << 23) - 1.0
+        };
+        let (i, j) = (x.floor(), y.floor());
+        let (u, v) = (x - i, y - j);
+        let row = |j: f64| at(i, j) * (1.0 - u) + at(i + 1.0, j) * u;
+        row(j) * (1.0 - v) + row(j + 1.0) * v
+    };
+    blots(2.0, 1) + 0.8 * blots(6.0, 2)
+}
+
+#[test]
+fn ragged_ink_is_drawn_as_smoothly_as_it_was_meant() {
+    let drawn = |p: Point| rounded(p, Point::new(100.3, 99.8), 70.2, 25.0);
+    let gray = out_of_focus(&picture(200, |p| drawn(p) + fibres(p)), 0.5);
+    let kept = Options {
+        trace: trace::Options {
+            edges: Edges::Keep,
+            ..trace::Options::default()
+        },
+        ..Options::default()
+    };
+    let (found, kept) = (outlines(&gray), traced(&gray, &kept));
+    assert_eq!((found.len(), kept.len()), (1, 1));
+    let mean = |path: &BezPath| {
+        let all = points(path);
+        all.iter().map(|p| drawn(*p).abs()).sum::<f64>() / all.len() as f64
+    };
+    let (smooth, ragged) = (&found[0], &kept[0]);
+    assert!(nodes(smooth) <= 16, "{} nodes of 8", nodes(smooth));
+    assert!(
+        nodes(ragged) >= 2 * nodes(smooth),
+        "{} nodes kept",
+        nodes(ragged)
+    );
+    assert!(
+        mean(smooth) < 0.7 * mean(ragged),
+        "{} {}",
+        mean(smooth),
+        mean(ragged)
+    );
 }
 
 /// A picture of two levels: each pixel is what its middle is.

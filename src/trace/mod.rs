@@ -24,6 +24,7 @@ use crate::{
     types::{Contour, Gray},
 };
 use kurbo::Point;
+use ragged::Ragged;
 use serde::{Deserialize, Serialize};
 
 pub use focus::{WIDE_PX, focused, spread_px};
@@ -104,12 +105,12 @@ pub fn trace(gray: &Gray, options: &Options) -> Vec<Contour> {
         even = large(rings, options).filter_map(spaced).collect();
     }
     let ragged = match options.edges {
-        Edges::Smooth => ragged::ragged_px(&even),
-        Edges::Keep => 0.0,
+        Edges::Smooth => Ragged::of(&even),
+        Edges::Keep => Ragged::default(),
     };
-    let scatter = gray.scatter_px().hypot(ragged::waver_px(ragged));
+    let scatter = gray.scatter_px().hypot(ragged.waver_px);
     let told = |c: Contour| {
-        let c = c.with_blur(blur).with_ragged(ragged);
+        let c = c.with_blur(blur).with_ragged(ragged.hidden_px);
         c.with_scatter(scatter)
     };
     even.into_iter().map(told).collect()

@@ -13,28 +13,36 @@ const FLOOR_PX: f64 = 0.07;
 
 /// Length along a ragged edge that tells nothing, in its standard deviations.
 const BLIND: f64 = 10.0;
-/// And at most this part of a stroke's width: what is larger was drawn.
-const OF_WIDTH: f64 = 0.05;
-
 /// Ragged edges waver over tens of px by so many times what they stray within a few: a felt pen's at 300 dpi by 0.13,
 /// 0.19 and 0.27 px from parabolas over 5, 10 and 20 px to each side.
 const WAVES: f64 = 5.0;
+/// Both are at most this part of a stroke's width: what is larger was drawn.
+const OF_WIDTH: f64 = 0.05;
 /// The bends of small letters pass for as much raggedness, px.
-const BENDS_PX: f64 = 0.05;
+const BENDS_PX: f64 = 0.06;
 
-/// Length, px along the contours of a picture, within which their raggedness hides what is drawn; 0 for edges as
-/// smooth as tracing makes them.
-pub(super) fn ragged_px(contours: &[Contour]) -> f64 {
-    let rough = BLIND * rough_px(contours);
-    let area: f64 = contours.iter().map(Contour::area).sum();
-    let length: f64 = contours.iter().map(Contour::length).sum();
-    rough.min(OF_WIDTH * 2.0 * area.abs() / length)
+/// How ragged a picture's edges are.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Ragged {
+    /// Length along the edges within which that hides what is drawn, px.
+    pub(super) hidden_px: f64,
+    /// How far the edges waver, a standard deviation, px: what a curve need not follow.
+    pub(super) waver_px: f64,
 }
 
-/// How far edges waver that are ragged over such a length, a standard deviation, px: what a curve need not follow.
-pub(super) fn waver_px(ragged_px: f64) -> f64 {
-    let rough = ragged_px / BLIND;
-    WAVES * (rough * rough - BENDS_PX * BENDS_PX).max(0.0).sqrt()
+impl Ragged {
+    /// Of the contours of a picture; nothing for edges as smooth as tracing makes them.
+    pub(super) fn of(contours: &[Contour]) -> Self {
+        let rough = rough_px(contours);
+        let area: f64 = contours.iter().map(Contour::area).sum();
+        let length: f64 = contours.iter().map(Contour::length).sum();
+        let width = 2.0 * area.abs() / length;
+        let waver = (rough * rough - BENDS_PX * BENDS_PX).max(0.0).sqrt();
+        Self {
+            hidden_px: (BLIND * rough).min(OF_WIDTH * width),
+            waver_px: (WAVES * waver).min(OF_WIDTH * width),
+        }
+    }
 }
 
 /// Robust standard deviation of contours' points from parabolas through their neighbours, px, without what
