@@ -46,17 +46,19 @@ PAGES = [
 IOU = 0.9
 
 
+def project(page, layout, keys, names):
+    """A page's project file."""
+    image, glyphs = json.dumps(os.path.abspath(page)), json.dumps(" ".join(names))
+    return f'[font]\nfamily = "P"\n[[sheet]]\nimage = {image}\nlayout = {layout}\n{keys}\nglyphs = {glyphs}\n'
+
+
 def cut(khatt, page, layout, keys, names):
     """The cells of a page as `khatt cut` lists them, or what it said."""
     with tempfile.TemporaryDirectory() as out:
-        project = os.path.join(out, "p.toml")
-        quoted = json.dumps(" ".join(names))
-        with open(project, "w") as f:
-            f.write(
-                f'[font]\nfamily = "P"\n[[sheet]]\nimage = {json.dumps(os.path.abspath(page))}\n'
-                f"layout = {layout}\n{keys}\nglyphs = {quoted}\n"
-            )
-        run = subprocess.run([khatt, "cut", project, "-o", os.path.join(out, "cells")], capture_output=True, text=True)
+        file = os.path.join(out, "p.toml")
+        with open(file, "w") as f:
+            f.write(project(page, layout, keys, names))
+        run = subprocess.run([khatt, "cut", file, "-o", os.path.join(out, "cells")], capture_output=True, text=True)
         if run.returncode:
             return [], run.stderr.strip()
         with open(os.path.join(out, "cells", "cells.json")) as f:
