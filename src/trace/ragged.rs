@@ -18,8 +18,10 @@ const BLIND: f64 = 10.0;
 const WAVES: f64 = 5.0;
 /// Both are at most this part of a stroke's width: what is larger was drawn.
 const OF_WIDTH: f64 = 0.05;
-/// The bends of small letters pass for as much raggedness, px.
-const BENDS_PX: f64 = 0.06;
+/// What passes for raggedness and does not waver: the pixels' steps along slanting edges, px, and the bends of thin
+/// strokes, px of a stroke of 1 px.
+const STEPS_PX: f64 = 0.035;
+const BENDS_PX: f64 = 0.7;
 
 /// How ragged a picture's edges are.
 #[derive(Debug, Clone, Copy, Default)]
@@ -37,7 +39,8 @@ impl Ragged {
         let area: f64 = contours.iter().map(Contour::area).sum();
         let length: f64 = contours.iter().map(Contour::length).sum();
         let width = 2.0 * area.abs() / length;
-        let waver = (rough * rough - BENDS_PX * BENDS_PX).max(0.0).sqrt();
+        let passes = STEPS_PX.hypot(BENDS_PX / width);
+        let waver = (rough * rough - passes * passes).max(0.0).sqrt();
         Self {
             hidden_px: (BLIND * rough).min(OF_WIDTH * width),
             waver_px: (WAVES * waver).min(OF_WIDTH * width),
