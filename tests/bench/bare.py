@@ -5,12 +5,12 @@
         'FreeSans.ttf --rows 8 --cols 9 --skew 2' 'KacstBook.ttf --forms --rows 12 --cols 10 --condition rough'
 
 A page is a font's file, found below --fonts, and options of make_sheet.py, as in untried.py; --pages FILE reads one a line, as bare.txt,
-bare-unseen.txt, bare-uneven.txt, bare-later.txt, bare-last.txt and bare-drawn.txt have them. Pages of --forms are read from the right. A piece is a letter's where half of its ink lies in the letter's cell; a letter has its pieces where
+bare-unseen.txt, bare-uneven.txt, bare-slopes.txt, bare-later.txt, bare-last.txt and bare-drawn.txt have them. Pages of --forms are read from the right. A piece is a letter's where half of its ink lies in the letter's cell; a letter has its pieces where
 its cell has all of its own and none of another letter's. Dust is ink of no letter, a dot's worth or more, in a cell. Behind the figures of
 the free page stand those of the same page as a grid. Baselines are compared with the page's own, of the letters in order: how far they scatter
 (standard deviation) and how far the worst lies from the median, in 1/1000 em; a page drawn with jitter has that much in it. --keep FOLDER keeps pages and cells, and draws none anew that is there. --forget N
 cuts each page so often again with one name left out, and counts how often that is told, and told at its place or the next one, and where names stand in lines, and as often with one name too many. A page's
-own option --stray MM moves its rows up and down by so much in the mean. --build appends what font_bench.py says of the font of each bare
+own options --stray MM and --slope DEGREES move its rows up and down and let them slope by so much in the mean. --build appends what font_bench.py says of the font of each bare
 page.
 Needs numpy, scipy, pillow and what make_sheet.py needs.
 """
@@ -37,20 +37,23 @@ def draw(bench, font, options, folder):
     if not os.path.exists(picture + ".json"):
         own = argparse.ArgumentParser()
         own.add_argument("--stray", type=float, default=0)
+        own.add_argument("--slope", type=float, default=0)
         own, options = own.parse_known_args(options)
         command = [sys.executable, os.path.join(bench, "make_sheet.py"), "--font-file", font, "--chars", "latin"]
         subprocess.run(command + options + ["--out", picture], check=True, capture_output=True)
-        if own.stray:
-            stray(picture, own.stray)
+        if own.stray or own.slope:
+            stray(picture, own.stray, own.slope)
     return json.load(open(picture + ".json"))
 
 
-def stray(picture, mm):
-    """Moves the rows of a page up and down, as they stand where no line guides a hand, by a standard deviation of so many mm."""
+def stray(picture, mm, degrees):
+    """Moves the rows of a page up and down and lets them slope, as they stand where no line guides a hand, by standard deviations of so
+    many mm and degrees; letters stay upright."""
     truth, page = json.load(open(picture + ".json")), Image.open(picture)
     old = np.asarray(page).copy()
     new, rng = old.copy(), np.random.default_rng(zlib.crc32(truth["font"].encode()))
-    moves = np.rint(rng.normal(0, mm * truth["dpi"] / 25.4, truth["rows"])).astype(int)
+    moves = rng.normal(0, mm * truth["dpi"] / 25.4, truth["rows"])
+    slopes = np.tan(np.radians(rng.normal(0, degrees, truth["rows"])))
     boxes = []
     for cell in truth["cells"]:
         (left, top), (right, bottom) = (np.floor(cell["ink_box"])[k : k + 2].astype(int) for k in (0, 2))
@@ -58,7 +61,9 @@ def stray(picture, mm):
         ring = old[boxes[-1]]
         new[boxes[-1]] = np.median(np.concatenate([ring[0], ring[-1], ring[:, 0], ring[:, -1]]))
     for cell, (down, across) in zip(truth["cells"], boxes):
-        move = int(np.clip(moves[cell["row"]], -down.start, len(new) - down.stop))
+        aside = (across.start + across.stop - new.shape[1]) / 2
+        move = round(moves[cell["row"]] + slopes[cell["row"]] * aside)
+        move = int(np.clip(move, -down.start, len(new) - down.stop))
         there = new[down.start + move : down.stop + move, across]
         np.minimum(there, old[down, across], out=there)
         cell["ink_box"] = [v + move * (k % 2) for k, v in enumerate(cell["ink_box"])]

@@ -29,7 +29,7 @@ pub use remarks::{SMALL, SMALL_LETTER, is_full};
 
 use super::clean::Page;
 use super::components::{Component, gap};
-use super::deskew::{Edges, skew_deg};
+use super::deskew::{self, Edges};
 use super::error::{Fault, ScanError};
 use super::options::Options;
 use super::perspective::Scene;
@@ -46,6 +46,8 @@ use std::fmt;
 const DUST: f64 = 0.85;
 /// Skews below this, degrees, are left alone: over a page they move a letter by a hair.
 const LEAST_SKEW_DEG: f64 = 0.01;
+/// Rows that slope each in its own way say so where the page is turned by as much more, degrees.
+const LEAST_TURN_DEG: f64 = 0.25;
 
 /// What a page was cut into.
 #[derive(Debug, Clone, Serialize, Deserialize)]
@@ -230,11 +232,19 @@ pub fn cut(
     options: &Options,
     pins: &[Pin],
 ) -> Result<Cut, ScanError> {
-    let cut = cut_page(page, labels, options, pins);
+    let cut = cut_page(page, labels, options, pins, None);
     cut.map_err(|fault| fault.of(&page.sheet.source, page.sheet.guessed))
 }
 
-fn cut_page(page: &Page, labels: &[Label], options: &Options, pins: &[Pin]) -> Result<Cut, Fault> {
+/// Cuts a page that is turned by `skew_deg`, or by what its ink tells; where rows slope each in its own way the ink as a
+/// whole tells little, and their mean says it better.
+fn cut_page(
+    page: &Page,
+    labels: &[Label],
+    options: &Options,
+    pins: &[Pin],
+    skew_deg: Option<f64>,
+) -> Result<Cut, Fault> {
     let gray = &page.sheet.gray;
     let (low, ink) = level::pieces(gray, page.noise);
     let Inks {
@@ -246,7 +256,9 @@ fn cut_page(page: &Page, labels: &[Label], options: &Options, pins: &[Pin]) -> R
     let separation = Separation::measure(&page.sheet, &all, &options.ink, speck_limit(&all))?;
     let telling = telling(&all, page);
     let edges = Edges::new(&telling, gray.height());
-    let skew_deg = Some(skew_deg(&edges)).filter(|s| s.abs() >= LEAST_SKEW_DEG);
+    let given = skew_deg;
+    let skew_deg = given.unwrap_or_else(|| deskew::skew_deg(&edges));
+    let skew_deg = Some(skew_deg).filter(|s| s.abs() >= LEAST_SKEW_DEG);
     let skew_deg = skew_deg.unwrap_or(0.0);
     let middle = Point::new(gray.width() as f64 / 2.0, gray.height() as f64 / 2.0);
     let upright = Scene {
@@ -280,7 +292,19 @@ fn cut_page(page: &Page, labels: &[Label], options: &Options, pins: &[Pin]) -> R
     let specks = specks - marks::give(&mut layer, &mut all, small, sieve::dot_limit(stroke));
     marks::dust(&mut layer, &all, &claims, (DUST * stroke).powi(2));
     let seen = |slot: &Slot| pins::stance(slot.index, pins, &upright).0;
-    let guides = guides::measure(&layer, &all, page, options, seen)?;
+    let guides = guides::measure(&mut layer, &all, page, options, seen)?;
+    if given.is_none() && guides.turn_deg.abs() >= LEAST_TURN_DEG {
+        let turned = cut_page(
+            page,
+            labels,
+            options,
+            pins,
+            Some(skew_deg + guides.turn_deg),
+        );
+        if let Ok(cut) = turned {
+            return Ok(cut);
+        }
+    }
     let stance = Stance::of(&layer, &all, &guides.drop);
     let mut warnings = guides.warnings;
     warnings.extend(remarks::of_picture(page, options));

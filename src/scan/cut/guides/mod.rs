@@ -4,10 +4,11 @@ mod baselines;
 mod ends;
 mod hanging;
 mod joins;
+mod slopes;
 mod strays;
 mod votes;
 
-use super::{Layer, Levels, Slot, Warning};
+use super::{Layer, Levels, Slot, Warning, bounds};
 use crate::numeric::median::median;
 use crate::numeric::view::View;
 use crate::scan::clean::Page;
@@ -16,11 +17,12 @@ use crate::scan::cut::largest;
 use crate::scan::error::Fault;
 use crate::scan::letters::{Head, Kind, Shape};
 use crate::scan::options::{Options, Scale};
-use baselines::{Letter, OVERSHOOT, ruled};
+use baselines::{Letter, OVERSHOOT, near, ruled};
 use ends::ends;
 use glyphs_reader::glyphdata::GlyphData;
 use joins::joins;
 use kurbo::Rect;
+use slopes::slopes;
 use strays::unruled;
 
 /// Millimetres an inch.
@@ -34,13 +36,16 @@ const USUAL_EXTENT: f64 = 1.0;
 pub(super) struct Guides {
     /// How far the baseline lies below the slots' levels, px, for each row of the layer.
     pub(super) drop: Vec<f64>,
+    /// The mean slope of rows that slope each in its own way, degrees clockwise; 0 of others.
+    pub(super) turn_deg: f64,
     pub(super) px_per_em: f64,
     pub(super) warnings: Vec<Warning>,
 }
 
-/// Measures baselines and scale; `upright` says how a slot's ink is seen.
+/// Measures baselines and scale, and tells slots that no line guided their levels in rows that slope; `upright` says
+/// how a slot's ink is seen.
 pub(super) fn measure(
-    layer: &Layer,
+    layer: &mut Layer,
     all: &[Component],
     page: &Page,
     options: &Options,
@@ -61,16 +66,46 @@ pub(super) fn measure(
     };
     let mut letters: Vec<Letter> = layer.slots.iter().filter_map(letter).collect();
     let hangs = hanging::tell(&mut letters, layer.rows, layer.levels);
+    let mut turn_deg = 0.0;
     let drop = match layer.levels {
-        Levels::Loose if !hangs => unruled(&letters, layer.rows),
+        Levels::Loose if !hangs => {
+            if let Some(slopes) = slopes(&letters, layer.rows, near(&letters)) {
+                turn_deg = median(slopes.iter().copied())
+                    .unwrap_or(0.0)
+                    .atan()
+                    .to_degrees();
+                slope(layer, &slopes, all);
+                letters = layer.slots.iter().filter_map(letter).collect();
+            }
+            unruled(&letters, layer.rows)
+        }
         levels => ruled(&letters, layer.rows, levels),
     };
     let (px_per_em, warning) = scale(&letters, &drop, page, options)?;
     Ok(Guides {
         drop,
+        turn_deg,
         px_per_em,
         warnings: warning.into_iter().collect(),
     })
+}
+
+/// Slots' levels along rows of such slopes: their row's is that in its middle.
+fn slope(layer: &mut Layer, slopes: &[f64], all: &[Component]) {
+    let at = |s: &Slot| bounds(all, &s.parts).map(|b| b.center().x);
+    let middle = |row: usize| {
+        let own = layer.slots.iter().filter(|s| s.row == row);
+        let (sum, count) = own
+            .filter_map(at)
+            .fold((0.0, 0), |(s, n), x| (s + x, n + 1));
+        sum / f64::from(count.max(1))
+    };
+    let middles: Vec<f64> = (0..layer.rows).map(middle).collect();
+    for slot in &mut layer.slots {
+        if let Some(x) = at(slot) {
+            slot.level += slopes[slot.row] * (x - middles[slot.row]);
+        }
+    }
 }
 
 /// A slot's letter of its parts' areas and boxes.

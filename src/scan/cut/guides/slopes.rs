@@ -1,0 +1,174 @@
+//! Rows that slope each in its own way: a hand that no line guided lets some climb and some fall.
+//!
+//! Along a row letters that stand on its line have their feet on one slope, Arabic letters of one body theirs, and
+//! joining strokes their ends. With that slope `b_r` in row `r`, by medians and off by a standard deviation `s_r`, all
+//! slopes of a page are taken for draws from a normal one of mean `m` and variance `t²`, and each row's is
+//!
+//! ```text
+//! m + (b_r - m) t² / (t² + s_r²)
+//! ```
+//!
+//! Rows that are parallel as far as letters tell have none: the page's turn is theirs.
+
+use super::baselines::{Letter, OVERSHOOT};
+use crate::numeric::median::{NORMAL, median};
+use crate::scan::letters::Foot;
+use kurbo::Point;
+use std::collections::BTreeMap;
+
+/// Places of a row more than it has kinds that tell its slope, at least.
+const ENOUGH: usize = 3;
+/// Rows that lie aslant beyond doubt, at least, and how many of its deviations such a row's slope is.
+const ROWS: usize = 2;
+const DOUBT: f64 = 4.0;
+/// Letters stray by this share of a usual one's height at least.
+const LEAST: f64 = 0.01;
+
+/// What is as high above or below its row's line wherever it stands in a row.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Kind {
+    Foot,
+    Body(usize),
+    Join,
+}
+
+/// A row by its letters.
+struct Row {
+    /// px down for one to the right
+    slope: f64,
+    /// length along which its letters stand, px
+    length: f64,
+    /// Σ (x − mean of the kind)², px²
+    lever: f64,
+    /// distances of the letters from where their kind is on that slope, px
+    off: Vec<f64>,
+}
+
+impl Row {
+    /// Through places of some kinds; `None` of too few.
+    fn through(kinds: &BTreeMap<Kind, Vec<Point>>) -> Option<Self> {
+        let count: usize = kinds.values().map(Vec::len).sum();
+        let spare = count - kinds.len();
+        if spare < ENOUGH {
+            return None;
+        }
+        let pairs = |v: &[Point]| -> Vec<f64> {
+            let pairs = v.iter().enumerate();
+            let pairs = pairs.flat_map(|(i, a)| v[i + 1..].iter().map(move |b| *b - *a));
+            pairs.map(|d| d.y / d.x).filter(|s| s.is_finite()).collect()
+        };
+        let slope = median(kinds.values().flat_map(|v| pairs(v)))?;
+        let (mut lever, mut off) = (0.0, Vec::new());
+        for places in kinds.values() {
+            let mean = places.iter().map(|p| p.x).sum::<f64>() / places.len() as f64;
+            lever += places.iter().map(|p| (p.x - mean).powi(2)).sum::<f64>();
+            let levels = || places.iter().map(|p| p.y - slope * p.x);
+            let level = median(levels())?;
+            // one of a kind is on its line
+            let told = levels().filter(|_| places.len() > 1);
+            off.extend(told.map(|y| (y - level).abs()));
+        }
+        // nor do the lines leave all of what letters stray
+        let free = (off.len() as f64 / (spare - 1) as f64).sqrt();
+        off.iter_mut().for_each(|d| *d *= free);
+        let xs = || kinds.values().flatten().map(|p| p.x);
+        Some(Self {
+            slope,
+            length: xs().fold(f64::NEG_INFINITY, f64::max) - xs().fold(f64::INFINITY, f64::min),
+            lever,
+            off,
+        })
+    }
+}
+
+/// Slopes of rows, px down for one to the right; `None` where they are parallel, up to `near` px along a row.
+pub(super) fn slopes(letters: &[Letter], rows: usize, near: f64) -> Option<Vec<f64>> {
+    let mut kinds = vec![BTreeMap::<Kind, Vec<Point>>::new(); rows];
+    for letter in letters {
+        for (kind, place) in places(letter) {
+            kinds[letter.row].entry(kind).or_default().push(place);
+        }
+    }
+    let all: Vec<Option<Row>> = kinds.iter().map(Row::through).collect();
+    let told: Vec<&Row> = all.iter().flatten().collect();
+    let height = median(letters.iter().map(|l| l.body.height()))?;
+    let stray = NORMAL * median(told.iter().flat_map(|r| r.off.iter().copied()))?;
+    let stray = stray.max(LEAST * height);
+    let variance = |row: &Row| stray * stray / row.lever;
+    let aslant = |row: &&&Row| {
+        row.slope.abs() * row.length > near && row.slope.powi(2) > DOUBT * DOUBT * variance(row)
+    };
+    if told.iter().filter(aslant).count() < ROWS {
+        return None;
+    }
+    let mean = median(told.iter().map(|r| r.slope))?;
+    let seen = NORMAL * median(told.iter().map(|r| (r.slope - mean).abs()))?;
+    let by_chance = median(told.iter().map(|r| variance(r)))?;
+    let spread = (seen * seen - by_chance).max(0.0);
+    let shrunk = |row: &Option<Row>| {
+        let own = row
+            .as_ref()
+            .map(|r| (r.slope - mean) * spread / (spread + variance(r)));
+        mean + own.filter(|s| s.is_finite()).unwrap_or(0.0)
+    };
+    Some(all.iter().map(shrunk).collect())
+}
+
+/// What of a letter tells its row's slope.
+fn places(letter: &Letter) -> impl Iterator<Item = (Kind, Point)> + use<'_> {
+    let x = letter.body.center().x;
+    let (line, body) = (Some(Kind::Foot), letter.shape.body.map(Kind::Body));
+    let (kind, dips) = match letter.shape.foot {
+        Foot::Flat => (line, 0.0),
+        Foot::Round => (line, OVERSHOOT * letter.body.height()),
+        Foot::Tail | Foot::None => (body, 0.0),
+    };
+    let foot = kind.map(|k| (k, Point::new(x, letter.foot() - dips)));
+    let ends = letter.joins.iter();
+    let ends = ends.map(move |y| (Kind::Join, Point::new(x, y - letter.level)));
+    foot.into_iter().chain(ends)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const WIDTH: f64 = 60.0;
+    const NEAR: f64 = 10.0;
+
+    /// The slopes of rows of letters, 100 px high, that slope so and bounce by so many px.
+    fn of(rows: &[f64], bounce: f64) -> Option<Vec<f64>> {
+        let bounces = [0.3, -0.8, 1.0, -0.2, 0.5, -1.0, 0.1];
+        let letter = |row: usize, k: usize, name: &str| {
+            let x = k as f64 * 3.0 * WIDTH;
+            let strays = bounce * bounces[(3 * row + k) % bounces.len()];
+            let mut letter = Letter::ending(row, name, rows[row] * x + strays);
+            letter.body.x0 = x;
+            letter.body.x1 = x + WIDTH;
+            letter
+        };
+        let names = ["H", "g", "E", "T", "N", "y", "M"];
+        let row = |r: usize| names.iter().enumerate().map(move |(k, n)| (r, k, *n));
+        let all = (0..rows.len()).flat_map(row);
+        let letters: Vec<Letter> = all.map(|(r, k, n)| letter(r, k, n)).collect();
+        slopes(&letters, rows.len(), NEAR)
+    }
+
+    #[test]
+    fn parallel_rows_have_no_slopes_of_their_own() {
+        for bounce in [0.0, 2.0, 10.0, 20.0] {
+            assert_eq!(of(&[0.0; 6], bounce), None, "{bounce}");
+        }
+    }
+
+    #[test]
+    fn rows_that_climb_and_fall_are_followed() {
+        let drawn = [0.04, 0.0, -0.03, 0.02, 0.05, -0.01];
+        for (bounce, most) in [(0.0, 0.002), (4.0, 0.006)] {
+            let found = of(&drawn, bounce).unwrap();
+            let off = found.iter().zip(drawn).map(|(a, b)| (a - b).abs());
+            let off = off.fold(0.0, f64::max);
+            assert!(off < most, "{off} of {found:?}");
+        }
+    }
+}
