@@ -12,7 +12,6 @@
 //! Cost     O(k) a round for k knots, about log k rounds      Fails  FitError::Option for nu <= -4 omega
 //! ```
 
-pub mod basis;
 pub mod knots;
 pub mod tension;
 
