@@ -7,7 +7,7 @@ mod quad;
 mod stage;
 
 use super::Strictness;
-use super::curve::{Curve, Gate, Node, count};
+use super::curve::{Curve, Gate, Node};
 use super::glyf::{Pen, Stored};
 use crate::numeric::shortest::{Id, Labels};
 pub(super) use care::Care;
@@ -169,7 +169,7 @@ impl<'a> Search<'a> {
 
     /// Runs the search; answers the labels at the end, cheapest first.
     pub(super) fn run(&mut self, start: Start) -> Vec<Id> {
-        let begin = count(self.curve.first);
+        let begin = self.curve.first as f64;
         match start {
             Start::Node(n) => {
                 let room = if self.curve.is_ring() {
@@ -408,6 +408,6 @@ impl<'a> Search<'a> {
 
     /// The last sample a quadratic before this gate may reach.
     fn until(&self, gate: usize) -> f64 {
-        count(self.stages[gate].at)
+        self.stages[gate].at as f64
     }
 }

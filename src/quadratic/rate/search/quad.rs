@@ -1,11 +1,9 @@
 //! One quadratic more: the labels that it leads to.
 
-use super::super::{
-    curve::{Curve, count, whole},
-    glyf::Stored,
-};
+use super::super::{curve::Curve, glyf::Stored};
 use super::lattice::{full, half, level, normal, smooth};
 use super::{BYTE, Join, Leg, Search, Way};
+use crate::numeric::cast::index;
 use crate::numeric::shortest::Id;
 use kurbo::{Point, Vec2};
 
@@ -86,7 +84,7 @@ impl Search<'_> {
         let n = normal(self.curve.dots[self.stages[s].at].t);
         let lean = level((c - m).dot(n) / self.effort.limit, 2.0);
         // Half way to the next control point: where that comes to lie the rest of the run depends on.
-        let reach = whole(((m - c).hypot() / (REACH * self.stages[s].spacing)).min(60.0)) as u64;
+        let reach = index(((m - c).hypot() / (REACH * self.stages[s].spacing)).min(60.0)) as u64;
         [1 << 16 | reach << 8 | lean << 4 | side, lean << 4 | side]
     }
 
@@ -98,7 +96,7 @@ impl Search<'_> {
         let i = self.stages[s].at;
         let side = side(self.curve, i, m, self.effort.limit);
         let keys = self.keys(s, (leg.c, m), side);
-        let foot = self.curve.foot(m, count(i));
+        let foot = self.curve.foot(m, i as f64);
         self.both(s, leg, (m, foot, self.until(leg.gate)), (keys, m - leg.c))
     }
 
@@ -119,7 +117,7 @@ impl Search<'_> {
         if !wants_implied && on.is_none() {
             return true;
         }
-        let limit = self.limit(leg.at, count(self.stages[s].at));
+        let limit = self.limit(leg.at, self.stages[s].at as f64);
         let quad = [leg.from, leg.c, m];
         let Some(f) = self.curve.measure(quad, (leg.at, foot), until, limit) else {
             return false;
@@ -167,14 +165,14 @@ impl Search<'_> {
         (cost, worst): (u64, f64),
         item: Join,
     ) {
-        let cost = cost + whole(self.effort.lambda * worst * BYTE) as u64;
+        let cost = cost + index(self.effort.lambda * worst * BYTE) as u64;
         self.labels.offer(place, cost, Some(prev), item);
     }
 }
 
 /// Cost of bytes.
 pub(super) fn price(bytes: u32) -> u64 {
-    whole(f64::from(bytes) * BYTE) as u64
+    index(f64::from(bytes) * BYTE) as u64
 }
 
 /// Where joins are tried across the band, limits.
@@ -204,7 +202,7 @@ pub(super) fn places(curve: &Curve, i: usize, limit: f64) -> Vec<Place> {
         for (m, is_usual) in both.into_iter().take(1 + usize::from(full != near)) {
             out.push(Place {
                 m,
-                foot: curve.foot(m, count(i)),
+                foot: curve.foot(m, i as f64),
                 side: side(curve, i, m, limit),
                 level,
                 is_usual,
