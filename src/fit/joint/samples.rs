@@ -195,7 +195,7 @@ impl Samples {
             / ((2.0 * m - 1.0) * (2.0 * m + 1.0) * (2.0 * m + 3.0));
         let off = |k: usize| {
             let [p, d, _] = self.parabola(k, r, r);
-            let normal = Vec2::new(-d.y, d.x) / d.hypot().max(1e-12);
+            let normal = d.turn_90() / d.hypot().max(1e-12);
             (p - self.at[k].to_vec2()).dot(normal).abs() / (1.0 - leverage).sqrt()
         };
         inner.map(off).collect()

@@ -1,5 +1,6 @@
 use super::*;
 use crate::numeric::chain::{Chain, Join};
+use crate::numeric::curves::{arriving, leaving};
 use crate::types::Contour;
 use kurbo::{Arc, ParamCurve, PathEl, PathSeg, Shape, Vec2};
 
@@ -125,22 +126,8 @@ fn smooth_joins_are_exactly_smooth() {
     let got = fit(Span::Open(&p)).path;
     let segs: Vec<_> = got.segments().collect();
     for w in segs.windows(2) {
-        let (a, b) = (arriving(&w[0]), leaving(&w[1]));
+        let (a, b) = (arriving(&w[0].to_cubic()), leaving(&w[1].to_cubic()));
         assert!(a.cross(b).abs() < 1e-9 * a.hypot() * b.hypot(), "{got:?}");
-    }
-}
-
-fn arriving(seg: &PathSeg) -> Vec2 {
-    match seg {
-        PathSeg::Cubic(c) => c.p3 - c.p2,
-        other => other.end() - other.start(),
-    }
-}
-
-fn leaving(seg: &PathSeg) -> Vec2 {
-    match seg {
-        PathSeg::Cubic(c) => c.p1 - c.p0,
-        other => other.end() - other.start(),
     }
 }
 

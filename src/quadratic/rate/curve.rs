@@ -1,7 +1,7 @@
 //! A contour as spans between the nodes that must stay, each sampled evenly by arc length.
 
 use super::glyf::Stored;
-use crate::numeric::cast::index;
+use crate::numeric::{cast::index, curves};
 use kurbo::{BezPath, ParamCurve, ParamCurveDeriv, PathSeg, Point, Vec2};
 
 /// By how much the search's own lengths in units grow at a tolerance, units: 1 up to two thousandths of an em of
@@ -398,8 +398,7 @@ pub(super) fn is_line(seg: &PathSeg) -> bool {
 }
 
 fn control_length(seg: &PathSeg) -> f64 {
-    let c = seg.to_cubic();
-    c.p0.distance(c.p1) + c.p1.distance(c.p2) + c.p2.distance(c.p3)
+    curves::control_length(&seg.to_cubic())
 }
 
 /// Unit tangent; at a collapsed handle the direction to the next control point.

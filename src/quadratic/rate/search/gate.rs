@@ -4,7 +4,7 @@ use super::super::{
     curve::{Node, coarse},
     glyf::Stored,
 };
-use super::lattice::{floor, full, half, normal, smooth};
+use super::lattice::{floor, full, half, smooth};
 use super::quad::price;
 use super::stage::{Kind, gate_direction, on_gate};
 use super::{Join, Leg, Search};
@@ -203,7 +203,7 @@ impl Search<'_> {
         let Some((line, u)) = self.rail(gate) else {
             return;
         };
-        let n = normal(u);
+        let n = u.turn_90();
         let want = 0.5 * ((c - line).dot(n));
         let (mut before, mut found) = (f64::NAN, None);
         for s in stage + 1..=gate {

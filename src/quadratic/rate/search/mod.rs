@@ -13,7 +13,6 @@ use crate::numeric::shortest::{Id, Labels};
 pub(super) use care::Care;
 use kurbo::{Point, Vec2};
 use lattice::floor;
-use lattice::normal;
 pub(super) use lattice::smooth;
 use quad::{LEVELS, Place, places};
 pub(super) use stage::on_gate;
@@ -343,7 +342,7 @@ impl<'a> Search<'a> {
         let i = self.stages[s].at;
         match self.stages[s].kind {
             Kind::Free => (
-                self.curve.dots[i].p + normal(self.curve.dots[i].t) * aside,
+                self.curve.dots[i].p + self.curve.dots[i].t.turn_90() * aside,
                 self.curve.dots[i].t,
             ),
             Kind::Gate(g) | Kind::Pass(g) => (

@@ -1,7 +1,7 @@
 //! One quadratic more: the labels that it leads to.
 
 use super::super::{curve::Curve, glyf::Stored};
-use super::lattice::{full, half, level, normal, smooth};
+use super::lattice::{full, half, level, smooth};
 use super::{BYTE, Join, Leg, Search, Way};
 use crate::numeric::cast::index;
 use crate::numeric::shortest::Id;
@@ -81,7 +81,7 @@ impl Search<'_> {
     fn keys(&self, s: usize, (c, m): (Point, Point), side: u64) -> [u64; 2] {
         /// Spacings of stages between which a reach counts as the same.
         const REACH: f64 = 4.0;
-        let n = normal(self.curve.dots[self.stages[s].at].t);
+        let n = self.curve.dots[self.stages[s].at].t.turn_90();
         let lean = level((c - m).dot(n) / self.effort.limit, 2.0);
         // Half way to the next control point: where that comes to lie the rest of the run depends on.
         let reach = index(((m - c).hypot() / (REACH * self.stages[s].spacing)).min(60.0)) as u64;
@@ -193,7 +193,7 @@ pub(super) struct Place {
 
 /// The joins nearest to the levels whose next control point lies on the lattice, and the points there.
 pub(super) fn places(curve: &Curve, i: usize, limit: f64) -> Vec<Place> {
-    let n = normal(curve.dots[i].t);
+    let n = curve.dots[i].t.turn_90();
     let mut out = Vec::new();
     for (level, &height) in LEVELS.iter().enumerate() {
         let p = curve.dots[i].p + n * (height * limit);
@@ -214,6 +214,6 @@ pub(super) fn places(curve: &Curve, i: usize, limit: f64) -> Vec<Place> {
 
 /// On which side of the curve a join lies, in three steps.
 fn side(curve: &Curve, i: usize, m: Point, limit: f64) -> u64 {
-    let d = (m - curve.dots[i].p).dot(normal(curve.dots[i].t));
+    let d = (m - curve.dots[i].p).dot(curve.dots[i].t.turn_90());
     level(d / (0.7 * limit), 1.0)
 }

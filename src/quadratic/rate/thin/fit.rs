@@ -107,8 +107,7 @@ impl<'a> Fit<'a> {
             let (at, far) = self.curve.foot(q, guess.max(0.0));
             before = Some((q, at));
             feet.push(at);
-            let t = self.curve.dots[index(at + 0.5).min(last)].t;
-            let left = Vec2::new(-t.y, t.x);
+            let left = self.curve.dots[index(at + 0.5).min(last)].t.turn_90();
             offs.push(Off { far, left });
         }
         self.feet = feet;
