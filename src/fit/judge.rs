@@ -9,7 +9,7 @@ use crate::types::Span;
 use kurbo::{BezPath, ParamCurve, ParamCurveArclen, PathEl, Point, Rect};
 
 /// The curve is measured by chords that leave it by no more than this, px: the error of every figure here.
-pub const PRECISION_PX: f64 = 1e-3;
+const PRECISION_PX: f64 = 1e-3;
 
 /// Step along the curve when it is measured against the points, px.
 const STEP_PX: f64 = 0.25;

@@ -79,8 +79,7 @@ impl Polyline {
     }
 
     /// How far away the line is, or `limit` where it is no nearer: the smaller the limit, the shorter the search.
-    #[must_use]
-    pub fn distance_below(&self, p: Point, limit: f64) -> f64 {
+    fn distance_below(&self, p: Point, limit: f64) -> f64 {
         let mut best = Nearest {
             distance: limit * limit,
             segment: usize::MAX,

@@ -190,7 +190,7 @@ pub(in crate::fit) fn through_knots(
             walk: Walk::new(&points, ends),
             reach: REACH * rule.epsilon,
         };
-        let inserted = insert(&points, ends, rule, |knots| curve(&task, knots));
+        let inserted = insert(&task, rule, |knots| curve(&task, knots));
         let fitted = inserted.and_then(|i| {
             let parameters = 2 * i.knots.len();
             judged(span, path_of(&i.cubics, span), (rule.epsilon, parameters))
