@@ -38,12 +38,6 @@ impl Judgement {
     pub const fn max_px(&self) -> f64 {
         self.points.max_px.max(self.curve.max_px)
     }
-
-    /// The larger root mean square of both ways, px.
-    #[must_use]
-    pub const fn rms_px(&self) -> f64 {
-        self.points.rms_px.max(self.curve.rms_px)
-    }
 }
 
 /// A curve farther from its points than this many times their extent, and as much again in px, is astray: measuring
