@@ -200,32 +200,20 @@ impl Wls {
         tolerance: f64,
     ) -> Option<(Vec<CubicBez>, usize)> {
         let last = points.len() - 1;
+        // what a spline takes of the lines beside it
+        let few = if self.joint == Joint::Include { FEW } else { 0 };
         let mut parts: Vec<(Vec<Point>, Option<Basis>)> = Vec::new();
         for piece in pieces {
             parts.push(match piece {
                 Piece::Line(r) => {
-                    let few = |at_end: bool| {
-                        if self.joint == Joint::Include && !at_end {
-                            FEW
-                        } else {
-                            0
-                        }
-                    };
-                    let a = r.start() + few(*r.start() == 0);
-                    let b = r.end() - few(*r.end() == last);
+                    let a = r.start() + if *r.start() == 0 { 0 } else { few };
+                    let b = r.end() - if *r.end() == last { 0 } else { few };
                     (vec![points[a], points[b]], None)
                 }
                 Piece::Spline(r) => {
-                    let few = if self.joint == Joint::Include { FEW } else { 0 };
-                    let a = if *r.start() == 0 { 0 } else { r.start() - few };
-                    let b = if *r.end() == last {
-                        last
-                    } else {
-                        r.end() + few
-                    };
-                    let held = |i: usize| {
-                        (self.joint == Joint::Include || i == 0 || i == last).then(|| points[i])
-                    };
+                    let a = r.start().saturating_sub(few);
+                    let b = (r.end() + few).min(last);
+                    let held = |i: usize| (few > 0 || i == 0 || i == last).then(|| points[i]);
                     let end = End::Open(held(a), held(b));
                     let (vertices, basis) = self.grow(&points[a..=b], end, tolerance)?;
                     (vertices, Some(basis))
