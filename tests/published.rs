@@ -3,9 +3,7 @@
 use crate::common::shapes::{Dice, Shape, open, polygon, ring};
 use khatt::corner::angle::Angle;
 use khatt::fit::gc2::Gc2;
-use khatt::fit::gc2::basis::weights;
 use khatt::fit::gc2::knots::{Insertion, Stop};
-use khatt::fit::gc2::tension::{End, Tension};
 use khatt::fit::judge::points_to_curve;
 use khatt::fit::periodic::Periodic;
 use khatt::fit::timmer::{Scheme, Timmer};
@@ -231,22 +229,6 @@ fn lumilios93_adds_control_points_until_the_tolerance_is_met() {
 }
 
 // ---- rasheed05
-
-/// [rasheed05 sec. 3.2]: with equal intervals and no tension the basis is the uniform B-spline's.
-#[test]
-fn rasheed05_basis_is_one_four_one_in_the_uniform_case() {
-    for w in weights(&Tension::none(8, End::Periodic)) {
-        let own = 1.0 - w.lambda - w.mu;
-        for (got, want) in [
-            (w.lambda, 1.0 / 6.0),
-            (own, 2.0 / 3.0),
-            (w.mu, 1.0 / 6.0),
-            (w.mu_slope, 0.5),
-        ] {
-            assert!((got - want).abs() < 1e-15, "{got} {want}");
-        }
-    }
-}
 
 /// A D of about 850 points, as chains of pixels: its outer ring cut at the two corners, and its counter.
 fn letter_d() -> Vec<Shape> {

@@ -16,6 +16,7 @@
 
 use super::stroke::{self, Edges, End, OPENING, Side, Tab, Warp};
 use super::{Draft, Note};
+use crate::numeric::median::middle;
 use crate::types::Outline;
 use kurbo::{BezPath, Shape};
 use schemars::JsonSchema;
@@ -438,16 +439,11 @@ fn contract(joints: &mut [Joint], em: f64, options: &Options) -> Option<Contract
 }
 
 fn median(joints: &[&Joint], of: impl Fn(&End) -> Edges) -> Option<Edges> {
-    let middle = |one: &dyn Fn(Edges) -> f64| {
-        let mut values: Vec<f64> = joints
-            .iter()
-            .filter_map(|j| j.end())
-            .map(|e| one(of(e)))
-            .collect();
-        values.sort_by(f64::total_cmp);
-        values.get(values.len() / 2).copied()
-    };
-    Some((middle(&|e| e.0)?, middle(&|e| e.1)?))
+    let ends = || joints.iter().filter_map(|j| j.end()).map(&of);
+    Some((
+        middle(ends().map(|e| e.0), f64::total_cmp)?,
+        middle(ends().map(|e| e.1), f64::total_cmp)?,
+    ))
 }
 
 /// What every end is brought to.

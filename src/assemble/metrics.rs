@@ -5,6 +5,7 @@
 //! proportion. x-height and cap height are the median tops of the flat letters.
 
 use super::Draft;
+use crate::numeric::median::middle;
 use crate::types::Metrics;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -76,12 +77,7 @@ pub(super) fn enclosing(metrics: Metrics, drafts: &[Draft], em: f64, given: &Hei
 /// The median top of those of these letters that were drawn; 0 without any.
 fn flat_top(drafts: &[Draft], letters: &str) -> f64 {
     let is_one = |d: &&Draft| d.codepoints.first().is_some_and(|c| letters.contains(*c));
-    let mut tops: Vec<f64> = drafts
-        .iter()
-        .filter(is_one)
-        .filter_map(|d| d.outline.bounds())
-        .map(|r| r.y1)
-        .collect();
-    tops.sort_by(f64::total_cmp);
-    tops.get(tops.len() / 2).copied().unwrap_or(0.0)
+    let drawn = drafts.iter().filter(is_one);
+    let tops = drawn.filter_map(|d| Some(d.outline.bounds()?.y1));
+    middle(tops, f64::total_cmp).unwrap_or(0.0)
 }

@@ -3,7 +3,7 @@
 use super::places::{extent, place};
 use super::tube::Tube;
 use super::{Bounds, Kind, Width};
-use crate::numeric::qbc::Pull;
+use crate::numeric::{cast, qbc::Pull};
 use kurbo::Point;
 use std::collections::BTreeMap;
 
@@ -145,7 +145,7 @@ impl Band {
             }
             // those passed over are farther: no step is longer than the stride
             let nearer = (square.sqrt() - best.1.sqrt()) / self.stride - 1e-6;
-            at += 1 + whole(nearer);
+            at += 1 + cast::index(nearer);
         }
         best.0
     }
@@ -225,14 +225,4 @@ fn admissible(boundary: &[Point], bounds: Bounds) -> Vec<f64> {
 )]
 pub(super) fn near(v: f64) -> i32 {
     v.round() as i32
-}
-
-/// The whole part of what is at least 0; 0 below.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "`as` saturates"
-)]
-fn whole(v: f64) -> usize {
-    v as usize
 }

@@ -25,7 +25,6 @@ mod ring;
 mod search;
 mod tube;
 mod vertex;
-mod word;
 
 use crate::numeric::qbc::Pull;
 use kurbo::Point;

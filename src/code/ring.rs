@@ -37,24 +37,10 @@ fn begun(ring: &[Point], steps: Steps) -> Option<Found> {
     let from = |first: usize| {
         let vertices = (0..=round.len()).map(|k| round[(first + k) % round.len()]);
         let vertices: Vec<Point> = vertices.collect();
-        let bits = bits(&vertices, steps)?;
+        let bits = steps.write(&vertices)?.len() as u64;
         Some((vertices, bits))
     };
     (0..round.len()).filter_map(from).min_by_key(|f| f.1)
-}
-
-/// None where a step has no word after the one before.
-fn bits(vertices: &[Point], steps: Steps) -> Option<u64> {
-    let of = |w: &[Point]| {
-        let ((x0, y0), (x1, y1)) = (whole(w[0]), whole(w[1]));
-        (x1 - x0, y1 - y0)
-    };
-    let mut before = None;
-    vertices.windows(2).map(of).try_fold(0, |sum, step| {
-        let bits = steps.bits(before, step)?;
-        before = Some(step);
-        Some(sum + bits)
-    })
 }
 
 fn whole(p: Point) -> (i32, i32) {

@@ -3,12 +3,13 @@
 //! Points to curve tells what the curve misses; curve to points tells where it goes astray between
 //! them. A method's own residual is neither.
 
+use crate::numeric::cast::index;
 use crate::numeric::distance::{Polyline, distances};
 use crate::types::Span;
 use kurbo::{BezPath, ParamCurve, ParamCurveArclen, PathEl, Point, Rect};
 
 /// The curve is measured by chords that leave it by no more than this, px: the error of every figure here.
-pub const PRECISION_PX: f64 = 1e-3;
+const PRECISION_PX: f64 = 1e-3;
 
 /// Step along the curve when it is measured against the points, px.
 const STEP_PX: f64 = 0.25;
@@ -36,12 +37,6 @@ impl Judgement {
     #[must_use]
     pub const fn max_px(&self) -> f64 {
         self.points.max_px.max(self.curve.max_px)
-    }
-
-    /// The larger root mean square of both ways, px.
-    #[must_use]
-    pub const fn rms_px(&self) -> f64 {
-        self.points.rms_px.max(self.curve.rms_px)
     }
 }
 
@@ -128,21 +123,16 @@ fn chords(path: &BezPath) -> Option<Polyline> {
         let bend = bend(c.p0, c.p1, c.p2).max(bend(c.p1, c.p2, c.p3));
         // a chord of 1/n of the parameter leaves the cubic by at most 6 bend / 8 n²
         let n = (0.75 * bend / PRECISION_PX).sqrt().ceil().max(1.0);
-        points.extend(counted(n).map(|i| c.eval((i + 1.0) / n)));
+        points.extend((1..=index(n)).map(|i| c.eval(i as f64 / n)));
     }
     Polyline::new(points)
-}
-
-/// 0, 1, 2 … below `n`.
-fn counted(n: f64) -> impl Iterator<Item = f64> {
-    std::iter::successors(Some(0.0), |i| Some(i + 1.0)).take_while(move |&i| i < n)
 }
 
 /// Points on the curve, [`STEP_PX`] apart or less.
 fn steps(path: &BezPath) -> impl Iterator<Item = Point> {
     path.segments().flat_map(|seg| {
         let n = (seg.arclen(STEP_PX) / STEP_PX).ceil().max(1.0);
-        counted(n).map(move |i| seg.eval((i + 0.5) / n))
+        (0..index(n)).map(move |i| seg.eval((i as f64 + 0.5) / n))
     })
 }
 

@@ -39,6 +39,23 @@ pub enum FitError {
     },
 }
 
+impl FitError {
+    /// A value that an option of a method must not have, and what is allowed.
+    fn option(
+        (method, option): (&'static str, &'static str),
+        value: impl ToString,
+        range: &'static str,
+    ) -> Self {
+        let value = value.to_string();
+        Self::Option {
+            method,
+            option,
+            value,
+            range,
+        }
+    }
+}
+
 /// Fits curves through a span.
 pub trait Fitter {
     /// Curves within `tolerance_px` of the span if the method can; else its best, and the verdict says so.

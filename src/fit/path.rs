@@ -2,8 +2,23 @@
 
 use super::judge::judge;
 use super::{FitError, Fitter};
+use crate::numeric::turns::Ends;
 use crate::types::{Fitted, Span, Spans, Verdict};
 use kurbo::{BezPath, CubicBez, PathEl, Point};
+
+/// The span's finite points without neighbours that coincide, also around a ring, and whether they close.
+pub(super) fn distinct(span: Span<'_>) -> (Vec<Point>, Ends) {
+    let mut points = span.points().to_vec();
+    points.retain(|p| p.is_finite());
+    points.dedup();
+    if !span.is_ring() {
+        return (points, Ends::Open);
+    }
+    if points.len() > 1 && points.first() == points.last() {
+        points.pop();
+    }
+    (points, Ends::Closed)
+}
 
 /// The span's own polygon: the answer where there is nothing to fit.
 pub(super) fn polygon(span: Span<'_>) -> Fitted {
@@ -132,10 +147,10 @@ fn runs_backward(points: &[Point]) -> bool {
 
 /// Fits the span in the way that does not depend on how it was handed over, and turns the path back.
 /// A ring keeps its first point.
-pub(super) fn both_ways<E>(
+pub(super) fn both_ways(
     span: Span<'_>,
-    fit: impl FnOnce(Span<'_>) -> Result<Fitted, E>,
-) -> Result<Fitted, E> {
+    fit: impl FnOnce(Span<'_>) -> Result<Fitted, FitError>,
+) -> Result<Fitted, FitError> {
     if !runs_backward(span.points()) {
         return fit(span);
     }
@@ -168,7 +183,7 @@ mod tests {
             let mut seen = Point::ORIGIN;
             let fitted = both_ways(Span::Open(points), |s| {
                 seen = s.points()[0];
-                Ok::<_, ()>(polygon(s))
+                Ok(polygon(s))
             });
             (seen, fitted.unwrap().path)
         };

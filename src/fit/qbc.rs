@@ -11,9 +11,9 @@
 //! Cost     O(n log n)    Fails  never; Verdict::Exhausted where the cubics swing out
 //! ```
 
-use super::path::{both_ways, judged, line, path_of, polygon};
+use super::path::{both_ways, distinct, judged, line, path_of, polygon};
 use super::{FitError, Fitter};
-use crate::numeric::qbc::Pull;
+use crate::numeric::{qbc::Pull, turns::Ends};
 use crate::types::{Fitted, Span};
 use kurbo::{CubicBez, Point, Vec2};
 use serde::{Deserialize, Serialize};
@@ -84,13 +84,8 @@ struct Task {
 impl Task {
     fn fit(&self, span: Span<'_>) -> Result<Fitted, FitError> {
         if !(1..=1000).contains(&self.reach) {
-            let value = self.reach.to_string();
-            return Err(FitError::Option {
-                method: self.method,
-                option: "reach",
-                value,
-                range: "it must be 1 to 1000",
-            });
+            let range = "it must be 1 to 1000";
+            return Err(FitError::option((self.method, "reach"), self.reach, range));
         }
         both_ways(span, |span| {
             Ok(self.curves(span).unwrap_or_else(|| polygon(span)))
@@ -98,15 +93,11 @@ impl Task {
     }
 
     fn curves(&self, span: Span<'_>) -> Option<Fitted> {
-        let mut points = span.points().to_vec();
-        points.dedup();
-        if span.is_ring() {
-            if points.len() > 1 && points.first() == points.last() {
-                points.pop();
-            }
+        let (mut points, ends) = distinct(span);
+        if ends == Ends::Closed {
             points.extend(points.first().copied());
         }
-        if points.len() < 4 || points.iter().any(|p| !p.is_finite()) {
+        if points.len() < 4 || span.points().iter().any(|p| !p.is_finite()) {
             return None;
         }
         let last = points.len() - 1;

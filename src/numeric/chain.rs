@@ -5,6 +5,7 @@
 //! for it, a node beside a line takes the line's own. Whatever numbers an optimiser puts in,
 //! handles stay collinear and extrema upright.
 
+use super::curves::{arriving, leaving};
 use kurbo::{BezPath, CubicBez, PathEl, Point, Vec2};
 use std::ops::Range;
 
@@ -306,8 +307,8 @@ fn node_between(
     after: Option<&(Kind, CubicBez)>,
     turn: f64,
 ) -> Option<Node> {
-    let arrive = before.map(|(_, c)| arriving(c));
-    let leave = after.map(|(_, c)| leaving(c));
+    let arrive = before.map(|(_, c)| unit(arriving(c)));
+    let leave = after.map(|(_, c)| unit(leaving(c)));
     let point = after
         .map(|(_, c)| c.p0)
         .or_else(|| before.map(|(_, c)| c.p3))?;
@@ -346,19 +347,13 @@ fn node_between(
     })
 }
 
-/// Unit direction in which a cubic leaves its start, through the first control point that differs.
-fn leaving(c: &CubicBez) -> Vec2 {
-    unit_of_first([c.p1 - c.p0, c.p2 - c.p0, c.p3 - c.p0])
-}
-
-/// Unit direction in which a cubic arrives at its end.
-fn arriving(c: &CubicBez) -> Vec2 {
-    unit_of_first([c.p3 - c.p2, c.p3 - c.p1, c.p3 - c.p0])
-}
-
-fn unit_of_first(candidates: [Vec2; 3]) -> Vec2 {
-    let found = candidates.into_iter().find(|d| d.hypot() > 1e-9);
-    found.map_or(Vec2::new(1.0, 0.0), |d| d / d.hypot())
+/// The direction of a vector; to the right for one of no length.
+fn unit(d: Vec2) -> Vec2 {
+    if d == Vec2::ZERO {
+        Vec2::new(1.0, 0.0)
+    } else {
+        d / d.hypot()
+    }
 }
 
 #[cfg(test)]

@@ -34,12 +34,6 @@ impl Coverage {
         self.width
     }
 
-    /// Rows, px.
-    #[must_use]
-    pub const fn height(&self) -> usize {
-        self.height
-    }
-
     /// Adds a closed polygon, px, y up. Points that are not finite are passed over.
     pub fn add(&mut self, ring: &[Point]) {
         let finite = || ring.iter().copied().filter(|p| p.is_finite());

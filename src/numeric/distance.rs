@@ -1,6 +1,7 @@
 //! Distance from a point to a polyline, by a tree of boxes over its runs; and the polyline of a path.
 
-use kurbo::{BezPath, Point, Rect, flatten};
+use super::curves::polygon;
+use kurbo::{BezPath, Point, Rect};
 
 /// Segments in a leaf of the tree: below this, looking at all of them is faster than going deeper.
 const LEAF: usize = 8;
@@ -78,8 +79,7 @@ impl Polyline {
     }
 
     /// How far away the line is, or `limit` where it is no nearer: the smaller the limit, the shorter the search.
-    #[must_use]
-    pub fn distance_below(&self, p: Point, limit: f64) -> f64 {
+    fn distance_below(&self, p: Point, limit: f64) -> f64 {
         let mut best = Nearest {
             distance: limit * limit,
             segment: usize::MAX,
@@ -190,11 +190,10 @@ pub fn largest(rings: &[Vec<(Point, f64)>]) -> f64 {
     all.filter(|d| d.is_finite()).fold(0.0, f64::max)
 }
 
-/// The ends of the chords of a closed path, which they leave by no more than `tolerance`.
+/// The ends of the chords of a closed path, which they leave by no more than `tolerance`, the first again at the end.
 #[must_use]
 pub fn chords(contour: &BezPath, tolerance: f64) -> Vec<Point> {
-    let mut points = Vec::new();
-    flatten(contour, tolerance, |el| points.extend(el.end_point()));
+    let mut points = polygon(contour, tolerance);
     points.extend(points.first().copied());
     points
 }

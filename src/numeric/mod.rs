@@ -7,6 +7,7 @@ pub mod cast;
 pub mod chain;
 pub mod clip;
 pub mod coverage;
+pub mod curves;
 pub mod distance;
 pub mod iso;
 pub mod joins;

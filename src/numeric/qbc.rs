@@ -6,7 +6,7 @@
 //! where a format stores only quadratics or cubics. A higher degree repeats the step on
 //! neighbouring points (eq. 6 and 7).
 
-use kurbo::{CubicBez, ParamCurve, Point, QuadBez, Vec2};
+use kurbo::{CubicBez, ParamCurve, Point, Vec2};
 
 /// How far the points move from the Bézier curve towards the control polygon.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -51,23 +51,6 @@ impl Pull {
             (1.0 - w) * -2.0 * v - dw * v * v + dw * v / 3.0 - w / 3.0,
             (1.0 - w) * 2.0 * (v - u) - dw * 2.0 * u * v + dw * 2.0 / 3.0,
             (1.0 - w) * 2.0 * u - dw * u * u + dw * u / 3.0 + w / 3.0,
-        ]
-    }
-
-    /// Bernstein coefficients, degree 4, of a quadratic curve: the exact polynomial.
-    #[must_use]
-    pub fn quartic(self, [p, q, r]: [Point; 3]) -> [Point; 5] {
-        let k = self.factor();
-        let (a, b) = ((1.0 - k / 3.0) / 2.0, (1.0 + k / 3.0) / 6.0);
-        let mix = |x: f64, y: f64, z: f64| {
-            (p.to_vec2() * x + q.to_vec2() * y + r.to_vec2() * z).to_point()
-        };
-        [
-            p,
-            mix(a, 1.0 - a, 0.0),
-            mix(b, 1.0 - 2.0 * b, b),
-            mix(0.0, 1.0 - a, a),
-            r,
         ]
     }
 
@@ -129,20 +112,6 @@ impl Pull {
             }
         }
         out
-    }
-
-    /// TrueType's quadratics within `tolerance` of the curve.
-    #[must_use]
-    pub fn quads(self, points: &[Point], tolerance: f64) -> Vec<QuadBez> {
-        let cubics = self.cubics(points, 0.5 * tolerance);
-        cubics
-            .iter()
-            .flat_map(|c| {
-                c.to_quads(0.5 * tolerance)
-                    .map(|(_, _, q)| q)
-                    .collect::<Vec<_>>()
-            })
-            .collect()
     }
 }
 
@@ -216,17 +185,6 @@ mod tests {
                 prop_assert!(q.1.dot(r.1) >= 0.0);
             }
         }
-
-        #[test]
-        fn a_quadratic_is_its_quartic(x in points(), u in 0.0..1.0f64) {
-            prop_assume!(x.len() >= 3);
-            let three = [x[0], x[1], x[2]];
-            for pull in ALL {
-                let exact = casteljau(pull.quartic(three).map(|p| (p, Vec2::ZERO)).to_vec(), u);
-                let (at, slope) = pull.eval(&three, u);
-                prop_assert!(at.distance(exact.0) < 1e-9 && (slope - exact.1).hypot() < 1e-8);
-            }
-        }
     }
 
     #[test]
@@ -261,30 +219,6 @@ mod tests {
                 (1.0 - pull.eval(&hair, 0.5).0.y - gap).abs() < 1e-12,
                 "{pull:?}"
             );
-        }
-    }
-
-    #[test]
-    fn quads_follow_the_curve() {
-        let p = [(0.0, 0.0), (40.0, 90.0), (120.0, 60.0), (150.0, -40.0)].map(Point::from);
-        for pull in ALL {
-            let dots: Vec<Point> = pull
-                .quads(&p, 0.1)
-                .iter()
-                .flat_map(|q| {
-                    (0..=60)
-                        .map(|i| q.eval(f64::from(i) / 60.0))
-                        .collect::<Vec<_>>()
-                })
-                .collect();
-            for i in 0..=100 {
-                let at = pull.eval(&p, f64::from(i) / 100.0).0;
-                let off = dots
-                    .iter()
-                    .map(|d| d.distance(at))
-                    .fold(f64::INFINITY, f64::min);
-                assert!(off < 0.6, "{pull:?}: {off}");
-            }
         }
     }
 }

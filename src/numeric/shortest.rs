@@ -94,13 +94,6 @@ impl<T> Labels<T> {
         })
     }
 
-    /// The cheapest label at a stage.
-    #[must_use]
-    pub fn cheapest(&self, stage: usize) -> Option<Id> {
-        let ids = self.at(stage);
-        ids.into_iter().min_by_key(|&id| self.cost(id))
-    }
-
     /// What a label costs.
     #[must_use]
     pub fn cost(&self, id: Id) -> u64 {

@@ -127,12 +127,12 @@ impl Side {
 
     fn point(&self, x: f64) -> Point {
         let [a, b, c] = self.height;
-        let normal = Vec2::new(-self.along.y, self.along.x);
+        let normal = self.along.turn_90();
         self.origin + self.along * x + normal * (a + x * (b + x * c))
     }
 
     fn tangent(&self, x: f64) -> Vec2 {
-        let normal = Vec2::new(-self.along.y, self.along.x);
+        let normal = self.along.turn_90();
         self.along + normal * (self.height[1] + 2.0 * self.height[2] * x)
     }
 

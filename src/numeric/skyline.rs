@@ -28,15 +28,8 @@ impl Skyline {
     }
 
     /// Number of rows.
-    #[must_use]
-    pub const fn len(&self) -> usize {
+    const fn len(&self) -> usize {
         self.first.len()
-    }
-
-    /// Whether it has no rows.
-    #[must_use]
-    pub const fn is_empty(&self) -> bool {
-        self.first.is_empty()
     }
 
     /// Adds `value` at row `i`, column `j`, and its mirror image. What lies outside the envelope is passed over.
@@ -150,8 +143,6 @@ mod tests {
                 assert!((x - w).abs() < 1e-12);
             }
         }
-        assert_eq!(a.len(), 9);
-        assert!(!a.is_empty());
     }
 
     #[test]

@@ -18,6 +18,7 @@ use super::skeleton::{Skeleton, Stroke};
 use super::spline::{Data, FEW, Knots, PIXEL_STEPS, Spline};
 use crate::numeric::assignment::assign;
 use crate::numeric::cast::{index, single};
+use crate::numeric::turns::{Ends, Walk};
 use kurbo::{Point, Vec2};
 
 /// How faithful to the paper.
@@ -175,13 +176,13 @@ impl Curve {
         let fine = spline
             .as_ref()
             .map_or_else(|| stroke.points.clone(), |s| s.points(4 * TABLE));
-        let ways = lengths(&fine);
-        let length = ways.last().copied().unwrap_or_default();
+        let walk = Walk::new(&fine, Ends::Open);
+        let length = walk.total();
         let share = |u: f64| {
             let i = u * (fine.len() - 1) as f64;
-            lerp(&ways, i) / length.max(f64::MIN_POSITIVE)
+            lerp(walk.lengths(), i) / length.max(f64::MIN_POSITIVE)
         };
-        let even = |i: usize| point_at(&fine, &ways, length * i as f64 / (TABLE - 1) as f64);
+        let even = |i: usize| walk.at(length * i as f64 / (TABLE - 1) as f64);
         let shares = spline.map_or_else(
             || vec![0.0, 0.5, 1.0],
             |s| s.pulls().into_iter().map(share).collect(),
@@ -298,15 +299,6 @@ impl Curve {
     }
 }
 
-/// Length from the first point to each.
-fn lengths(points: &[Point]) -> Vec<f64> {
-    let mut way = vec![0.0];
-    for w in points.windows(2) {
-        way.push(way[way.len() - 1] + w[0].distance(w[1]));
-    }
-    way
-}
-
 /// The interval of `n` ≥ 2 table entries that `x` lies in, and where in it.
 fn split(x: f64, n: usize) -> (usize, f64) {
     let i = index(x).min(n - 2);
@@ -319,18 +311,4 @@ fn lerp(table: &[f64], x: f64) -> f64 {
     }
     let (i, t) = split(x, table.len());
     table[i] + t * (table[i + 1] - table[i])
-}
-
-/// The point after `length` along the line.
-fn point_at(points: &[Point], ways: &[f64], length: f64) -> Point {
-    let after = ways
-        .partition_point(|w| *w <= length)
-        .clamp(1, points.len().max(2) - 1);
-    match (points.get(after - 1), points.get(after)) {
-        (Some(a), Some(b)) => {
-            let step = (ways[after] - ways[after - 1]).max(f64::MIN_POSITIVE);
-            a.lerp(*b, ((length - ways[after - 1]) / step).clamp(0.0, 1.0))
-        }
-        _ => points.first().copied().unwrap_or_default(),
-    }
 }

@@ -29,9 +29,9 @@ impl Ink {
         let bits = shrink(gray, x, y);
         let (label, count) = parts(&bits);
         let boxes = part_boxes(&bits, &label, count);
-        let main = (0..count).max_by_key(|&p| (boxes[p].ink, count - p))?;
-        let main_side = boxes[main].side();
-        let is_mark = |p: usize| p != main && boxes[p].side() < MARK_SIDE * main_side;
+        let main = (0..count).max_by_key(|&p| (boxes[p].1, count - p))?;
+        let side = |p: usize| boxes[p].0.size().max_side();
+        let is_mark = |p: usize| p != main && side(p) < MARK_SIDE * side(main);
         let pick = |keep: &dyn Fn(usize) -> bool| {
             bits.with_bits(label.iter().map(|l| l.is_some_and(keep)))
         };
@@ -123,36 +123,16 @@ fn pen_width(gray: &Gray, x: (usize, usize), y: (usize, usize)) -> f32 {
     area as f32 / border.max(1) as f32
 }
 
-#[derive(Debug, Clone, Copy)]
-struct Extent {
-    x: (usize, usize),
-    y: (usize, usize),
-    ink: usize,
-}
-
-impl Extent {
-    fn side(&self) -> f64 {
-        (self.x.1 - self.x.0).max(self.y.1 - self.y.0) as f64
-    }
-}
-
-fn part_boxes(bits: &Bitmap, label: &[Option<usize>], count: usize) -> Vec<Extent> {
-    let none = (usize::MAX, 0);
-    let mut boxes = vec![
-        Extent {
-            x: none,
-            y: none,
-            ink: 0
-        };
-        count
-    ];
+/// The box around each part, px, and how many pixels it has.
+fn part_boxes(bits: &Bitmap, label: &[Option<usize>], count: usize) -> Vec<(Rect, usize)> {
+    let mut boxes = vec![(Rect::ZERO, 0); count];
     for (i, part) in label.iter().enumerate() {
         if let Some(part) = *part {
-            let (x, y) = (i % bits.width(), i / bits.width());
-            let b = &mut boxes[part];
-            b.x = (b.x.0.min(x), b.x.1.max(x + 1));
-            b.y = (b.y.0.min(y), b.y.1.max(y + 1));
-            b.ink += 1;
+            let at = ((i % bits.width()) as f64, (i / bits.width()) as f64);
+            let pixel = Rect::from_origin_size(at, (1.0, 1.0));
+            let (bounds, ink) = &mut boxes[part];
+            *bounds = if *ink > 0 { bounds.union(pixel) } else { pixel };
+            *ink += 1;
         }
     }
     boxes

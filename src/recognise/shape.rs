@@ -12,6 +12,7 @@ use super::ink::Ink;
 use super::marks::{Marks, holes};
 use super::skeleton::{Pruning, Skeleton, Stroke};
 use crate::numeric::cast::{index, single};
+use crate::numeric::median::middle;
 use crate::types::Bitmap;
 use kurbo::{Point, Rect, Vec2};
 use std::f64::consts::PI;
@@ -101,13 +102,9 @@ fn ink_box(ink: &Bitmap) -> Rect {
 /// Width of the pen, px: the median along the lines, or a dot's own.
 fn pen(body: &Skeleton, ink: &Bitmap) -> f64 {
     let strokes = body.strokes.iter();
-    let mut half: Vec<f64> = strokes
-        .flat_map(|s| s.half_widths.iter().copied())
-        .collect();
-    half.sort_by(f64::total_cmp);
+    let half = strokes.flat_map(|s| s.half_widths.iter().copied());
     let area = || ink.bits().iter().filter(|b| **b).count() as f64;
-    half.get(half.len() / 2)
-        .map_or_else(|| area().sqrt(), |h| 2.0 * h + 0.5)
+    middle(half, f64::total_cmp).map_or_else(|| area().sqrt(), |h| 2.0 * h + 0.5)
 }
 
 /// A pixel of a line: its direction (zero where it has none) and how long it is.

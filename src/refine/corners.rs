@@ -82,14 +82,12 @@ fn round(residual: &Residual<'_>, at: Point, (u, v): (Vec2, Vec2), radius: f64) 
         let inwards = inwards.normalize();
         let half = turn.abs() / 2.0;
         let centre = at + inwards * (radius / half.cos());
-        let arc = |k: i32| centre - turned(inwards, half * f64::from(k) / 8.0) * radius;
+        let arc = |k: i32| {
+            let turn = Vec2::from_angle(half * f64::from(k) / 8.0);
+            centre - inwards.rotate_scale(turn) * radius
+        };
         let arc: Vec<Point> = (-8..=8).map(arc).collect();
         // ink lies to the left: a corner that turns left holds it
         -turn.signum() * residual.lacking(&Blot::between(at, &arc, inwards))
     })
-}
-
-fn turned(v: Vec2, by: f64) -> Vec2 {
-    let (sin, cos) = by.sin_cos();
-    Vec2::new(cos * v.x - sin * v.y, sin * v.x + cos * v.y)
 }

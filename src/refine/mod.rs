@@ -15,12 +15,18 @@ mod blunt;
 mod comparison;
 mod corners;
 mod crossings;
-mod curves;
 mod mend;
 mod nodes;
 mod residual;
 #[cfg(test)]
 mod tests;
+
+/// What this stage asks of curves by themselves.
+mod curves {
+    pub(super) use crate::numeric::curves::{
+        arriving, control_length as polygon_px, leaving, polygon,
+    };
+}
 
 pub use blunt::Overlooked;
 pub use comparison::{Comparison, Doubts, squares_left};

@@ -7,6 +7,7 @@ use crate::numeric::cast::index;
 use crate::numeric::view::View;
 use crate::types::{Gray, Sheet};
 use image::{GrayImage, Luma};
+use imageproc::definitions::Image;
 use imageproc::region_labelling::{Connectivity, connected_components};
 use kurbo::{Point, Rect, Vec2};
 use rqrr::SimpleGrid;
@@ -150,6 +151,11 @@ impl Blot {
 
 /// The blots of a picture of bits.
 pub(super) fn blots(bits: &GrayImage) -> Vec<Blot> {
+    labelled(bits).1
+}
+
+/// The blots of a picture of bits, and which of them each pixel is in, counted from 1; 0 outside.
+pub(super) fn labelled(bits: &GrayImage) -> (Image<Luma<u32>>, Vec<Blot>) {
     let labels = connected_components(bits, Connectivity::Eight, Luma([0]));
     let mut blots: Vec<Blot> = Vec::new();
     for (x, y, Luma([label])) in labels.enumerate_pixels() {
@@ -167,7 +173,7 @@ pub(super) fn blots(bits: &GrayImage) -> Vec<Blot> {
         };
         blot.area += 1.0;
     }
-    blots
+    (labels, blots)
 }
 
 /// Centres of discs with a ring around them: a disc fills π/4 of its box, the ring a third of its own.

@@ -1,10 +1,11 @@
 //! The picture of one field: its light evened, its printed guides and its dust taken out.
 
+use super::find::{Blot, labelled};
 use crate::numeric::cast::index;
 use crate::numeric::median::quantile;
 use crate::numeric::pieces::around;
 use image::{GrayImage, Luma};
-use imageproc::region_labelling::{Connectivity, connected_components};
+use imageproc::definitions::Image;
 use kurbo::{Line, Rect, Vec2};
 
 /// Between ink and paper must lie at least this share of the contrast that the page's marks have, or the field is
@@ -66,38 +67,12 @@ impl Tile {
         )]
         let (w, h) = (self.w as u32, self.h as u32);
         let bits = GrayImage::from_fn(w, h, |x, y| Luma([u8::from(ink((y * w + x) as usize))]));
-        let labels = connected_components(&bits, Connectivity::Eight, Luma([0]));
-        let mut pieces: Vec<Piece> = Vec::new();
-        for (x, y, Luma([label])) in labels.enumerate_pixels() {
-            let Some(i) = (*label as usize).checked_sub(1) else {
-                continue;
-            };
-            let pixel = Rect::from_origin_size((f64::from(x), f64::from(y)), (1.0, 1.0));
-            let none = Piece {
-                area: 0.0,
-                steps: [0.0; 2],
-                bounds: pixel,
-            };
-            pieces.resize(pieces.len().max(i + 1), none);
-            let alone = |dx: u32, dy: u32| {
-                let next = (x + dx < w && y + dy < h).then(|| bits.get_pixel(x + dx, y + dy).0[0]);
-                f64::from(u8::from(next != Some(1)))
-            };
-            let piece = &mut pieces[i];
-            piece.bounds = if piece.area > 0.0 {
-                piece.bounds.union(pixel)
-            } else {
-                pixel
-            };
-            piece.area += 1.0;
-            piece.steps[0] += 2.0 * alone(1, 0);
-            piece.steps[1] += 2.0 * alone(0, 1);
-        }
-        let largest = pieces.iter().max_by(|a, b| a.area.total_cmp(&b.area));
-        let least = largest
-            .map_or(0.0, |p| (DUST * p.stroke()).powi(2))
-            .max(2.0);
-        let (kept, dust): (Vec<Piece>, Vec<Piece>) = pieces.iter().partition(|p| p.area >= least);
+        let (labels, pieces) = labelled(&bits);
+        let largest = (1..).zip(&pieces);
+        let largest = largest.max_by(|a, b| a.1.area.total_cmp(&b.1.area));
+        let stroke = largest.map_or(0.0, |(label, _)| stroke(&labels, label));
+        let least = (DUST * stroke).powi(2).max(2.0);
+        let (kept, dust): (Vec<Blot>, Vec<Blot>) = pieces.iter().partition(|p| p.area >= least);
         let kept_at = |x: usize, y: usize| {
             let labels = around((x, y), RIM, (self.w, self.h)).map(|i| labels.as_raw()[i] as usize);
             let mut pieces = labels.filter_map(|l| Some(&pieces[l.checked_sub(1)?]));
@@ -166,19 +141,20 @@ impl Tile {
     }
 }
 
-/// One connected piece of ink.
-#[derive(Debug, Clone, Copy)]
-struct Piece {
-    area: f64,
-    /// Steps from ink to paper along rows, and along columns.
-    steps: [f64; 2],
-    bounds: Rect,
-}
-
-impl Piece {
-    /// Rough width of its stroke, px: twice the area over the length of its edge.
-    fn stroke(&self) -> f64 {
-        let [a, b] = self.steps;
-        2.0 * self.area / (a.max(b) + a.min(b) / 2.0).max(1.0)
+/// Rough width of a blot's stroke, px: twice the area over the length of its edge.
+fn stroke(labels: &Image<Luma<u32>>, label: u32) -> f64 {
+    let paper = |x: u32, y: u32| {
+        let beside = labels.get_pixel_checked(x, y);
+        f64::from(u8::from(beside.is_none_or(|Luma([label])| *label == 0)))
+    };
+    // steps from ink to paper along rows, and along columns: two for each last pixel
+    let (mut area, mut across, mut down) = (0.0, 0.0, 0.0);
+    for (x, y, Luma([own])) in labels.enumerate_pixels() {
+        if *own == label {
+            area += 1.0;
+            across += 2.0 * paper(x + 1, y);
+            down += 2.0 * paper(x, y + 1);
+        }
     }
+    2.0 * area / (f64::max(across, down) + f64::min(across, down) / 2.0).max(1.0)
 }

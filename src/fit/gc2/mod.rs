@@ -12,11 +12,10 @@
 //! Cost     O(k) a round for k knots, about log k rounds      Fails  FitError::Option for nu <= -4 omega
 //! ```
 
-pub mod basis;
 pub mod knots;
 pub mod tension;
 
-use super::path::{both_ways, judged, path_of, polygon};
+use super::path::{both_ways, distinct, judged, path_of, polygon};
 use super::{FitError, Fitter};
 use crate::numeric::turns::{Ends, Walk};
 use crate::types::{Fitted, Span};
@@ -77,22 +76,13 @@ impl Fitter for Gc2 {
             seed: self.seed,
             epsilon: tolerance_px,
         };
-        both_ways(span, |span| {
-            Ok(through_knots(span, rule, |task, knots| {
-                self.curve(task, knots)
-            }))
-        })
+        through_knots(span, rule, |task, knots| self.curve(task, knots))
     }
 }
 
 impl Gc2 {
     fn check(&self) -> Result<(), FitError> {
-        let wrong = |option, value: f64, range| FitError::Option {
-            method: "gc2",
-            option,
-            value: value.to_string(),
-            range,
-        };
+        let wrong = |option, value: f64, range| FitError::option(("gc2", option), value, range);
         let omega = self.interval_tension;
         if !(omega.is_finite() && omega > 0.0) {
             return Err(wrong("interval_tension", omega, "it must be above 0"));
@@ -188,31 +178,23 @@ pub(in crate::fit) fn through_knots(
     span: Span<'_>,
     rule: Rule,
     curve: impl Fn(&Task<'_>, &[usize]) -> Option<Vec<CubicBez>>,
-) -> Fitted {
-    let mut points = span.points().to_vec();
-    points.retain(|p| p.is_finite());
-    points.dedup();
-    if span.is_ring() && points.len() > 1 && points.first() == points.last() {
-        points.pop();
-    }
-    let ends = if span.is_ring() {
-        Ends::Closed
-    } else {
-        Ends::Open
-    };
-    if points.len() < if span.is_ring() { 5 } else { 3 } {
-        return polygon(span);
-    }
-    let task = Task {
-        points: &points,
-        ends,
-        walk: Walk::new(&points, ends),
-        reach: REACH * rule.epsilon,
-    };
-    let inserted = insert(&points, ends, rule, |knots| curve(&task, knots));
-    let fitted = inserted.and_then(|i| {
-        let parameters = 2 * i.knots.len();
-        judged(span, path_of(&i.cubics, span), (rule.epsilon, parameters))
-    });
-    fitted.unwrap_or_else(|| polygon(span))
+) -> Result<Fitted, FitError> {
+    both_ways(span, |span| {
+        let (points, ends) = distinct(span);
+        if points.len() < if span.is_ring() { 5 } else { 3 } {
+            return Ok(polygon(span));
+        }
+        let task = Task {
+            points: &points,
+            ends,
+            walk: Walk::new(&points, ends),
+            reach: REACH * rule.epsilon,
+        };
+        let inserted = insert(&task, rule, |knots| curve(&task, knots));
+        let fitted = inserted.and_then(|i| {
+            let parameters = 2 * i.knots.len();
+            judged(span, path_of(&i.cubics, span), (rule.epsilon, parameters))
+        });
+        Ok(fitted.unwrap_or_else(|| polygon(span)))
+    })
 }

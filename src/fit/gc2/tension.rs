@@ -50,23 +50,6 @@ impl Tension {
         let i = i % self.lengths.len();
         self.interval[i] / self.lengths[i]
     }
-
-    /// Whether the tridiagonal system stays dominated by its diagonal: ν > -2 (c before + c after) at every
-    /// knot. Below that the curve bulges and in places has no solution (figures 3.8-3.11).
-    #[must_use]
-    pub fn is_dominant(&self, end: End) -> bool {
-        let n = self.point.len();
-        (0..n).all(|i| {
-            let ring = end == End::Periodic;
-            let before = if i > 0 || ring {
-                self.c(i + self.lengths.len() - 1)
-            } else {
-                0.0
-            };
-            let after = if i + 1 < n || ring { self.c(i) } else { 0.0 };
-            self.point[i] > -2.0 * (before + after)
-        })
-    }
 }
 
 /// The derivatives M by the parameter at every point; `None` when the system has no solution or the
@@ -132,31 +115,10 @@ pub fn tangents(points: &[Point], tension: &Tension, end: End) -> Option<Vec<Vec
 pub fn cubics(points: &[Point], m: &[Vec2], lengths: &[f64]) -> Vec<CubicBez> {
     let n = points.len();
     let one = |(i, h): (usize, &f64)| {
-        let j = (i + 1) % n;
-        let (v, w) = control(&[points[i], points[j]], &[m[i], m[j]], *h, (3.0, 3.0));
-        CubicBez::new(points[i], v, w, points[j])
+        let (p, q, third) = (points[i], points[(i + 1) % n], h / 3.0);
+        CubicBez::new(p, p + m[i] * third, q - m[(i + 1) % n] * third, q)
     };
     lengths.iter().enumerate().map(one).collect()
-}
-
-/// The inner points V and W of the form with α and β: 3 Bézier, 2 Ball, 4 Timmer [rasheed05 eq. 3.10-3.11].
-#[must_use]
-pub fn control(f: &[Point; 2], m: &[Vec2; 2], h: f64, (alpha, beta): (f64, f64)) -> (Point, Point) {
-    (f[0] + m[0] * (h / alpha), f[1] - m[1] * (h / beta))
-}
-
-/// The point at θ in 0…1 of the piece with points F, V, W, F' in the form with α and β [rasheed05 eq. 3.5].
-#[must_use]
-pub fn eval(p: &[Point; 4], (alpha, beta): (f64, f64), theta: f64) -> Point {
-    let s = 1.0 - theta;
-    let weights = [
-        s * s * (1.0 + theta * (2.0 - alpha)),
-        alpha * s * s * theta,
-        beta * s * theta * theta,
-        theta * theta * (1.0 + s * (2.0 - beta)),
-    ];
-    let terms = p.iter().zip(weights);
-    terms.fold(Point::ORIGIN, |sum, (p, w)| sum + p.to_vec2() * w)
 }
 
 #[cfg(test)]
@@ -202,30 +164,6 @@ mod tests {
     }
 
     #[test]
-    fn bezier_ball_and_timmer_are_one_curve() {
-        let (f, m) = (
-            [Point::new(1.0, 2.0), Point::new(7.0, 3.0)],
-            [Vec2::new(4.0, 9.0), Vec2::new(-2.0, 5.0)],
-        );
-        let at = |shape: (f64, f64), theta: f64| {
-            let (v, w) = control(&f, &m, 1.7, shape);
-            eval(&[f[0], v, w, f[1]], shape, theta)
-        };
-        for k in 0..=10 {
-            let theta = f64::from(k) / 10.0;
-            let bezier = at((3.0, 3.0), theta);
-            assert!(
-                bezier.distance(at((2.0, 2.0), theta)) < 1e-12,
-                "Ball at {theta}"
-            );
-            assert!(
-                bezier.distance(at((4.0, 4.0), theta)) < 1e-12,
-                "Timmer at {theta}"
-            );
-        }
-    }
-
-    #[test]
     fn tension_tightens() {
         let p = points();
         let length = |point: f64, interval: f64| -> f64 {
@@ -244,9 +182,5 @@ mod tests {
             (length(1e6, 1.0) / polygon - 1.0).abs() < 1e-3,
             "at last it is the polygon"
         );
-        let mut t = Tension::none(5, End::Periodic);
-        assert!(t.is_dominant(End::Periodic));
-        t.point[3] = -4.0;
-        assert!(!t.is_dominant(End::Periodic));
     }
 }

@@ -3,9 +3,10 @@
 
 use super::cost;
 use crate::numeric::chain::{Chain, Join, Kind};
+use crate::numeric::curves::control_length;
 use crate::numeric::joins::{divide, inner_extrema};
 use crate::numeric::refit::{Foot, Refit, Sample, Scale, Stop};
-use kurbo::{CubicBez, Vec2};
+use kurbo::Vec2;
 
 /// Nodes on each side of a change that are refitted with it.
 const AROUND: usize = 2;
@@ -343,7 +344,7 @@ fn drop_node(w: &mut Window, at: usize, kind: Kind) {
     let Some(after) = w.chain.after(at) else {
         return;
     };
-    let lengths = [before, after].map(|s| chord(&w.chain.cubic(s)));
+    let lengths = [before, after].map(|s| control_length(&w.chain.cubic(s)));
     let share = lengths[0] / (lengths[0] + lengths[1]).max(1e-12);
     let (p, q) = (w.chain.ends(before).0, w.chain.ends(after).1);
     let third = (lengths[0] + lengths[1]) / 3.0;
@@ -386,8 +387,4 @@ fn split(w: &mut Window, at: usize, t: f64, join: Join) {
             foot.t /= t;
         }
     }
-}
-
-fn chord(c: &CubicBez) -> f64 {
-    (c.p1 - c.p0).hypot() + (c.p2 - c.p1).hypot() + (c.p3 - c.p2).hypot()
 }

@@ -232,22 +232,19 @@ impl<'a> Trial<'a> {
             sigma,
             weight: (j - i) as f64 / (count as f64 * super::cost::CORRELATION),
             along: [a.heading, b.heading],
-            beside: [perp(a.heading), perp(b.heading)],
+            beside: [a.heading.turn_90(), b.heading.turn_90()],
             off: [(Vec2::ZERO, 0.0, 0.0); LOOKS],
         }
     }
 
     /// Where the curve is off, and what that costs.
     fn look(&mut self) -> f64 {
-        let turned = |d: Vec2, by: f64| {
-            let (sin, cos) = by.sin_cos();
-            Vec2::new(cos * d.x - sin * d.y, sin * d.x + cos * d.y)
-        };
         let v = self.v;
-        let (u, w) = (
-            turned(self.ends[0].heading, v[1]),
-            turned(self.ends[1].heading, v[3]),
-        );
+        let turned = |end: usize, by: f64| {
+            let heading = self.ends[end].heading;
+            heading.rotate_scale(Vec2::from_angle(by))
+        };
+        let (u, w) = (turned(0, v[1]), turned(1, v[3]));
         self.along = [u, w];
         let [nu, nw] = self.beside;
         let (p0, p3) = (self.places[0] + v[0] * nu, self.places[1] + v[2] * nw);
@@ -264,7 +261,7 @@ impl<'a> Trial<'a> {
         for ((point, t, tells), off) in looks.take(self.count) {
             let (foot, along, _) = powers.at(*t);
             let offset = foot - *point;
-            let n = perp(along / along.hypot().max(1e-12));
+            let n = (along / along.hypot().max(1e-12)).turn_90();
             let d = offset.dot(n);
             let r = d.abs() / self.sigma;
             let (rho, pull) = if r > ROBUST {
@@ -291,9 +288,9 @@ impl<'a> Trial<'a> {
             let (start, end) = (o * o * o + b1, t * t * t + b2);
             let row = [
                 start * nu.dot(*n),
-                b1 * v[4] * perp(u).dot(*n),
+                b1 * v[4] * u.turn_90().dot(*n),
                 end * nw.dot(*n),
-                -b2 * v[5] * perp(w).dot(*n),
+                -b2 * v[5] * w.turn_90().dot(*n),
                 b1 * u.dot(*n),
                 -b2 * w.dot(*n),
             ];
@@ -334,10 +331,6 @@ const fn place(join: Join, sigma: f64) -> f64 {
         Join::Clamped => 0.0,
         _ => sigma,
     }
-}
-
-fn perp(v: Vec2) -> Vec2 {
-    Vec2::new(-v.y, v.x)
 }
 
 /// Cholesky of a 6 × 6; the solution replaces `g`.

@@ -1,6 +1,10 @@
 //! A span at even steps: directions, bends, and how much noise there is.
 
-use crate::{numeric::cast::index, types::Span};
+use crate::numeric::{
+    cast::index,
+    median::{NORMAL, middle},
+};
+use crate::types::Span;
 use kurbo::{Point, Vec2};
 
 /// A span has at least so many steps.
@@ -41,7 +45,7 @@ impl Samples {
     /// Resamples a span of different points.
     pub(super) fn new(span: Span<'_>) -> Self {
         let mut s = Self::resampled(span);
-        s.sigma = deviation(s.off.clone());
+        s.sigma = deviation(s.off.iter().copied());
         s.lean();
         s
     }
@@ -68,7 +72,7 @@ impl Samples {
     /// Spans of one contour: their noise is one, for a short one tells little of its own.
     pub(super) fn together(spans: &[Span<'_>]) -> Vec<Self> {
         let mut all: Vec<Self> = spans.iter().map(|s| Self::resampled(*s)).collect();
-        let sigma = deviation(all.iter().flat_map(|s| s.off.iter().copied()).collect());
+        let sigma = deviation(all.iter().flat_map(|s| s.off.iter().copied()));
         for s in &mut all {
             s.sigma = sigma;
             s.lean();
@@ -191,7 +195,7 @@ impl Samples {
             / ((2.0 * m - 1.0) * (2.0 * m + 1.0) * (2.0 * m + 3.0));
         let off = |k: usize| {
             let [p, d, _] = self.parabola(k, r, r);
-            let normal = Vec2::new(-d.y, d.x) / d.hypot().max(1e-12);
+            let normal = d.turn_90() / d.hypot().max(1e-12);
             (p - self.at[k].to_vec2()).dot(normal).abs() / (1.0 - leverage).sqrt()
         };
         inner.map(off).collect()
@@ -199,14 +203,8 @@ impl Samples {
 }
 
 /// Robust standard deviation of points that lie `off` from parabolas through their neighbours, px.
-fn deviation(mut off: Vec<f64>) -> f64 {
-    if off.is_empty() {
-        return 0.0;
-    }
-    let mid = off.len() / 2;
-    let median = *off.select_nth_unstable_by(mid, f64::total_cmp).1;
-    // median to standard deviation
-    1.4826 * median
+fn deviation(off: impl Iterator<Item = f64>) -> f64 {
+    NORMAL * middle(off, f64::total_cmp).unwrap_or(0.0)
 }
 
 /// A parabola's coefficients from the power sums `s` and moments `m`.
@@ -234,13 +232,12 @@ const GUESS: f64 = 0.02;
 fn weights(span: Span<'_>, at: &[Point], step: f64) -> Vec<f64> {
     let mut out = vec![1.0; at.len()];
     let p = span.points();
-    let mut edges: Vec<f64> = p.windows(2).map(|w| w[0].distance(w[1])).collect();
+    let edges: Vec<f64> = p.windows(2).map(|w| w[0].distance(w[1])).collect();
     if span.is_ring() || edges.len() < 3 {
         return out;
     }
     let (first, last) = (edges[0], edges[edges.len() - 1]);
-    let mid = edges.len() / 2;
-    let usual = *edges.select_nth_unstable_by(mid, f64::total_cmp).1;
+    let usual = middle(edges, f64::total_cmp).unwrap_or(0.0);
     let guessed = |gap: f64| {
         if gap > GAP * usual {
             index((gap / step).ceil())

@@ -2,7 +2,8 @@
 
 use super::objective::State;
 use super::start::through;
-use super::{FINE, ROUGH, STEPS_EACH, Task, part};
+use super::{FINE, ROUGH, STEPS_EACH, Task};
+use crate::numeric::cast::index;
 
 /// A new end point keeps this part of its piece free on either side.
 const MARGIN: f64 = 0.25;
@@ -24,7 +25,7 @@ impl Task<'_> {
         order.sort_by(|&a, &b| worst[b].0.total_cmp(&worst[a].0).then(a.cmp(&b)));
         let far = worst.iter().filter(|w| w.0 > FAR * self.tolerance).count();
         let several = if self.options.step > 0.0 { far } else { 0 };
-        let many = part(pieces, self.options.step).max(several);
+        let many = index(pieces as f64 * self.options.step).max(several);
         order.truncate(many.clamp(1, room.max(1)));
         order.retain(|&i| worst[i].0 > self.tolerance);
         if order.is_empty() {

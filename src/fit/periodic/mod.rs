@@ -25,10 +25,11 @@ mod objective;
 mod spline;
 mod start;
 
-use super::path::{both_ways, judged, path_of, polygon};
+use super::path::{both_ways, distinct, judged, path_of, polygon};
 use super::wls::solve::{Ends as Outer, Problem};
 use super::{FitError, Fitter};
 use crate::numeric::bspline::Basis;
+use crate::numeric::cast::index;
 use crate::numeric::minimise::{Descent, Limits, bfgs};
 use crate::numeric::turns::{Ends, Walk};
 use crate::types::{Fitted, Span, Verdict};
@@ -97,14 +98,11 @@ impl Fitter for Periodic {
                 return Ok(polygon(span));
             }
             // more, and neighbouring feet lie as far apart as the penalty forbids
-            let most = part(points.len(), self.beta.min(1.0) / 2.0);
+            let most = index(points.len() as f64 * (self.beta.min(1.0) / 2.0));
             if let Some(count) = self.control.filter(|&c| c > points.len()) {
                 let value = format!("{count} for {} points", points.len());
-                return Err(wrong(
-                    "control",
-                    value,
-                    "it must not exceed the span's points",
-                ));
+                let range = "it must not exceed the span's points";
+                return Err(wrong("control", value, range));
             }
             let task = Task::new(self, &points, ends, tolerance_px);
             let state = task.solve(most);
@@ -115,59 +113,30 @@ impl Fitter for Periodic {
     }
 }
 
-fn wrong(option: &'static str, value: String, range: &'static str) -> FitError {
-    FitError::Option {
-        method: "periodic",
-        option,
-        value,
-        range,
-    }
-}
-
-/// The span's points without neighbours that coincide, and whether they close.
-fn distinct(span: Span<'_>) -> (Vec<Point>, Ends) {
-    let mut points = span.points().to_vec();
-    points.dedup();
-    if span.is_ring() && points.len() > 1 && points.first() == points.last() {
-        points.pop();
-    }
-    points.retain(|p| p.is_finite());
-    let ends = if span.is_ring() {
-        Ends::Closed
-    } else {
-        Ends::Open
-    };
-    (points, ends)
+fn wrong(option: &'static str, value: impl ToString, range: &'static str) -> FitError {
+    FitError::option(("periodic", option), value, range)
 }
 
 impl Periodic {
     fn check(&self) -> Result<(), FitError> {
         if let Some(c) = self.control.filter(|c| !(3..=10_000).contains(c)) {
-            return Err(wrong("control", c.to_string(), "it must be 3 to 10000"));
+            return Err(wrong("control", c, "it must be 3 to 10000"));
         }
         if !(0.0..=1.0).contains(&self.step) {
-            return Err(wrong("step", self.step.to_string(), "it must be 0 to 1"));
+            return Err(wrong("step", self.step, "it must be 0 to 1"));
         }
         if !(1.0..=1000.0).contains(&self.weight_ratio) {
-            let value = self.weight_ratio.to_string();
-            return Err(wrong("weight_ratio", value, "it must be 1 to 1000"));
+            let range = "it must be 1 to 1000";
+            return Err(wrong("weight_ratio", self.weight_ratio, range));
         }
         if !(self.alpha.is_finite() && self.alpha >= 0.0) {
-            return Err(wrong(
-                "alpha",
-                self.alpha.to_string(),
-                "it must be 0 or more",
-            ));
+            return Err(wrong("alpha", self.alpha, "it must be 0 or more"));
         }
         if !(self.beta.is_finite() && self.beta > 0.0) {
-            return Err(wrong("beta", self.beta.to_string(), "it must be above 0"));
+            return Err(wrong("beta", self.beta, "it must be above 0"));
         }
         if self.power < 2 || self.power > 40 || self.power % 2 == 1 {
-            return Err(wrong(
-                "power",
-                self.power.to_string(),
-                "it must be even, 2 to 40",
-            ));
+            return Err(wrong("power", self.power, "it must be even, 2 to 40"));
         }
         Ok(())
     }
@@ -429,16 +398,6 @@ impl<'a> Task<'a> {
         judged(span, path_of(&cubics, span), (self.tolerance, 2 * free))
             .filter(|f| f.path.is_finite() || f.verdict == Verdict::Degenerate)
     }
-}
-
-/// That part of a number, rounded down.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "0 ≤ part ≤ 1, so the result lies in 0 … n"
-)]
-fn part(n: usize, part: f64) -> usize {
-    (n as f64 * part) as usize
 }
 
 #[cfg(test)]

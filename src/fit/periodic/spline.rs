@@ -1,5 +1,6 @@
 //! The uniform cubic B-spline and the points of it that lie nearest to given ones.
 
+use crate::numeric::cast::index;
 use kurbo::{CubicBez, Point, Vec2};
 use polycool::Quintic;
 
@@ -46,11 +47,6 @@ impl Spline {
     }
 
     /// The piece of `u` and where in it; closed splines go on around.
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "clamped to 0 … pieces before"
-    )]
     pub(super) fn split(&self, u: f64) -> (usize, f64) {
         let n = self.pieces() as f64;
         let u = if self.closed {
@@ -59,7 +55,7 @@ impl Spline {
             u.clamp(0.0, n)
         };
         let i = u.floor().clamp(0.0, n - 1.0);
-        (i as usize, u - i)
+        (index(i), u - i)
     }
 
     pub(super) fn place(&self, u: f64) -> Place {

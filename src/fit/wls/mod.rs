@@ -19,7 +19,7 @@
 pub(in crate::fit) mod solve;
 
 use super::judge::points_to_curve;
-use super::path::{both_ways, judged, line, path_of, polygon};
+use super::path::{both_ways, distinct, judged, line, path_of, polygon};
 use super::{FitError, Fitter};
 use crate::numeric::bspline::Basis;
 use crate::numeric::turns::{self, Straight, Walk};
@@ -106,49 +106,40 @@ impl Fitter for Wls {
     }
 }
 
-fn wrong(option: &'static str, value: String, range: &'static str) -> FitError {
-    FitError::Option {
-        method: "wls",
-        option,
-        value,
-        range,
-    }
+fn wrong(option: &'static str, value: impl ToString, range: &'static str) -> FitError {
+    FitError::option(("wls", option), value, range)
 }
 
 impl Wls {
     fn check(&self) -> Result<(), FitError> {
         if !(2..=12).contains(&self.order) {
-            return Err(wrong("order", self.order.to_string(), "it must be 2 to 12"));
+            return Err(wrong("order", self.order, "it must be 2 to 12"));
         }
         if let Some(m) = self.m.filter(|&m| m + 1 < self.order || m > 10_000) {
             let range = "it must be at least the order less one, and at most 10000";
-            return Err(wrong("m", m.to_string(), range));
+            return Err(wrong("m", m, range));
         }
         for (option, mu) in [("mu_x", self.mu_x), ("mu_y", self.mu_y)] {
             if !(mu.is_finite() && mu >= 0.0) {
-                return Err(wrong(option, mu.to_string(), "it must be 0 or more"));
+                return Err(wrong(option, mu, "it must be 0 or more"));
             }
         }
         if !(0.0..=90.0).contains(&self.straight_deg) {
-            let value = self.straight_deg.to_string();
-            return Err(wrong("straight_deg", value, "it must be 0 to 90"));
+            let range = "it must be 0 to 90";
+            return Err(wrong("straight_deg", self.straight_deg, range));
         }
         Ok(())
     }
 
     fn curves(&self, span: Span<'_>, tolerance: f64) -> Option<Fitted> {
-        let mut points = span.points().to_vec();
-        points.dedup();
-        if span.is_ring() && points.len() > 1 && points.first() == points.last() {
-            points.pop();
-        }
-        if points.len() < 4 || points.iter().any(|p| !p.is_finite()) {
+        let (mut points, ends) = distinct(span);
+        if points.len() < 4 || span.points().iter().any(|p| !p.is_finite()) {
             return None;
         }
         let (cubics, parameters) = if span.is_ring() {
             self.ring(&mut points, tolerance)?
         } else {
-            let lines = self.lines(&points, turns::Ends::Open, tolerance);
+            let lines = self.lines(&points, ends, tolerance);
             self.row(&points, &pieces(&lines, points.len()), tolerance)?
         };
         judged(span, path_of(&cubics, span), (tolerance, parameters))
@@ -160,12 +151,7 @@ impl Wls {
         let Some(start) = lines.first().map(|r| *r.start() % points.len()) else {
             let (vertices, basis) = self.grow(points, End::Ring, tolerance)?;
             let count = vertices.len();
-            let around: Vec<Point> = vertices
-                .iter()
-                .cycle()
-                .take(basis.count())
-                .copied()
-                .collect();
+            let around = around(&vertices, &basis);
             return Some((basis.cubics(&around, tolerance / 100.0), 2 * count));
         };
         let n = points.len();
@@ -214,32 +200,20 @@ impl Wls {
         tolerance: f64,
     ) -> Option<(Vec<CubicBez>, usize)> {
         let last = points.len() - 1;
+        // what a spline takes of the lines beside it
+        let few = if self.joint == Joint::Include { FEW } else { 0 };
         let mut parts: Vec<(Vec<Point>, Option<Basis>)> = Vec::new();
         for piece in pieces {
             parts.push(match piece {
                 Piece::Line(r) => {
-                    let few = |at_end: bool| {
-                        if self.joint == Joint::Include && !at_end {
-                            FEW
-                        } else {
-                            0
-                        }
-                    };
-                    let a = r.start() + few(*r.start() == 0);
-                    let b = r.end() - few(*r.end() == last);
+                    let a = r.start() + if *r.start() == 0 { 0 } else { few };
+                    let b = r.end() - if *r.end() == last { 0 } else { few };
                     (vec![points[a], points[b]], None)
                 }
                 Piece::Spline(r) => {
-                    let few = if self.joint == Joint::Include { FEW } else { 0 };
-                    let a = if *r.start() == 0 { 0 } else { r.start() - few };
-                    let b = if *r.end() == last {
-                        last
-                    } else {
-                        r.end() + few
-                    };
-                    let held = |i: usize| {
-                        (self.joint == Joint::Include || i == 0 || i == last).then(|| points[i])
-                    };
+                    let a = r.start().saturating_sub(few);
+                    let b = (r.end() + few).min(last);
+                    let held = |i: usize| (few > 0 || i == 0 || i == last).then(|| points[i]);
                     let end = End::Open(held(a), held(b));
                     let (vertices, basis) = self.grow(&points[a..=b], end, tolerance)?;
                     (vertices, Some(basis))
@@ -274,12 +248,7 @@ impl Wls {
             if self.m.is_some() || m >= most {
                 return Some((vertices, basis));
             }
-            let around: Vec<Point> = vertices
-                .iter()
-                .cycle()
-                .take(basis.count())
-                .copied()
-                .collect();
+            let around = around(&vertices, &basis);
             let cubics = basis.cubics(&around, tolerance / 100.0);
             let path = path_of(&cubics, Span::Open(points));
             if points_to_curve(points, &path).max_px <= tolerance {
@@ -322,6 +291,12 @@ impl Wls {
         let vertices = problem.vertices()?;
         Some((vertices, basis))
     }
+}
+
+/// The vertices of a curve over a basis: those of a ring again from the first on.
+fn around(vertices: &[Point], basis: &Basis) -> Vec<Point> {
+    let around = vertices.iter().cycle().take(basis.count());
+    around.copied().collect()
 }
 
 /// How a segment ends: open with its outer vertices held or free, or closed.

@@ -506,10 +506,7 @@ impl Refit {
     fn apply(&self, chain: &mut Chain) {
         let part = self.stride(chain);
         let step = |slot: Slot| part * self.stepped(slot);
-        let turn = |d: Vec2, by: f64| {
-            let (s, c) = by.clamp(-0.5, 0.5).sin_cos();
-            Vec2::new(c * d.x - s * d.y, s * d.x + c * d.y)
-        };
+        let turn = |d: Vec2, by: f64| d.rotate_scale(Vec2::from_angle(by.clamp(-0.5, 0.5)));
         // A handle may shrink or grow only by a factor a step: it must not change sides.
         let grow = |handle: f64, by: f64| (handle + by).clamp(0.3 * handle, 3.0 * handle + 1e-9);
         for (node, s) in chain.nodes.iter_mut().zip(&self.slots) {
@@ -527,7 +524,7 @@ impl Refit {
 /// How far a curve is off along its normal, and the normal.
 fn across(off: Vec2, d: Vec2, dd: Vec2) -> (f64, Vec2) {
     let along = if d.hypot2() > 1e-12 { d } else { dd };
-    let normal = Vec2::new(-along.y, along.x) / along.hypot().max(1e-12);
+    let normal = along.turn_90() / along.hypot().max(1e-12);
     (off.dot(normal), normal)
 }
 
@@ -541,8 +538,7 @@ fn unhook(chain: &mut Chain) {
             if turn.abs() <= HOOK {
                 return d;
             }
-            let (s, c) = HOOK.copysign(turn).sin_cos();
-            Vec2::new(c * chord.x - s * chord.y, s * chord.x + c * chord.y)
+            chord.rotate_scale(Vec2::from_angle(HOOK.copysign(turn)))
         };
         let free = |join: Join| join == Join::Corner || join.is_end();
         if free(chain.nodes[a].join) {

@@ -82,16 +82,15 @@ impl Moments {
     pub(super) fn write(&self, chain: &Chain, segment: usize, block: &mut Block) {
         let (a, b) = chain.ends(segment);
         let (a, b) = (&chain.nodes[a], &chain.nodes[b]);
-        let turned = |d: Vec2| Vec2::new(-d.y, d.x);
         let (x, y) = (Vec2::new(1.0, 0.0), Vec2::new(0.0, 1.0));
         // which function each of the eight numbers goes with, and what it is times the normal by
         let numbers = [
             (0, x),
             (0, y),
-            (1, a.ahead * turned(a.leave)),
+            (1, a.ahead * a.leave.turn_90()),
             (1, a.leave),
             (2, -b.arrive),
-            (2, -b.back * turned(b.arrive)),
+            (2, -b.back * b.arrive.turn_90()),
             (3, x),
             (3, y),
         ];

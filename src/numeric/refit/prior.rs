@@ -75,7 +75,7 @@ pub(super) fn levels(chain: &Chain, segment: usize, sigma: f64, block: &mut Bloc
         (Join::Vertical, Vec2::new(1.0, 0.0), 0),
     ] {
         let side = (b.point - a.point).dot(axis).signum();
-        let turned = |d: Vec2| Vec2::new(-d.y, d.x).dot(axis);
+        let turned = |d: Vec2| d.turn_90().dot(axis);
         let mut row = [0.0; 8];
         if b.join == join && a.join != join {
             // side · (b − (a + ahead · leave)) ≥ 0

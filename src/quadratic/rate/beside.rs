@@ -1,6 +1,7 @@
 //! Quadratics beside a sampled curve: feet and distances.
 
-use super::curve::{Curve, count, whole};
+use super::curve::Curve;
+use crate::numeric::cast::index;
 use kurbo::{ParamCurve, Point, QuadBez};
 
 /// A quadratic beside the curve: the sample where it ends, and its largest distance on the way.
@@ -18,22 +19,22 @@ impl Curve {
         /// Samples between them at most.
         const NEAR: f64 = 8.0;
         let last = self.dots.len() - 1;
-        let mut j = whole(guess + 0.5).min(last);
+        let mut j = index(guess + 0.5).min(last);
         let per = 1.0 / self.step;
         for _ in 0..6 {
             let dot = &self.dots[j];
             let r = q - dot.p;
             let s = r.dot(dot.t);
             let along = s * per;
-            let at = count(j) + along;
+            let at = j as f64 + along;
             let straight = along.abs() <= NEAR && (s * dot.k).abs() <= TURN;
-            if along.abs() <= 1.0 || (straight && at >= 0.0 && at <= count(last)) {
+            if along.abs() <= 1.0 || (straight && at >= 0.0 && at <= last as f64) {
                 return (at, dot.t.cross(r) - 0.5 * dot.k * s * s);
             }
             let next = if along >= 0.0 {
-                (j + whole(along + 0.5)).min(last)
+                (j + index(along + 0.5)).min(last)
             } else {
-                j.saturating_sub(whole(0.5 - along))
+                j.saturating_sub(index(0.5 - along))
             };
             if next == j {
                 break;
@@ -43,7 +44,7 @@ impl Curve {
         // Beyond an end, or no foot found: the plain distance.
         let r = q - self.dots[j].p;
         let d = self.dots[j].t.cross(r);
-        (count(j), r.hypot() * if d < 0.0 { -1.0 } else { 1.0 })
+        (j as f64, r.hypot() * if d < 0.0 { -1.0 } else { 1.0 })
     }
 
     /// Follows a quadratic from sample `from`; none if it strays farther than `limit` (units),
@@ -129,23 +130,23 @@ impl Curve {
         const AHEAD: usize = 12;
         let bend = ((quad.p0 - quad.p1) - (quad.p1 - quad.p2)).hypot();
         let chords = (0.25 * bend / SAG).sqrt().ceil();
-        let chords = whole(chords.clamp(CHORDS.0, CHORDS.1));
+        let chords = index(chords.clamp(CHORDS.0, CHORDS.1));
         let dots: Vec<Point> = (0..=chords)
-            .map(|i| quad.eval(count(i) / count(chords)))
+            .map(|i| quad.eval(i as f64 / chords as f64))
             .collect();
         let (mut worst, mut at): (f64, f64) = (0.0, from);
         for pair in dots.windows(2) {
             at = self
                 .foot(pair[1], at + pair[0].distance(pair[1]) / self.step)
                 .0;
-            let near = whole(at).min(self.dots.len() - 1);
+            let near = index(at).min(self.dots.len() - 1);
             let around = near.saturating_sub(2)..(near + 4).min(self.dots.len());
             let around: Vec<Point> = self.dots[around].iter().map(|o| o.p).collect();
             worst = worst.max(beside(pair[1], &around, 0, around.len()).1);
         }
         let mut k = 0;
         let last = self.dots.len() - 1;
-        for o in &self.dots[whole(from.ceil().max(0.0))..=whole(to.max(0.0)).min(last)] {
+        for o in &self.dots[index(from.ceil().max(0.0))..=index(to.max(0.0)).min(last)] {
             let (nearest, d) = beside(o.p, &dots, k, AHEAD);
             (k, worst) = (nearest, worst.max(d));
         }

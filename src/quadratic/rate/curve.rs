@@ -1,6 +1,7 @@
 //! A contour as spans between the nodes that must stay, each sampled evenly by arc length.
 
 use super::glyf::Stored;
+use crate::numeric::{cast::index, curves};
 use kurbo::{BezPath, ParamCurve, ParamCurveDeriv, PathSeg, Point, Vec2};
 
 /// By how much the search's own lengths in units grow at a tolerance, units: 1 up to two thousandths of an em of
@@ -200,11 +201,11 @@ impl Curve {
                 j += 1.0;
             }
         }
-        let n = whole((length / spacing).ceil().clamp(16.0, 60_000.0));
-        let step = length / count(n);
+        let n = index((length / spacing).ceil().clamp(16.0, 60_000.0));
+        let step = length / n as f64;
         let (mut dots, mut at) = (Vec::with_capacity(n + 1), 0);
         for i in 0..=n {
-            let s = step * count(i);
+            let s = step * i as f64;
             while at + 2 < table.len() && (table[at + 1].0 < s || table[at + 1].1 != table[at].1) {
                 at += 1;
             }
@@ -237,7 +238,7 @@ impl Curve {
     /// The samples from one place to another, in either order.
     pub(super) fn between(&self, one: f64, other: f64) -> &[Dot] {
         let last = self.dots.len() - 1;
-        let [from, to] = [one.min(other), one.max(other)].map(|v| whole(v.max(0.0)).min(last));
+        let [from, to] = [one.min(other), one.max(other)].map(|v| index(v.max(0.0)).min(last));
         &self.dots[from..=to]
     }
 
@@ -254,7 +255,7 @@ impl Curve {
         };
         for i in 0..n {
             let (a, b) = (i.saturating_sub(1), (i + 1).min(n - 1));
-            self.dots[i].k = turn(self, a, b) / (self.step * count(b - a));
+            self.dots[i].k = turn(self, a, b) / (self.step * (b - a) as f64);
         }
     }
 
@@ -262,7 +263,7 @@ impl Curve {
     fn open(segs: &[PathSeg], room: [f64; 2], [from, to]: [Node; 2], keep: Keep) -> Self {
         let mut curve = Self::sampled(segs, keep.tolerance);
         let n = curve.dots.len();
-        let beyond = room.map(|r| whole((r / curve.step).min(count(n))));
+        let beyond = room.map(|r| index((r / curve.step).min(n as f64)));
         let (head, tail) = (curve.dots[0], curve.dots[n - 1]);
         let (u, v) = (from.along.unwrap_or(head.t), to.along.unwrap_or(tail.t));
         let step = curve.step;
@@ -271,8 +272,8 @@ impl Curve {
             t,
             k: 0.0,
         };
-        let before = (1..=beyond[0]).rev().map(|i| line(head.p, u, -count(i)));
-        let after = (1..=beyond[1]).map(|i| line(tail.p, v, count(i)));
+        let before = (1..=beyond[0]).rev().map(|i| line(head.p, u, -(i as f64)));
+        let after = (1..=beyond[1]).map(|i| line(tail.p, v, i as f64));
         curve.dots = before.chain(curve.dots).chain(after).collect();
         (curve.first, curve.last) = (beyond[0], beyond[0] + n - 1);
         curve.bend();
@@ -397,8 +398,7 @@ pub(super) fn is_line(seg: &PathSeg) -> bool {
 }
 
 fn control_length(seg: &PathSeg) -> f64 {
-    let c = seg.to_cubic();
-    c.p0.distance(c.p1) + c.p1.distance(c.p2) + c.p2.distance(c.p3)
+    curves::control_length(&seg.to_cubic())
 }
 
 /// Unit tangent; at a collapsed handle the direction to the next control point.
@@ -428,23 +428,4 @@ pub(super) fn direction(seg: &PathSeg, u: f64) -> Vec2 {
 fn level(d: Vec2) -> Vec2 {
     let snap = |v: f64| if v.abs() < 1e-6 { 0.0 } else { v };
     Vec2::new(snap(d.x), snap(d.y))
-}
-
-/// A count as a number.
-#[expect(
-    clippy::cast_precision_loss,
-    reason = "sample counts are far below 2^52"
-)]
-pub(super) const fn count(n: usize) -> f64 {
-    n as f64
-}
-
-/// A number that is known to be whole and not negative.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "callers clamp to a range of indices"
-)]
-pub(super) const fn whole(x: f64) -> usize {
-    x as usize
 }

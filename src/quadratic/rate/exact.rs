@@ -1,6 +1,6 @@
 //! How far from the optimum: every run of points on the grid, by Dijkstra, on contours small enough.
 
-use super::curve::{Course, Curve, Keep, Node, Span, count};
+use super::curve::{Course, Curve, Keep, Node, Span};
 use super::glyf::{Pen, Stored};
 use super::search::{Effort, Otherwise, smooth};
 use super::{Strictness, least, solve};
@@ -100,7 +100,7 @@ fn steps(curve: &Curve, s: State, controls: &[Point], joins: &[Point]) -> Vec<(u
         };
         return controls.iter().filter(fits).map(chosen).collect();
     };
-    let reach = |m: Point| curve.follow([s.from, c, m], s.at, count(curve.last), TOLERANCE);
+    let reach = |m: Point| curve.follow([s.from, c, m], s.at, curve.last as f64, TOLERANCE);
     let mut pen = s.pen;
     let bytes = pen.store(Stored::off(c));
     let implied = controls
@@ -147,7 +147,7 @@ fn optimum(curve: &Curve, to: Node, start: Point) -> u32 {
         from: start,
         control: None,
         along: None,
-        at: count(curve.first),
+        at: curve.first as f64,
         pen: Pen::after(Stored::on(start)),
     };
     let (controls, joins) = (near(curve, OUTSIDE), near(curve, TOLERANCE));

@@ -1,8 +1,7 @@
 //! The smallest TrueType outline within a tolerance, the whole contour at once.
 //! Source   [sohel sec. II.B, alg. 1, eq. 4]: vertices by shortest path, quadratics as runs of vertices
 //! Solves   min glyf bytes + lambda * (sum of each quadratic's largest error), no error above the tolerance
-//! Takes    an [`Outline`] of lines, quadratics and cubics, or a traced contour by [`through()`], font units; a
-//!          tolerance, units
+//! Takes    an [`Outline`] of lines, quadratics and cubics, font units; a tolerance, units
 //! Gives    an [`Outline`] on whole units; on-curve points half way between control points are implied
 //! Symbols  c_(i,m), c_(j,n) -> `Join::c`, `Join::next`; r -> `Pen::store`; w -> cost; T -> `Effort::limit`
 //! Departs  the rate is the bytes of `glyf`; an on-curve point may stand between two runs; control
@@ -20,10 +19,8 @@ mod search;
 mod solve;
 mod splice;
 mod thin;
-mod through;
 
 pub use glyf::{glyf_bytes, glyf_points};
-pub use through::through;
 
 use super::QuadraticError;
 use crate::types::Outline;

@@ -1,6 +1,6 @@
 //! Course → stored points: a search for each span, a second one to close a ring.
 
-use super::curve::{Course, Curve, Dot, Gate, Node, Span, count};
+use super::curve::{Course, Curve, Dot, Gate, Node, Span};
 use super::glyf::{Stored, stored_bytes};
 use super::search::{Care, Effort, Join, Otherwise, Search, Start};
 use super::thin;
@@ -127,8 +127,8 @@ fn open(curve: &Curve, effort: Effort, from: Node, to: Node) -> Option<Vec<Join>
         };
         let joins = search.path(id);
         // Between corners all of the curve counts, wherever the ends' feet lie.
-        let first = from.along.is_none().then(|| count(curve.first));
-        let last = to.along.is_none().then(|| count(curve.last));
+        let first = from.along.is_none().then_some(curve.first as f64);
+        let last = to.along.is_none().then_some(curve.last as f64);
         let strays = strays(curve, &joins, effort.limit, (first, last));
         if strays.is_empty() {
             return Some(joins);
@@ -231,11 +231,11 @@ fn closed(
         let n = joins.len();
         let meet = joins.last()?.c?.midpoint(next);
         let second = joins.get(1).filter(|_| n > 2)?.m;
-        let begin = count(curve.first) + (meet - m).x * curve.dots[curve.first].t.x / curve.step;
+        let begin = curve.first as f64 + (meet - m).x * curve.dots[curve.first].t.x / curve.step;
         let opens = curve.follow(
             [meet, next, second],
             begin - 1.0,
-            count(curve.last),
+            curve.last as f64,
             effort.limit,
         );
         joins[n - 1].m = meet;

@@ -2,12 +2,9 @@ use super::{
     Rate, Strictness,
     curve::{Course, Span},
     glyf::points,
-    glyf_bytes, through,
+    glyf_bytes,
 };
-use crate::{
-    quadratic::split::Split,
-    types::{Contour, Outline},
-};
+use crate::{quadratic::split::Split, types::Outline};
 use kurbo::{
     Affine, BezPath, Circle, Ellipse, ParamCurve, ParamCurveNearest, PathEl, PathSeg, Point, Shape,
 };
@@ -279,30 +276,6 @@ fn a_grid_too_coarse_is_named() {
         err.to_string().contains("grid of whole font units"),
         "{err}"
     );
-}
-
-#[test]
-fn a_traced_contour_needs_no_fit_between() {
-    // half a disc of 30 px with a grain of 0.1 px, at 10 units a px
-    let bow = (0..95).map(|i| {
-        let (a, grain) = (f64::from(i) / 30.0, 30.0 + 0.1 * f64::from(i % 3 - 1));
-        Point::new(grain * a.cos(), grain * a.sin())
-    });
-    let flat = (1..60).map(|i| Point::new(-30.0 + f64::from(i), 0.0));
-    let contour = Contour::new(bow.chain(flat).collect()).unwrap();
-    let path = Affine::scale(10.0) * through(&contour, &[0, 94]);
-    let q = Rate::default()
-        .convert(&Outline::new(vec![path]).unwrap(), 3.0)
-        .unwrap();
-    let stored = points(&q.contours()[0]);
-    assert!(stored.len() <= 10, "{stored:?}");
-    let round = |p: &Point| p.y > 5.0;
-    let off = q.contours()[0]
-        .segments()
-        .flat_map(|s| (0..8).map(move |i| s.eval(f64::from(i) / 8.0)));
-    for p in off.filter(round) {
-        assert!((p.to_vec2().hypot() - 300.0).abs() < 5.0, "{p:?}");
-    }
 }
 
 #[test]

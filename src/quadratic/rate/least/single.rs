@@ -1,8 +1,9 @@
 //! Every quadratic that could lead from one end of a stretch to the other.
 
-use super::super::curve::{Curve, Dot, Gate, Node, count, whole};
+use super::super::curve::{Curve, Dot, Gate, Node};
 use super::super::search::on_gate;
 use super::step;
+use crate::numeric::cast::index;
 use kurbo::{ParamCurve, Point, QuadBez, Rect, Vec2};
 
 /// Where a quadratic is looked at, the likeliest failure first.
@@ -96,8 +97,8 @@ impl Side {
                 let along = curve.dots[from..=to].iter().map(|o| (o.p - node).dot(u));
                 let (low, high) = along.fold((0.0, 0.0), |(l, h), v: f64| (v.min(l), v.max(h)));
                 let (low, high) = (low - reach, high + reach);
-                let many = whole((high - low) / APART) + 1;
-                let points = (0..=many).map(|k| node + u * (low + APART * count(k)));
+                let many = index((high - low) / APART) + 1;
+                let points = (0..=many).map(|k| node + u * (low + APART * k as f64));
                 Places {
                     points: points.collect(),
                     around: AROUND,
@@ -197,9 +198,9 @@ pub(super) fn singles(curve: &Curve, [a, b]: [(Side, usize); 2], limit: f64) -> 
         if looked > MOST {
             return vec![[1, 1]];
         }
-        for x in 0..=whole(x1 - x0) {
-            for y in 0..=whole(y1 - y0) {
-                let c = Point::new(x0 + count(x), y0 + count(y));
+        for x in 0..=index(x1 - x0) {
+            for y in 0..=index(y1 - y0) {
+                let c = Point::new(x0 + x as f64, y0 + y as f64);
                 let quad = QuadBez::new(m, c, n);
                 let fits = LOOK.iter().all(|&u| {
                     let moved = heads.around * (1.0 - u) * (1.0 - u) + tails.around * u * u;
@@ -233,7 +234,7 @@ fn ends(curve: &Curve, gate: Gate, reach: f64) -> Vec<Point> {
         )
     });
     let first = (2.0 * low).ceil();
-    let many = whole((2.0 * high - first).max(0.0)) + 1;
-    let places = (0..many).map(|k| 0.5 * (first + count(k)));
+    let many = index((2.0 * high - first).max(0.0)) + 1;
+    let places = (0..many).map(|k| 0.5 * (first + k as f64));
     places.map(|v| on_gate(gate, Point::new(v, v))).collect()
 }

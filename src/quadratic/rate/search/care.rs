@@ -1,7 +1,7 @@
 //! Where a search must look closer than elsewhere, from what earlier ones found.
 
-use super::super::curve::{count, whole};
 use super::{BYTE, Search};
+use crate::numeric::cast::index;
 
 /// A stretch of samples: how many times the slack there, and which part of the limit.
 #[derive(Debug, Clone, Copy)]
@@ -19,12 +19,12 @@ pub(in super::super) struct Care(Vec<Stretch>);
 impl Care {
     /// What a label at a sample may cost more than the cheapest beyond it, of so many bytes elsewhere.
     pub(super) fn slack(&self, at: usize, bytes: f64) -> u64 {
-        whole(self.wider(at) * bytes * BYTE) as u64
+        index(self.wider(at) * bytes * BYTE) as u64
     }
 
     /// How many times the slack at a sample.
     fn wider(&self, at: usize) -> f64 {
-        let at = count(at);
+        let at = at as f64;
         let here = self.0.iter().filter(|c| (c.from..=c.to).contains(&at));
         here.map(|c| c.slack).fold(1.0, f64::max)
     }
@@ -48,7 +48,7 @@ impl Search<'_> {
             .rev()
             .find(|&s| !self.labels.at(s).is_empty())
             .unwrap_or(0);
-        let at = |s: usize| count(self.stages[s.min(last)].at);
+        let at = |s: usize| self.stages[s.min(last)].at as f64;
         let mut care = self.care.clone();
         let slack = MORE * self.care.wider(self.stages[stuck].at);
         let from = at(stuck.saturating_sub(AROUND.0));

@@ -1,10 +1,10 @@
 //! Extrema and the ends of spans: joins on a line that is given.
 
 use super::super::{
-    curve::{Node, coarse, count},
+    curve::{Node, coarse},
     glyf::Stored,
 };
-use super::lattice::{floor, full, half, normal, smooth};
+use super::lattice::{floor, full, half, smooth};
 use super::quad::price;
 use super::stage::{Kind, gate_direction, on_gate};
 use super::{Join, Leg, Search};
@@ -35,7 +35,7 @@ impl Search<'_> {
             let next = self.nexts[gate][k];
             let m = c.midpoint(next);
             if (m - c).dot(ahead) > 0.25 && (m - p).hypot() <= slide {
-                let foot = self.curve.foot(m, count(i));
+                let foot = self.curve.foot(m, i as f64);
                 let keys = [k as u64 | 1 << 16, u64::MAX];
                 hit |= self.both(gate, leg, (m, foot, until), (keys, ahead));
             }
@@ -43,7 +43,7 @@ impl Search<'_> {
         for k in [0.0, -0.35, 0.35, -0.7, 0.7, -1.0, 1.0] {
             let m = full(p + ahead * (k * slide));
             if (m - c).dot(ahead) > 0.25 && self.closing.is_none() {
-                let foot = self.curve.foot(m, count(i));
+                let foot = self.curve.foot(m, i as f64);
                 hit |= self.both(gate, leg, (m, foot, until), ([u64::MAX, 0], ahead));
             }
         }
@@ -166,14 +166,14 @@ impl Search<'_> {
         if room == 0 {
             return out;
         }
-        let reach = self.slide(i).min(count(room) * self.curve.step - 1.0);
+        let reach = self.slide(i).min(room as f64 * self.curve.step - 1.0);
         for k in [-1.0, -0.5, 0.5, 1.0] {
             let m = full(p + u * (k * reach));
             // The line reaches to the join: where that lies beside the curve, so does the line.
-            let guess = count(i) + k * reach / self.curve.step;
+            let guess = i as f64 + k * reach / self.curve.step;
             let (at, beside) = self.curve.foot(m, guess);
             let most = self.effort.beside * self.effort.limit;
-            let bulges = self.curve.between(count(i), at);
+            let bulges = self.curve.between(i as f64, at);
             let bulges = bulges.iter().any(|o| u.cross(o.p - m).abs() > most);
             if beside.abs() <= BESIDE * most && !bulges && !out.contains(&m) {
                 out.push(m);
@@ -203,7 +203,7 @@ impl Search<'_> {
         let Some((line, u)) = self.rail(gate) else {
             return;
         };
-        let n = normal(u);
+        let n = u.turn_90();
         let want = 0.5 * ((c - line).dot(n));
         let (mut before, mut found) = (f64::NAN, None);
         for s in stage + 1..=gate {

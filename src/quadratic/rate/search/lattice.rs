@@ -1,6 +1,6 @@
 //! Whole and half font units, and directions between them.
 
-use super::super::curve::whole;
+use crate::numeric::cast::index;
 use kurbo::{Point, Vec2};
 
 /// The nearest point whose coordinates are whole or half.
@@ -44,10 +44,6 @@ pub(in super::super) fn smooth(u: Vec2, v: Vec2) -> bool {
         }
 }
 
-pub(super) fn normal(t: Vec2) -> Vec2 {
-    Vec2::new(-t.y, t.x)
-}
-
 pub(super) fn level(x: f64, most: f64) -> u64 {
-    whole(x.clamp(-most, most) + most + 0.5) as u64
+    index(x.clamp(-most, most) + most + 0.5) as u64
 }

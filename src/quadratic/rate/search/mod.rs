@@ -7,13 +7,12 @@ mod quad;
 mod stage;
 
 use super::Strictness;
-use super::curve::{Curve, Gate, Node, count};
+use super::curve::{Curve, Gate, Node};
 use super::glyf::{Pen, Stored};
 use crate::numeric::shortest::{Id, Labels};
 pub(super) use care::Care;
 use kurbo::{Point, Vec2};
 use lattice::floor;
-use lattice::normal;
 pub(super) use lattice::smooth;
 use quad::{LEVELS, Place, places};
 pub(super) use stage::on_gate;
@@ -169,7 +168,7 @@ impl<'a> Search<'a> {
 
     /// Runs the search; answers the labels at the end, cheapest first.
     pub(super) fn run(&mut self, start: Start) -> Vec<Id> {
-        let begin = count(self.curve.first);
+        let begin = self.curve.first as f64;
         match start {
             Start::Node(n) => {
                 let room = if self.curve.is_ring() {
@@ -343,7 +342,7 @@ impl<'a> Search<'a> {
         let i = self.stages[s].at;
         match self.stages[s].kind {
             Kind::Free => (
-                self.curve.dots[i].p + normal(self.curve.dots[i].t) * aside,
+                self.curve.dots[i].p + self.curve.dots[i].t.turn_90() * aside,
                 self.curve.dots[i].t,
             ),
             Kind::Gate(g) | Kind::Pass(g) => (
@@ -408,6 +407,6 @@ impl<'a> Search<'a> {
 
     /// The last sample a quadratic before this gate may reach.
     fn until(&self, gate: usize) -> f64 {
-        count(self.stages[gate].at)
+        self.stages[gate].at as f64
     }
 }

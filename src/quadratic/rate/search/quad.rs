@@ -1,11 +1,9 @@
 //! One quadratic more: the labels that it leads to.
 
-use super::super::{
-    curve::{Curve, count, whole},
-    glyf::Stored,
-};
-use super::lattice::{full, half, level, normal, smooth};
+use super::super::{curve::Curve, glyf::Stored};
+use super::lattice::{full, half, level, smooth};
 use super::{BYTE, Join, Leg, Search, Way};
+use crate::numeric::cast::index;
 use crate::numeric::shortest::Id;
 use kurbo::{Point, Vec2};
 
@@ -83,10 +81,10 @@ impl Search<'_> {
     fn keys(&self, s: usize, (c, m): (Point, Point), side: u64) -> [u64; 2] {
         /// Spacings of stages between which a reach counts as the same.
         const REACH: f64 = 4.0;
-        let n = normal(self.curve.dots[self.stages[s].at].t);
+        let n = self.curve.dots[self.stages[s].at].t.turn_90();
         let lean = level((c - m).dot(n) / self.effort.limit, 2.0);
         // Half way to the next control point: where that comes to lie the rest of the run depends on.
-        let reach = whole(((m - c).hypot() / (REACH * self.stages[s].spacing)).min(60.0)) as u64;
+        let reach = index(((m - c).hypot() / (REACH * self.stages[s].spacing)).min(60.0)) as u64;
         [1 << 16 | reach << 8 | lean << 4 | side, lean << 4 | side]
     }
 
@@ -98,7 +96,7 @@ impl Search<'_> {
         let i = self.stages[s].at;
         let side = side(self.curve, i, m, self.effort.limit);
         let keys = self.keys(s, (leg.c, m), side);
-        let foot = self.curve.foot(m, count(i));
+        let foot = self.curve.foot(m, i as f64);
         self.both(s, leg, (m, foot, self.until(leg.gate)), (keys, m - leg.c))
     }
 
@@ -119,7 +117,7 @@ impl Search<'_> {
         if !wants_implied && on.is_none() {
             return true;
         }
-        let limit = self.limit(leg.at, count(self.stages[s].at));
+        let limit = self.limit(leg.at, self.stages[s].at as f64);
         let quad = [leg.from, leg.c, m];
         let Some(f) = self.curve.measure(quad, (leg.at, foot), until, limit) else {
             return false;
@@ -167,14 +165,14 @@ impl Search<'_> {
         (cost, worst): (u64, f64),
         item: Join,
     ) {
-        let cost = cost + whole(self.effort.lambda * worst * BYTE) as u64;
+        let cost = cost + index(self.effort.lambda * worst * BYTE) as u64;
         self.labels.offer(place, cost, Some(prev), item);
     }
 }
 
 /// Cost of bytes.
 pub(super) fn price(bytes: u32) -> u64 {
-    whole(f64::from(bytes) * BYTE) as u64
+    index(f64::from(bytes) * BYTE) as u64
 }
 
 /// Where joins are tried across the band, limits.
@@ -195,7 +193,7 @@ pub(super) struct Place {
 
 /// The joins nearest to the levels whose next control point lies on the lattice, and the points there.
 pub(super) fn places(curve: &Curve, i: usize, limit: f64) -> Vec<Place> {
-    let n = normal(curve.dots[i].t);
+    let n = curve.dots[i].t.turn_90();
     let mut out = Vec::new();
     for (level, &height) in LEVELS.iter().enumerate() {
         let p = curve.dots[i].p + n * (height * limit);
@@ -204,7 +202,7 @@ pub(super) fn places(curve: &Curve, i: usize, limit: f64) -> Vec<Place> {
         for (m, is_usual) in both.into_iter().take(1 + usize::from(full != near)) {
             out.push(Place {
                 m,
-                foot: curve.foot(m, count(i)),
+                foot: curve.foot(m, i as f64),
                 side: side(curve, i, m, limit),
                 level,
                 is_usual,
@@ -216,6 +214,6 @@ pub(super) fn places(curve: &Curve, i: usize, limit: f64) -> Vec<Place> {
 
 /// On which side of the curve a join lies, in three steps.
 fn side(curve: &Curve, i: usize, m: Point, limit: f64) -> u64 {
-    let d = (m - curve.dots[i].p).dot(normal(curve.dots[i].t));
+    let d = (m - curve.dots[i].p).dot(curve.dots[i].t.turn_90());
     level(d / (0.7 * limit), 1.0)
 }

@@ -1,8 +1,9 @@
 //! A run of control points that may still move, between two nodes or around a ring.
 
-use super::super::curve::{Curve, Node, count, whole};
+use super::super::curve::{Curve, Node};
 use super::super::glyf::Stored;
 use super::{Point, Vec2, smooth};
+use crate::numeric::cast::index;
 
 /// A point, and what may move it.
 #[derive(Debug, Clone)]
@@ -52,12 +53,12 @@ fn spread(points: &[Stored]) -> Option<Vec<Point>> {
     if many == 0 || many > MOST {
         return None;
     }
-    let share = count(many + 1) / count(many);
+    let share = (many + 1) as f64 / many as f64;
     let place = |i: usize| {
-        let at = ((count(i) + 0.5) * share - 0.5).clamp(0.0, count(many));
-        let low = whole(at).min(many - 1);
+        let at = ((i as f64 + 0.5) * share - 0.5).clamp(0.0, many as f64);
+        let low = index(at).min(many - 1);
         let [a, b] = [low, low + 1].map(|k| points[k].point());
-        a.lerp(b, at - count(low))
+        a.lerp(b, at - low as f64)
     };
     Some((0..many).map(place).collect())
 }

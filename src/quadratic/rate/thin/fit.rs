@@ -1,8 +1,9 @@
 //! A chain moved until its largest distance from the curve is least.
 
-use super::super::curve::{Curve, count, whole};
+use super::super::curve::Curve;
 use super::chain::Chain;
 use super::{Point, Vec2};
+use crate::numeric::cast::index;
 use nalgebra::{DMatrix, DVector};
 
 /// Places of a quadratic that are looked at, its start among them.
@@ -67,7 +68,7 @@ impl<'a> Fit<'a> {
 
     /// Samples beside the start of a quadratic and its end.
     pub(super) fn stretch(&self, quad: usize) -> (f64, f64) {
-        let around = self.feet[0] + count(self.curve.last - self.curve.first);
+        let around = self.feet[0] + (self.curve.last - self.curve.first) as f64;
         let to = self.feet.get((quad + 1) * LOOK).copied();
         (self.feet[quad * LOOK], to.unwrap_or(around))
     }
@@ -75,21 +76,21 @@ impl<'a> Fit<'a> {
     /// Whether the curve lies within the limit of the lines that reach from its ends to the chain's.
     pub(super) fn keeps_lines(&self, limit: f64) -> bool {
         let (first, last) = (self.curve.first, self.curve.last);
-        let end = self.feet.last().map_or(last, |&at| whole(at.max(0.0)));
+        let end = self.feet.last().map_or(last, |&at| index(at.max(0.0)));
         let [start, stop] = self.chain.along;
         let beside = |from: usize, to: usize, u: Vec2, end: usize| {
             let away = |p: Point| u.cross(p - self.curve.dots[end].p).abs();
             let dots = self.curve.dots.iter().take(to + 1).skip(from);
             dots.map(|o| away(o.p)).fold(0.0, f64::max) <= limit
         };
-        start.is_none_or(|u| beside(first, whole(self.feet[0].max(0.0)), u, first))
+        start.is_none_or(|u| beside(first, index(self.feet[0].max(0.0)), u, first))
             && stop.is_none_or(|u| beside(end, last, u, last))
     }
 
     /// Of each quadratic its start and seven places more; of an open chain its end.
     fn places(&self) -> Vec<(usize, f64)> {
         let many = self.chain.many();
-        let all = (0..many * LOOK).map(|k| (k / LOOK, count(k % LOOK) / count(LOOK)));
+        let all = (0..many * LOOK).map(|k| (k / LOOK, (k % LOOK) as f64 / LOOK as f64));
         let is_open = self.chain.spots.len() > many;
         all.chain(is_open.then_some((many - 1, 1.0))).collect()
     }
@@ -101,13 +102,12 @@ impl<'a> Fit<'a> {
         for (k, (quad, u)) in self.places().into_iter().enumerate() {
             let q = self.chain.eval(quad, u);
             let next = |(p, at): (Point, f64)| at + p.distance(q) / self.curve.step;
-            let first = || before.map_or(count(self.curve.first), next);
+            let first = || before.map_or(self.curve.first as f64, next);
             let guess = self.feet.get(k).copied().unwrap_or_else(first);
             let (at, far) = self.curve.foot(q, guess.max(0.0));
             before = Some((q, at));
             feet.push(at);
-            let t = self.curve.dots[whole(at + 0.5).min(last)].t;
-            let left = Vec2::new(-t.y, t.x);
+            let left = self.curve.dots[index(at + 0.5).min(last)].t.turn_90();
             offs.push(Off { far, left });
         }
         self.feet = feet;
@@ -167,6 +167,6 @@ impl<'a> Fit<'a> {
             s.ways.iter().for_each(|&(i, v)| s.at += v * step[i]);
         }
         let parts = offs.iter().map(|o| (o.far.abs() / worst).powi(power));
-        Some(worst * (parts.sum::<f64>() / count(offs.len())).powf(f64::from(power).recip()))
+        Some(worst * (parts.sum::<f64>() / offs.len() as f64).powf(f64::from(power).recip()))
     }
 }

@@ -7,7 +7,7 @@
 mod chain;
 mod fit;
 
-use super::curve::{Curve, Node, count};
+use super::curve::{Curve, Node};
 use super::glyf::{Pen, Stored};
 use super::search::{Effort, smooth};
 use super::{Strictness, assemble};
@@ -93,10 +93,10 @@ fn holds(fit: &mut Fit<'_>, curve: &Curve, effort: Effort) -> bool {
         // Between corners all of the curve counts, wherever the ends' feet lie.
         let [starts, ends] = fit.chain.corners();
         if quad == 0 && starts {
-            from = count(curve.first);
+            from = curve.first as f64;
         }
         if quad == last && ends {
-            to = count(curve.last);
+            to = curve.last as f64;
         }
         from < to && curve.strays(QuadBez::new(a, c, b), from, to) <= SURE * limit
     })

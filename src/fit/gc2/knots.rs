@@ -4,7 +4,8 @@
 //! distance to the curve at the same place along the piece exceeds ε becomes a knot. Rounds go on until
 //! one inserts nothing [rasheed05 alg. 4.1-4.6].
 
-use crate::numeric::turns::{Ends, Walk};
+use super::Task;
+use crate::numeric::turns::Ends;
 use kurbo::{CubicBez, ParamCurve, Point};
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
@@ -81,23 +82,20 @@ const DRY: usize = 3;
 /// Knots that a ring starts with.
 const RING: usize = 4;
 
-/// Inserts knots by `rule` into a row of points until it stops; `curve` draws a cubic an interval through
-/// the points of these indices. `None` when it cannot.
+/// Inserts knots by `rule` into a span until it stops; `curve` draws a cubic an interval through the points of these
+/// indices. `None` when it cannot.
 pub(in crate::fit) fn insert(
-    points: &[Point],
-    ends: Ends,
+    task: &Task<'_>,
     rule: Rule,
     curve: impl Fn(&[usize]) -> Option<Vec<CubicBez>>,
 ) -> Option<Inserted> {
-    let walk = Walk::new(points, ends);
-    let knots = start(&walk, points.len(), ends);
+    let knots = start(task);
     let cubics = curve(&knots)?;
+    let inserted = Inserted { knots, cubics };
     let mut row = Row {
-        points,
-        walk,
-        ends,
+        task,
         rule,
-        inserted: Inserted { knots, cubics },
+        inserted,
     };
     let mut dice = Dice(rule.seed);
     let mut dry = 0;
@@ -115,7 +113,7 @@ pub(in crate::fit) fn insert(
         }
         dry = 0;
         let knots = &mut row.inserted.knots;
-        knots.extend(new.iter().map(|k| k % points.len()));
+        knots.extend(new.iter().map(|k| k % task.points.len()));
         knots.sort_unstable();
         knots.dedup();
         row.inserted.cubics = curve(knots)?;
@@ -123,23 +121,22 @@ pub(in crate::fit) fn insert(
 }
 
 /// The outer points of an open row; of a ring, points at equal distances from the first on.
-fn start(walk: &Walk<'_>, n: usize, ends: Ends) -> Vec<usize> {
-    if ends == Ends::Open {
-        return vec![0, n - 1];
+fn start(task: &Task<'_>) -> Vec<usize> {
+    let (walk, last) = (&task.walk, task.points.len() - 1);
+    if task.ends == Ends::Open {
+        return vec![0, last];
     }
     let part = walk.total() / RING as f64;
     // a little less than the part, or rounding would choose where a point lies on it
     let place = |k: usize| k as f64 * part - 1e-6 * walk.total();
-    let at = |k: usize| walk.lengths().partition_point(|&s| s < place(k)).min(n - 1);
+    let at = |k: usize| walk.lengths().partition_point(|&s| s < place(k)).min(last);
     let mut knots: Vec<usize> = (0..RING).map(at).collect();
     knots.dedup();
     knots
 }
 
 struct Row<'a> {
-    points: &'a [Point],
-    walk: Walk<'a>,
-    ends: Ends,
+    task: &'a Task<'a>,
     rule: Rule,
     inserted: Inserted,
 }
@@ -153,8 +150,8 @@ struct Piece {
 impl Row<'_> {
     fn pieces(&self) -> impl Iterator<Item = Piece> {
         let knots = &self.inserted.knots;
-        let n = self.points.len();
-        let around = (self.ends == Ends::Closed)
+        let n = self.task.points.len();
+        let around = (self.task.ends == Ends::Closed)
             .then(|| knots.first().map(|k| k + n))
             .flatten();
         let nexts = knots.iter().skip(1).copied().chain(around);
@@ -163,8 +160,8 @@ impl Row<'_> {
     }
 
     fn along(&self, k: usize) -> f64 {
-        let n = self.points.len();
-        self.walk.lengths()[k % n] + (k / n) as f64 * self.walk.total()
+        let n = self.task.points.len();
+        self.task.walk.lengths()[k % n] + (k / n) as f64 * self.task.walk.total()
     }
 
     /// The contour point and the curve's point at the same place along the piece (eq. 4.11).
@@ -172,7 +169,10 @@ impl Row<'_> {
         let (a, b) = (self.along(piece.span.start), self.along(piece.span.end));
         let theta = (self.along(k) - a) / (b - a);
         let curve = self.inserted.cubics.get(piece.place)?;
-        Some((self.points[k % self.points.len()], curve.eval(theta)))
+        Some((
+            self.task.points[k % self.task.points.len()],
+            curve.eval(theta),
+        ))
     }
 
     fn distance(&self, piece: &Piece, k: usize) -> f64 {
@@ -230,7 +230,7 @@ impl Row<'_> {
 
     /// Eq. 4.13-4.15: whether the curve's point is away from both knots.
     fn is_distant(&self, piece: &Piece, k: usize) -> bool {
-        let knot = |i: usize| self.points[i % self.points.len()];
+        let knot = |i: usize| self.task.points[i % self.task.points.len()];
         self.pair(piece, k).is_some_and(|(_, c)| {
             let near = NEAR * self.rule.epsilon;
             c.distance(knot(piece.span.start)) > near && c.distance(knot(piece.span.end)) > near

@@ -15,7 +15,6 @@
 
 use super::gc2::knots::{Insertion, Rule, Stop};
 use super::gc2::{Task, through_knots};
-use super::path::both_ways;
 use super::{FitError, Fitter};
 use crate::numeric::banded::Tridiagonal;
 use crate::numeric::turns::Ends;
@@ -77,12 +76,8 @@ impl Fitter for Timmer {
     fn fit(&self, span: Span<'_>, tolerance_px: f64) -> Result<Fitted, FitError> {
         for (option, value) in [("alpha", self.alpha), ("beta", self.beta)] {
             if !(value.is_finite() && value > 0.0) {
-                return Err(FitError::Option {
-                    method: "timmer",
-                    option,
-                    value: value.to_string(),
-                    range: "it must be above 0",
-                });
+                let range = "it must be above 0";
+                return Err(FitError::option(("timmer", option), value, range));
             }
         }
         let rule = Rule {
@@ -91,19 +86,16 @@ impl Fitter for Timmer {
             seed: self.seed,
             epsilon: tolerance_px,
         };
-        both_ways(span, |span| {
-            Ok(through_knots(span, rule, |task, knots| {
-                self.curve(task, knots)
-            }))
-        })
+        through_knots(span, rule, |task, knots| self.curve(task, knots))
     }
 }
 
 impl Timmer {
     fn curve(&self, task: &Task<'_>, knots: &[usize]) -> Option<Vec<CubicBez>> {
         let points = task.at(knots);
-        let mean = task.walk.total() / task.lengths(knots).len().max(1) as f64;
-        let ways: Vec<f64> = task.lengths(knots).iter().map(|h| h * mean).collect();
+        let lengths = task.lengths(knots);
+        let mean = task.walk.total() / lengths.len().max(1) as f64;
+        let ways = lengths.iter().map(|h| h * mean).collect();
         let outer = (task.ends == Ends::Open).then(|| task.directions());
         let row = Row {
             points,
