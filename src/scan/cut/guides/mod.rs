@@ -70,10 +70,8 @@ pub(super) fn measure(
     let drop = match layer.levels {
         Levels::Loose if !hangs => {
             if let Some(slopes) = slopes(&letters, layer.rows, near(&letters)) {
-                turn_deg = median(slopes.iter().copied())
-                    .unwrap_or(0.0)
-                    .atan()
-                    .to_degrees();
+                let mean = slopes.iter().sum::<f64>() / slopes.len() as f64;
+                turn_deg = mean.atan().to_degrees();
                 slope(layer, &slopes, all);
                 letters = layer.slots.iter().filter_map(letter).collect();
             }
