@@ -3,7 +3,7 @@
 //! Points to curve tells what the curve misses; curve to points tells where it goes astray between
 //! them. A method's own residual is neither.
 
-use crate::numeric::distance::{Polyline, distances};
+use crate::numeric::distance::Polyline;
 use crate::types::Span;
 use kurbo::{BezPath, ParamCurve, ParamCurveArclen, PathEl, Point, Rect};
 
@@ -147,8 +147,12 @@ fn steps(path: &BezPath) -> impl Iterator<Item = Point> {
 }
 
 fn deviation(points: impl Iterator<Item = Point>, line: &Polyline) -> Deviation {
-    let (mut max, mut sum, mut n) = (0.0_f64, 0.0, 0.0);
-    for (_, d) in distances(points, std::slice::from_ref(line)) {
+    let (mut max, mut sum, mut n, mut at) = (0.0_f64, 0.0, 0.0, 0);
+    for p in points {
+        // neighbours lie beside neighbours
+        let nearest = line.nearest_from(at, p);
+        at = nearest.segment;
+        let d = nearest.distance;
         max = max.max(d);
         sum += d * d;
         n += 1.0;
