@@ -4,7 +4,7 @@
 //! them. A method's own residual is neither.
 
 use crate::numeric::cast::index;
-use crate::numeric::distance::{Polyline, distances};
+use crate::numeric::distance::Polyline;
 use crate::types::Span;
 use kurbo::{BezPath, ParamCurve, ParamCurveArclen, PathEl, Point, Rect};
 
@@ -52,6 +52,15 @@ pub fn judge(span: Span<'_>, path: &BezPath) -> Judgement {
         points: points_to_curve(span.points(), path),
         curve: curve_to_points(span, path),
     }
+}
+
+/// The same where no distance is above `limit_px`: nothing is measured beyond the first that is.
+#[must_use]
+pub fn judge_within(span: Span<'_>, path: &BezPath, limit_px: f64) -> Option<Judgement> {
+    let line = curve(span.points(), path)?;
+    let points = deviation_within(span.points().iter().copied(), &line, limit_px)?;
+    let curve = deviation_within(steps(path), &polyline(span)?, limit_px)?;
+    Some(Judgement { points, curve })
 }
 
 /// Whether both maxima of [`judge`] are at most `limit_px`: sooner told than how large they are.
@@ -137,20 +146,32 @@ fn steps(path: &BezPath) -> impl Iterator<Item = Point> {
 }
 
 fn deviation(points: impl Iterator<Item = Point>, line: &Polyline) -> Deviation {
-    let (mut max, mut sum, mut n) = (0.0_f64, 0.0, 0.0);
-    for (_, d) in distances(points, std::slice::from_ref(line)) {
+    deviation_within(points, line, f64::INFINITY).unwrap_or(ASTRAY)
+}
+
+/// `None` where a point lies farther away than the limit, or there is none.
+fn deviation_within(
+    points: impl Iterator<Item = Point>,
+    line: &Polyline,
+    limit_px: f64,
+) -> Option<Deviation> {
+    let (mut max, mut sum, mut n, mut at) = (0.0_f64, 0.0, 0.0, 0);
+    for p in points {
+        // neighbours lie beside neighbours
+        let nearest = line.nearest_from(at, p);
+        at = nearest.segment;
+        let d = nearest.distance;
+        if d > limit_px {
+            return None;
+        }
         max = max.max(d);
         sum += d * d;
         n += 1.0;
     }
-    if n > 0.0 {
-        Deviation {
-            max_px: max,
-            rms_px: (sum / n).sqrt(),
-        }
-    } else {
-        ASTRAY
-    }
+    (n > 0.0).then(|| Deviation {
+        max_px: max,
+        rms_px: (sum / n).sqrt(),
+    })
 }
 
 #[cfg(test)]

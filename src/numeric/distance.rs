@@ -78,6 +78,27 @@ impl Polyline {
         best
     }
 
+    /// The same, looked for around a segment first: short where that is near.
+    #[must_use]
+    pub fn nearest_from(&self, segment: usize, p: Point) -> Nearest {
+        let mut best = Nearest {
+            distance: f64::INFINITY,
+            segment,
+            t: 0.0,
+        };
+        let mut node = self.leaves + segment / LEAF;
+        self.descend(node, p, &mut best);
+        while node > 1 {
+            let beside = node ^ 1;
+            if to_box(p, self.boxes[beside]) < best.distance {
+                self.descend(beside, p, &mut best);
+            }
+            node /= 2;
+        }
+        best.distance = best.distance.sqrt();
+        best
+    }
+
     /// How far away the line is, or `limit` where it is no nearer: the smaller the limit, the shorter the search.
     fn distance_below(&self, p: Point, limit: f64) -> f64 {
         let mut best = Nearest {
@@ -105,7 +126,7 @@ impl Polyline {
                 at += on;
                 return true;
             }
-            let nearest = self.nearest(p);
+            let nearest = self.nearest_from(at, p);
             at = nearest.segment;
             nearest.distance <= limit
         })
@@ -226,20 +247,21 @@ mod tests {
         };
         let points: Vec<_> = (0..77).map(at).collect();
         let line = Polyline::new(points.clone()).unwrap();
-        for i in 0..200 {
+        for (i, segment) in (0..200).zip((0..76).cycle()) {
             let p = Point::new(
                 f64::from(i % 17) * 3.1 - 25.0,
                 f64::from(i / 17) * 2.7 - 16.0,
             );
             let all = points.windows(2).map(|w| to_segment(p, w[0], w[1]).0);
             let least = all.fold(f64::INFINITY, f64::min).sqrt();
-            let n = line.nearest(p);
-            assert!((n.distance - least).abs() < 1e-12, "at {p}");
-            let on = points[n.segment].lerp(points[n.segment + 1], n.t);
-            assert!(
-                (on.distance(p) - least).abs() < 1e-12,
-                "the place is the nearest one"
-            );
+            for n in [line.nearest(p), line.nearest_from(segment, p)] {
+                assert!((n.distance - least).abs() < 1e-12, "at {p}");
+                let on = points[n.segment].lerp(points[n.segment + 1], n.t);
+                assert!(
+                    (on.distance(p) - least).abs() < 1e-12,
+                    "the place is the nearest one"
+                );
+            }
         }
     }
 

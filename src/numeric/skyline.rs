@@ -10,6 +10,8 @@ pub struct Skyline {
     start: Vec<usize>,
     values: Vec<f64>,
     factor: Vec<f64>,
+    /// Column of each row's first number that is not zero: nor has its factor one before it.
+    begins: Vec<usize>,
 }
 
 impl Skyline {
@@ -40,13 +42,15 @@ impl Skyline {
         }
     }
 
-    /// Adds `by` times `values`, those of the columns from the first on, to row `i` up to its diagonal. What lies
+    /// Adds `by` times `values`, those of the columns from `column` on, to row `i` up to its diagonal. What lies
     /// outside the envelope is passed over.
-    pub fn add_row(&mut self, i: usize, values: &[f64], by: f64) {
-        if i < self.len() {
-            let (start, first) = (self.start[i], self.first[i]);
-            let row = &mut self.values[start..=start + i - first];
-            let pairs = row.iter_mut().zip(values.iter().skip(first));
+    pub fn add_row(&mut self, i: usize, (column, values): (usize, &[f64]), by: f64) {
+        if i < self.len() && column <= i {
+            let first = self.first[i];
+            let from = first.max(column);
+            let row = &mut self.values[self.start[i]..=self.start[i] + i - first];
+            let pairs = row[from - first..].iter_mut();
+            let pairs = pairs.zip(values.iter().skip(from - column));
             pairs.for_each(|(to, v)| *to += by * v);
         }
     }
@@ -65,19 +69,23 @@ impl Skyline {
     fn factorise(&mut self, lambda: f64) -> bool {
         let mut factor = std::mem::take(&mut self.factor);
         factor.clone_from(&self.values);
+        self.begins.clear();
         let mut sound = true;
         for i in 0..self.len() {
             let (done, rest) = factor.split_at_mut(self.start[i]);
             let fi = self.first[i];
-            for j in fi..i {
+            let zeros = rest[..i - fi].iter().take_while(|v| **v == 0.0).count();
+            self.begins.push(fi + zeros);
+            for j in fi + zeros..i {
                 let fj = self.first[j];
-                let from = fi.max(fj);
+                let from = self.begins[i].max(self.begins[j]);
                 let lj = &done[self.start[j]..=self.start[j] + j - fj];
                 let dot = dot(&rest[from - fi..j - fi], &lj[from - fj..j - fj]);
                 rest[j - fi] = (rest[j - fi] - dot) / lj[j - fj];
             }
             let diagonal = rest[i - fi] * (1.0 + lambda);
-            let pivot = diagonal - dot(&rest[..i - fi], &rest[..i - fi]);
+            let row = &rest[zeros..i - fi];
+            let pivot = diagonal - dot(row, row);
             // A relative bound: rounding leaves about 1e-16 of the diagonal in a singular pivot.
             if pivot > 1e-13 * diagonal {
                 rest[i - fi] = pivot.sqrt();
@@ -153,8 +161,13 @@ mod tests {
         rows.reset(&first);
         each.reset(&first);
         for i in 0..5 {
-            rows.add_row(i, &values, 0.5);
+            rows.add_row(i, (0, &values), 0.5);
             (0..=i.min(3)).for_each(|j| each.add(i, j, 0.5 * values[j]));
+        }
+        assert_eq!(rows.values, each.values);
+        for i in 0..4 {
+            rows.add_row(i, (2, &values[2..]), 0.5);
+            (2..=i).for_each(|j| each.add(i, j, 0.5 * values[j]));
         }
         assert_eq!(rows.values, each.values);
     }

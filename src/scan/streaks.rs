@@ -33,6 +33,8 @@ const ASIDE: [[isize; 2]; 2] = [[3, 4], [2, 3]];
 const FAR: [[isize; 2]; 2] = [[4, 6], [3, 4]];
 /// So near to the picture's edge nothing is looked for, px.
 const MARGIN: usize = 6;
+/// Nor in tiles of so many px without ink in and beside them: more than the sides lie apart.
+const TILE: usize = 8;
 /// Its sides are ink: at least this part of its level.
 const SIDE: f32 = 0.65;
 /// It is paler than they are by this part of the ink's level, and by that towards its ends.
@@ -70,11 +72,7 @@ pub(super) fn filled(
     if gray.scatter_px() > 0.0 {
         return None;
     }
-    let seen = Seen {
-        gray,
-        paper,
-        scale: (ink - paper).recip(),
-    };
+    let seen = Seen::new(gray, [paper, ink]);
     // nearly all pictures end here
     let pale = seen.valleys((PALER[1].0, 1.0 - RELIEF), (RELIEF, ASIDE), &counts);
     if pale.len() < ENOUGH {
@@ -104,6 +102,29 @@ struct Seen<'a> {
     gray: &'a Gray,
     paper: f32,
     scale: f32,
+    /// whether a tile or one beside it has ink that may be a valley's side, row by row
+    inked: Vec<bool>,
+}
+
+impl<'a> Seen<'a> {
+    fn new(gray: &'a Gray, [paper, ink]: [f32; 2]) -> Self {
+        let scale = (ink - paper).recip();
+        let (across, down) = (gray.width().div_ceil(TILE), gray.height().div_ceil(TILE));
+        let mut inked = vec![false; across * down];
+        for y in 0..gray.height() {
+            let tiles = &mut inked[y / TILE * across..][..across];
+            for (tile, part) in tiles.iter_mut().zip(gray.row(y).chunks(TILE)) {
+                let side = |v: &f32| (v - paper) * scale >= SIDE;
+                *tile |= part.iter().fold(false, |any, v| any | side(v));
+            }
+        }
+        Self {
+            gray,
+            paper,
+            scale,
+            inked: dilated(&inked, across, 1),
+        }
+    }
 }
 
 impl Seen<'_> {
@@ -131,6 +152,15 @@ impl Seen<'_> {
         side.map_or(0.0, |side| if side < SIDE { 0.0 } else { side - here })
     }
 
+    /// The columns of a row in which a pixel may have sides.
+    fn near_ink(&self, y: usize) -> impl Iterator<Item = usize> {
+        let inner = self.gray.width().saturating_sub(MARGIN);
+        let across = self.gray.width().div_ceil(TILE);
+        let tiles = self.inked[y / TILE * across..][..across].iter();
+        let inked = tiles.enumerate().filter(|(_, inked)| **inked);
+        inked.flat_map(move |(t, _)| (t * TILE).max(MARGIN)..((t + 1) * TILE).min(inner))
+    }
+
     /// The pixels of levels between two that are valleys by `relief`, row by row.
     fn valleys(
         &self,
@@ -143,10 +173,10 @@ impl Seen<'_> {
         let [low, high] = [low, high].map(|part| self.paper + part / self.scale);
         let mut out = Vec::new();
         for y in MARGIN..h.saturating_sub(MARGIN) {
-            let inner = self.gray.row(y).get(MARGIN..w.saturating_sub(MARGIN));
-            for (i, v) in inner.unwrap_or_default().iter().enumerate() {
-                let (x, place) = (i + MARGIN, y * w + i + MARGIN);
-                if *v < low || *v > high || !counts(x, y) {
+            for x in self.near_ink(y) {
+                let place = y * w + x;
+                let v = self.gray.samples()[place];
+                if v < low || v > high || !counts(x, y) {
                     continue;
                 }
                 let all = across.map(|way| self.relief(place, way));

@@ -15,7 +15,7 @@ mod piece;
 mod samples;
 mod tidy;
 
-use super::judge::{Judgement, is_within, judge, points_to_curve};
+use super::judge::{Judgement, is_within, judge_within, points_to_curve};
 use super::path;
 use super::{FitError, Fitter};
 use crate::types::{Fitted, Span, Spans, Verdict};
@@ -165,9 +165,8 @@ impl Joint {
         let mut stages = [found.chain, loose, found.chosen].into_iter();
         stages.find_map(|chain| {
             let path = chain.to_path();
-            let judged = judge(span, &path);
-            let keeps = path.is_finite() && judged.max_px() <= STRAY * tolerance_px;
-            keeps.then(|| (path, found.refit.free(&chain), judged))
+            let judged = judge_within(span, &path, STRAY * tolerance_px)?;
+            Some((path, found.refit.free(&chain), judged))
         })
     }
 

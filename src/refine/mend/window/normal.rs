@@ -76,8 +76,10 @@ impl Normal {
             .rows()
             .zip(spread.chunks_exact(self.slope.len().max(1)))
         {
+            // an edge's light reaches few numbers
+            let zeros = spread.iter().take_while(|v| **v == 0.0).count();
             for (i, a) in ink.iter().enumerate().filter(|(_, a)| **a != 0.0) {
-                self.matrix.add_row(i, spread, *a);
+                self.matrix.add_row(i, (zeros, &spread[zeros..]), *a);
             }
         }
     }

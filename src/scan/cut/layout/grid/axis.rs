@@ -174,22 +174,18 @@ impl Profile {
     /// Score, start and pitch of the best `n` cells of a pitch.
     fn fit(&self, pitch: f64, n: f64) -> (f64, f64, f64) {
         let at = |i: usize| self.origin + (i as f64 + 0.5) * self.step;
-        let sums = self
-            .ink
-            .iter()
-            .enumerate()
-            .fold((0.0, 0.0), |(c, s), (i, v)| {
-                let (sin, cos) = (TAU * at(i) / pitch).sin_cos();
-                (c + v * cos, s + v * sin)
-            });
+        let inked = || self.ink.iter().enumerate().filter(|(_, v)| **v > 0.0);
+        let sums = inked().fold((0.0, 0.0), |(c, s), (i, v)| {
+            let (sin, cos) = (TAU * at(i) / pitch).sin_cos();
+            (c + v * cos, s + v * sin)
+        });
         let strength = sums.0.hypot(sums.1) / self.total;
         // the ink is densest in the middle of the cells
         let middle = sums.1.atan2(sums.0) / TAU * pitch;
         let first = middle - pitch / 2.0;
         let from = ((self.low - first) / pitch).floor() - 1.0;
         let outside = |start: f64| {
-            let beyond = self.ink.iter().enumerate();
-            let out = beyond.filter(|(i, _)| at(*i) < start || at(*i) > start + n * pitch);
+            let out = inked().filter(|(i, _)| at(*i) < start || at(*i) > start + n * pitch);
             out.map(|(_, v)| v).sum::<f64>() / self.total
         };
         let starts = (0..4).map(|k| first + (from + f64::from(k)) * pitch);
