@@ -136,18 +136,34 @@ mod tests {
     const WIDTH: f64 = 60.0;
     const NEAR: f64 = 10.0;
 
+    const LATIN: [&str; 7] = ["H", "g", "E", "T", "N", "y", "M"];
+    /// Letters of two bodies, none of which ends on the line.
+    const BOWLS: [&str; 7] = [
+        "uni0628.fina",
+        "uni062D.fina",
+        "uni062A.fina",
+        "uni062E.fina",
+        "uni062B.fina",
+        "uni062C.fina",
+        "uni067E.fina",
+    ];
+
     /// The slopes of rows of letters, 100 px high, that slope so and bounce by so many px.
-    fn of(rows: &[f64], bounce: f64) -> Option<Vec<f64>> {
+    fn of(names: [&str; 7], rows: &[f64], bounce: f64) -> Option<Vec<f64>> {
         let bounces = [0.3, -0.8, 1.0, -0.2, 0.5, -1.0, 0.1];
         let letter = |row: usize, k: usize, name: &str| {
             let x = k as f64 * 3.0 * WIDTH;
             let strays = bounce * bounces[(3 * row + k) % bounces.len()];
-            let mut letter = Letter::ending(row, name, rows[row] * x + strays);
+            let hangs = if name.starts_with("uni") {
+                20.0 * (k % 2) as f64
+            } else {
+                0.0
+            };
+            let mut letter = Letter::ending(row, name, rows[row] * x + strays + hangs);
             letter.body.x0 = x;
             letter.body.x1 = x + WIDTH;
             letter
         };
-        let names = ["H", "g", "E", "T", "N", "y", "M"];
         let row = |r: usize| names.iter().enumerate().map(move |(k, n)| (r, k, *n));
         let all = (0..rows.len()).flat_map(row);
         let letters: Vec<Letter> = all.map(|(r, k, n)| letter(r, k, n)).collect();
@@ -156,16 +172,24 @@ mod tests {
 
     #[test]
     fn parallel_rows_have_no_slopes_of_their_own() {
-        for bounce in [0.0, 2.0, 10.0, 20.0] {
-            assert_eq!(of(&[0.0; 6], bounce), None, "{bounce}");
+        for (names, bounce) in [LATIN, BOWLS]
+            .into_iter()
+            .flat_map(|n| [0.0, 2.0, 10.0, 20.0].map(|b| (n, b)))
+        {
+            assert_eq!(of(names, &[0.0; 6], bounce), None, "{bounce}");
         }
     }
 
     #[test]
     fn rows_that_climb_and_fall_are_followed() {
         let drawn = [0.04, 0.0, -0.03, 0.02, 0.05, -0.01];
-        for (bounce, most) in [(0.0, 0.002), (4.0, 0.006)] {
-            let found = of(&drawn, bounce).unwrap();
+        for (names, bounce, most) in [
+            (LATIN, 0.0, 0.002),
+            (LATIN, 4.0, 0.008),
+            (BOWLS, 0.0, 0.002),
+            (BOWLS, 4.0, 0.012),
+        ] {
+            let found = of(names, &drawn, bounce).unwrap();
             let off = found.iter().zip(drawn).map(|(a, b)| (a - b).abs());
             let off = off.fold(0.0, f64::max);
             assert!(off < most, "{off} of {found:?}");
