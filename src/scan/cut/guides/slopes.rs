@@ -18,6 +18,8 @@ use std::collections::BTreeMap;
 
 /// Places of a row more than it has kinds that tell its slope, at least.
 const ENOUGH: usize = 3;
+/// And of a kind at most: pairs of more take long, and tell no more.
+const MOST: usize = 200;
 /// Rows that lie aslant beyond doubt, at least, and how many of its deviations such a row's slope is.
 const ROWS: usize = 2;
 const DOUBT: f64 = 4.0;
@@ -53,8 +55,9 @@ impl Row {
             return None;
         }
         let pairs = |v: &[Point]| -> Vec<f64> {
+            let v: Vec<&Point> = v.iter().step_by(v.len().div_ceil(MOST).max(1)).collect();
             let pairs = v.iter().enumerate();
-            let pairs = pairs.flat_map(|(i, a)| v[i + 1..].iter().map(move |b| *b - *a));
+            let pairs = pairs.flat_map(|(i, a)| v[i + 1..].iter().map(move |b| **b - **a));
             pairs.map(|d| d.y / d.x).filter(|s| s.is_finite()).collect()
         };
         let slope = median(kinds.values().flat_map(|v| pairs(v)))?;
