@@ -232,19 +232,25 @@ pub fn cut(
     options: &Options,
     pins: &[Pin],
 ) -> Result<Cut, ScanError> {
-    let cut = cut_page(page, labels, options, pins, None);
-    cut.map_err(|fault| fault.of(&page.sheet.source, page.sheet.guessed))
+    let cut = |skew_deg| cut_page(page, labels, options, pins, skew_deg);
+    let (first, turn_deg) =
+        cut(None).map_err(|fault| fault.of(&page.sheet.source, page.sheet.guessed))?;
+    // where rows slope each in its own way their mean says better than all ink how the page is turned
+    let again = (turn_deg.abs() >= LEAST_TURN_DEG).then(|| cut(Some(first.skew_deg + turn_deg)));
+    Ok(match again {
+        Some(Ok((turned, _))) => turned,
+        _ => first,
+    })
 }
 
-/// Cuts a page that is turned by `skew_deg`, or by what its ink tells; where rows slope each in its own way the ink as a
-/// whole tells little, and their mean says it better.
+/// Cuts a page that is turned by `skew_deg`, or by what its ink tells; with the turn that its rows' own slopes add.
 fn cut_page(
     page: &Page,
     labels: &[Label],
     options: &Options,
     pins: &[Pin],
     skew_deg: Option<f64>,
-) -> Result<Cut, Fault> {
+) -> Result<(Cut, f64), Fault> {
     let gray = &page.sheet.gray;
     let (low, ink) = level::pieces(gray, page.noise);
     let Inks {
@@ -256,10 +262,7 @@ fn cut_page(
     let separation = Separation::measure(&page.sheet, &all, &options.ink, speck_limit(&all))?;
     let telling = telling(&all, page);
     let edges = Edges::new(&telling, gray.height());
-    let given = skew_deg;
-    let skew_deg = given.unwrap_or_else(|| deskew::skew_deg(&edges));
-    let skew_deg = Some(skew_deg).filter(|s| s.abs() >= LEAST_SKEW_DEG);
-    let skew_deg = skew_deg.unwrap_or(0.0);
+    let skew_deg = worth_it(skew_deg.unwrap_or_else(|| deskew::skew_deg(&edges)));
     let middle = Point::new(gray.width() as f64 / 2.0, gray.height() as f64 / 2.0);
     let upright = Scene {
         ink: &telling,
@@ -293,18 +296,6 @@ fn cut_page(
     marks::dust(&mut layer, &all, &claims, (DUST * stroke).powi(2));
     let seen = |slot: &Slot| pins::stance(slot.index, pins, &upright).0;
     let guides = guides::measure(&mut layer, &all, page, options, seen)?;
-    if given.is_none() && guides.turn_deg.abs() >= LEAST_TURN_DEG {
-        let turned = cut_page(
-            page,
-            labels,
-            options,
-            pins,
-            Some(skew_deg + guides.turn_deg),
-        );
-        if let Ok(cut) = turned {
-            return Ok(cut);
-        }
-    }
     let stance = Stance::of(&layer, &all, &guides.drop);
     let mut warnings = guides.warnings;
     warnings.extend(remarks::of_picture(page, options));
@@ -330,7 +321,7 @@ fn cut_page(
     let rest = (layer.rejected.iter()).map(|&(i, reason)| Rejected::of(&all[i], reason));
     let rejected = rest.chain(beside).collect();
     warnings.sort_by_key(|w| w.index);
-    Ok(Cut {
+    let cut = Cut {
         cells,
         rejected,
         warnings,
@@ -339,7 +330,14 @@ fn cut_page(
         specks,
         colours: separation.map_or_else(Vec::new, |s| s.colours()),
         misfit: stance.misfit(),
-    })
+    };
+    Ok((cut, guides.turn_deg))
+}
+
+/// A skew, or 0 where that is next to nothing; degrees.
+fn worth_it(skew_deg: f64) -> f64 {
+    let worth = skew_deg.abs() >= LEAST_SKEW_DEG;
+    if worth { skew_deg } else { 0.0 }
 }
 
 /// The largest of some pieces of ink.
