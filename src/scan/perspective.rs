@@ -56,6 +56,15 @@ struct Pencil {
     turn: f64,
 }
 
+/// How a page's rows lie.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Rows {
+    /// As lines of one pencil, so that they tell how the page was seen.
+    Together,
+    /// Each in its own way.
+    Apart,
+}
+
 /// What tells how a page was seen.
 pub(super) struct Scene<'a> {
     pub(super) ink: &'a [&'a Component],
@@ -63,6 +72,7 @@ pub(super) struct Scene<'a> {
     /// The picture's middle, px, which is also half its size.
     pub(super) middle: Point,
     pub(super) skew_deg: f64,
+    pub(super) rows: Rows,
     pub(super) layout: Layout,
     pub(super) paper: Option<&'a Paper>,
 }
@@ -71,7 +81,10 @@ impl Scene<'_> {
     /// From the picture to the upright page; turned only, where it was seen from straight above.
     pub(super) fn view(&self) -> View {
         let slope = self.skew_deg.to_radians().tan();
-        let rows = self.pencil(&self.edges.about(self.middle), slope);
+        let rows = match self.rows {
+            Rows::Together => self.pencil(&self.edges.about(self.middle), slope),
+            Rows::Apart => None,
+        };
         let least = if self.layout == Layout::Free {
             DRIFT
         } else {

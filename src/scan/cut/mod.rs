@@ -32,8 +32,9 @@ use super::components::{Component, gap};
 use super::deskew::{self, Edges};
 use super::error::{Fault, ScanError};
 use super::options::Options;
-use super::perspective::Scene;
+use super::perspective::{Rows, Scene};
 use super::separation::{Colour, Separation};
+use crate::numeric::view::View;
 use crate::types::{Cell, Label};
 use kurbo::{Affine, Point, Rect};
 use rayon::prelude::*;
@@ -46,8 +47,9 @@ use std::fmt;
 const DUST: f64 = 0.85;
 /// Skews below this, degrees, are left alone: over a page they move a letter by a hair.
 const LEAST_SKEW_DEG: f64 = 0.01;
-/// Rows that slope each in its own way say so where the page is turned by as much more, degrees.
+/// Rows that slope each in its own way tell the turn anew where it is as much more, degrees, and so many times.
 const LEAST_TURN_DEG: f64 = 0.25;
+const TURNS: usize = 2;
 
 /// What a page was cut into.
 #[derive(Debug, Clone, Serialize, Deserialize)]
@@ -232,25 +234,30 @@ pub fn cut(
     options: &Options,
     pins: &[Pin],
 ) -> Result<Cut, ScanError> {
-    let cut = |skew_deg| cut_page(page, labels, options, pins, skew_deg);
-    let (first, turn_deg) =
+    let cut = |apart| cut_page(page, labels, options, pins, apart);
+    let (mut best, mut turn_deg) =
         cut(None).map_err(|fault| fault.of(&page.sheet.source, page.sheet.guessed))?;
-    // where rows slope each in its own way their mean says better than all ink how the page is turned
-    let again = (turn_deg.abs() >= LEAST_TURN_DEG).then(|| cut(Some(first.skew_deg + turn_deg)));
-    Ok(match again {
-        Some(Ok((turned, _))) => turned,
-        _ => first,
-    })
+    // of rows that slope each in its own way all ink together tells neither turn nor perspective
+    for _ in 0..TURNS {
+        let Some(turn) = turn_deg else { break };
+        let Ok(next) = cut(Some(best.skew_deg + turn)) else {
+            break;
+        };
+        (best, turn_deg) = next;
+        turn_deg = turn_deg.filter(|t| t.abs() >= LEAST_TURN_DEG);
+    }
+    Ok(best)
 }
 
-/// Cuts a page that is turned by `skew_deg`, or by what its ink tells; with the turn that its rows' own slopes add.
+/// Cuts a page that is turned as its ink tells, or of rows that lie apart and by so many degrees; with the turn that its
+/// rows' own slopes add.
 fn cut_page(
     page: &Page,
     labels: &[Label],
     options: &Options,
     pins: &[Pin],
-    skew_deg: Option<f64>,
-) -> Result<(Cut, f64), Fault> {
+    apart: Option<f64>,
+) -> Result<(Cut, Option<f64>), Fault> {
     let gray = &page.sheet.gray;
     let (low, ink) = level::pieces(gray, page.noise);
     let Inks {
@@ -261,18 +268,8 @@ fn cut_page(
     } = sort(ink, page, options)?;
     let separation = Separation::measure(&page.sheet, &all, &options.ink, speck_limit(&all))?;
     let telling = telling(&all, page);
-    let edges = Edges::new(&telling, gray.height());
-    let skew_deg = worth_it(skew_deg.unwrap_or_else(|| deskew::skew_deg(&edges)));
     let middle = Point::new(gray.width() as f64 / 2.0, gray.height() as f64 / 2.0);
-    let upright = Scene {
-        ink: &telling,
-        edges: &edges,
-        middle,
-        skew_deg,
-        layout: options.layout,
-        paper: page.paper.as_ref(),
-    }
-    .view();
+    let (skew_deg, upright) = seen(page, &telling, middle, options, apart);
     let claims = pins::claim(&mut all, pins);
     all.par_iter_mut().for_each(|c| c.stand(&upright));
     pins::stand(&mut all, &claims, pins, &upright);
@@ -294,8 +291,8 @@ fn cut_page(
     small.iter_mut().for_each(|c| c.stand(&upright));
     let specks = specks - marks::give(&mut layer, &mut all, small, sieve::dot_limit(stroke));
     marks::dust(&mut layer, &all, &claims, (DUST * stroke).powi(2));
-    let seen = |slot: &Slot| pins::stance(slot.index, pins, &upright).0;
-    let guides = guides::measure(&mut layer, &all, page, options, seen)?;
+    let view = |slot: &Slot| pins::stance(slot.index, pins, &upright).0;
+    let guides = guides::measure(&mut layer, &all, page, options, view)?;
     let stance = Stance::of(&layer, &all, &guides.drop);
     let mut warnings = guides.warnings;
     warnings.extend(remarks::of_picture(page, options));
@@ -334,10 +331,28 @@ fn cut_page(
     Ok((cut, guides.turn_deg))
 }
 
-/// A skew, or 0 where that is next to nothing; degrees.
-fn worth_it(skew_deg: f64) -> f64 {
-    let worth = skew_deg.abs() >= LEAST_SKEW_DEG;
-    if worth { skew_deg } else { 0.0 }
+/// Degrees by which a page lies turned clockwise, by ink that tells or of rows that lie apart as said, and how it was
+/// seen.
+fn seen(
+    page: &Page,
+    telling: &[&Component],
+    middle: Point,
+    options: &Options,
+    apart: Option<f64>,
+) -> (f64, View) {
+    let edges = Edges::new(telling, page.sheet.gray.height());
+    let turn_deg = apart.unwrap_or_else(|| deskew::skew_deg(&edges));
+    let worth_it = turn_deg.abs() >= LEAST_SKEW_DEG;
+    let scene = Scene {
+        ink: telling,
+        edges: &edges,
+        middle,
+        skew_deg: if worth_it { turn_deg } else { 0.0 },
+        rows: apart.map_or(Rows::Together, |_| Rows::Apart),
+        layout: options.layout,
+        paper: page.paper.as_ref(),
+    };
+    (scene.skew_deg, scene.view())
 }
 
 /// The largest of some pieces of ink.

@@ -36,8 +36,8 @@ const USUAL_EXTENT: f64 = 1.0;
 pub(super) struct Guides {
     /// How far the baseline lies below the slots' levels, px, for each row of the layer.
     pub(super) drop: Vec<f64>,
-    /// The mean slope of rows that slope each in its own way, degrees clockwise; 0 of others.
-    pub(super) turn_deg: f64,
+    /// The mean slope of rows that slope each in its own way, degrees clockwise.
+    pub(super) turn_deg: Option<f64>,
     pub(super) px_per_em: f64,
     pub(super) warnings: Vec<Warning>,
 }
@@ -66,12 +66,12 @@ pub(super) fn measure(
     };
     let mut letters: Vec<Letter> = layer.slots.iter().filter_map(letter).collect();
     let hangs = hanging::tell(&mut letters, layer.rows, layer.levels);
-    let mut turn_deg = 0.0;
+    let mut turn_deg = None;
     let drop = match layer.levels {
         Levels::Loose if !hangs => {
             if let Some(slopes) = slopes(&letters, layer.rows, near(&letters)) {
                 let mean = slopes.iter().sum::<f64>() / slopes.len() as f64;
-                turn_deg = mean.atan().to_degrees();
+                turn_deg = Some(mean.atan().to_degrees());
                 slope(layer, &slopes, all);
                 letters = layer.slots.iter().filter_map(letter).collect();
             }

@@ -13,7 +13,7 @@
 use super::baselines::{Letter, OVERSHOOT};
 use crate::numeric::median::{NORMAL, median};
 use crate::scan::letters::Foot;
-use kurbo::Point;
+use kurbo::{Point, Vec2};
 use std::collections::BTreeMap;
 
 /// Places of a row more than it has kinds that tell its slope, at least.
@@ -28,7 +28,7 @@ const LEAST: f64 = 0.01;
 
 /// What is as high above or below its row's line wherever it stands in a row.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-enum Kind {
+enum Datum {
     Foot,
     Body(usize),
     Join,
@@ -40,59 +40,62 @@ struct Row {
     slope: f64,
     /// length along which its letters stand, px
     length: f64,
-    /// Σ (x − mean of the kind)², px²
+    /// Σ (x − mean of the kind)² of as many places as it has letters, px²
     lever: f64,
-    /// distances of the letters from where their kind is on that slope, px
+    /// how far letters stray from that slope, px, by pairs of a kind
     off: Vec<f64>,
 }
 
 impl Row {
-    /// Through places of some kinds; `None` of too few.
-    fn through(kinds: &BTreeMap<Kind, Vec<Point>>) -> Option<Self> {
+    /// Through places of some letters, by kinds; `None` of too few.
+    fn through(kinds: &BTreeMap<Datum, Vec<Point>>, letters: usize) -> Option<Self> {
         let count: usize = kinds.values().map(Vec::len).sum();
         let spare = count - kinds.len();
         if spare < ENOUGH {
             return None;
         }
-        let pairs = |v: &[Point]| -> Vec<f64> {
-            let v: Vec<&Point> = v.iter().step_by(v.len().div_ceil(MOST).max(1)).collect();
-            let pairs = v.iter().enumerate();
-            let pairs = pairs.flat_map(|(i, a)| v[i + 1..].iter().map(move |b| **b - **a));
-            pairs.map(|d| d.y / d.x).filter(|s| s.is_finite()).collect()
-        };
-        let slope = median(kinds.values().flat_map(|v| pairs(v)))?;
-        let (mut lever, mut off) = (0.0, Vec::new());
-        for places in kinds.values() {
+        let pairs: Vec<Vec2> = kinds.values().flat_map(|v| pairs(v)).collect();
+        let slope = median(pairs.iter().map(|d| d.y / d.x).filter(|s| s.is_finite()))?;
+        let lever = |places: &Vec<Point>| -> f64 {
             let mean = places.iter().map(|p| p.x).sum::<f64>() / places.len() as f64;
-            lever += places.iter().map(|p| (p.x - mean).powi(2)).sum::<f64>();
-            let levels = || places.iter().map(|p| p.y - slope * p.x);
-            let level = median(levels())?;
-            // one of a kind is on its line
-            let told = levels().filter(|_| places.len() > 1);
-            off.extend(told.map(|y| (y - level).abs()));
-        }
-        // nor do the lines leave all of what letters stray
-        let free = (off.len() as f64 / (spare - 1) as f64).sqrt();
-        off.iter_mut().for_each(|d| *d *= free);
+            places.iter().map(|p| (p.x - mean).powi(2)).sum()
+        };
+        // all places of a letter stray with it, and a slope leaves not all of what they stray
+        let lever = kinds.values().map(lever).sum::<f64>() * letters as f64 / count as f64;
+        let free = (0.5 * spare as f64 / (spare - 1) as f64).sqrt();
+        let off = pairs.iter().map(|d| (d.y - slope * d.x).abs() * free);
         let xs = || kinds.values().flatten().map(|p| p.x);
         Some(Self {
             slope,
             length: xs().fold(f64::NEG_INFINITY, f64::max) - xs().fold(f64::INFINITY, f64::min),
             lever,
-            off,
+            off: off.collect(),
         })
     }
 }
 
+/// From each of a kind's places to each of another letter behind it.
+fn pairs(places: &[Point]) -> Vec<Vec2> {
+    let step = places.len().div_ceil(MOST).max(1);
+    let places: Vec<&Point> = places.iter().step_by(step).collect();
+    let pairs = places.iter().enumerate();
+    let pairs = pairs.flat_map(|(i, a)| places[i + 1..].iter().map(move |b| **b - **a));
+    pairs.filter(|d| d.x != 0.0).collect()
+}
+
 /// Slopes of rows, px down for one to the right; `None` where they are parallel, up to `near` px along a row.
 pub(super) fn slopes(letters: &[Letter], rows: usize, near: f64) -> Option<Vec<f64>> {
-    let mut kinds = vec![BTreeMap::<Kind, Vec<Point>>::new(); rows];
+    let mut kinds = vec![BTreeMap::<Datum, Vec<Point>>::new(); rows];
     for letter in letters {
         for (kind, place) in places(letter) {
             kinds[letter.row].entry(kind).or_default().push(place);
         }
     }
-    let all: Vec<Option<Row>> = kinds.iter().map(Row::through).collect();
+    let all = kinds.iter().enumerate().map(|(row, kinds)| {
+        let telling = |l: &&Letter| l.row == row && places(l).next().is_some();
+        Row::through(kinds, letters.iter().filter(telling).count())
+    });
+    let all: Vec<Option<Row>> = all.collect();
     let told: Vec<&Row> = all.iter().flatten().collect();
     let height = median(letters.iter().map(|l| l.body.height()))?;
     let stray = NORMAL * median(told.iter().flat_map(|r| r.off.iter().copied()))?;
@@ -118,9 +121,9 @@ pub(super) fn slopes(letters: &[Letter], rows: usize, near: f64) -> Option<Vec<f
 }
 
 /// What of a letter tells its row's slope.
-fn places(letter: &Letter) -> impl Iterator<Item = (Kind, Point)> + use<'_> {
+fn places(letter: &Letter) -> impl Iterator<Item = (Datum, Point)> + use<'_> {
     let x = letter.body.center().x;
-    let (line, body) = (Some(Kind::Foot), letter.shape.body.map(Kind::Body));
+    let (line, body) = (Some(Datum::Foot), letter.shape.body.map(Datum::Body));
     let (kind, dips) = match letter.shape.foot {
         Foot::Flat => (line, 0.0),
         Foot::Round => (line, OVERSHOOT * letter.body.height()),
@@ -128,7 +131,7 @@ fn places(letter: &Letter) -> impl Iterator<Item = (Kind, Point)> + use<'_> {
     };
     let foot = kind.map(|k| (k, Point::new(x, letter.foot() - dips)));
     let ends = letter.joins.iter();
-    let ends = ends.map(move |y| (Kind::Join, Point::new(x, y - letter.level)));
+    let ends = ends.map(move |y| (Datum::Join, Point::new(x, y - letter.level)));
     foot.into_iter().chain(ends)
 }
 
@@ -181,6 +184,21 @@ mod tests {
         {
             assert_eq!(of(names, &[0.0; 6], bounce), None, "{bounce}");
         }
+    }
+
+    #[test]
+    fn ends_of_one_letter_are_no_two_letters() {
+        let strays = [6.0, -5.0, 2.0, -7.0, 4.0, 4.0, -7.0, 2.0, -5.0, 6.0];
+        let letter = |row: usize, k: usize| {
+            let mut letter = Letter::ending(row, "uni062D.medi", 0.0);
+            let y = strays[k] + 2.0 * k as f64;
+            letter.body = letter.body + Vec2::new(k as f64 * 3.0 * WIDTH, y);
+            letter.joins = vec![y - 30.0, y - 29.0];
+            letter
+        };
+        let row = |r: usize| (0..strays.len()).map(move |k| (r, k));
+        let letters: Vec<Letter> = (0..3).flat_map(row).map(|(r, k)| letter(r, k)).collect();
+        assert_eq!(slopes(&letters, 3, NEAR), None);
     }
 
     #[test]

@@ -3,6 +3,7 @@ mod bare;
 mod dust;
 mod lid;
 mod signs;
+mod slopes;
 mod small;
 mod told;
 
