@@ -354,6 +354,8 @@ fn rasheed05_timmer_schemes_follow_a_shape() {
 #[test]
 fn bad_options_are_clear_errors() {
     let cases = [
+        ("joint", "least_noise = nan"),
+        ("joint", "least_noise = -0.1"),
         ("wls", "order = 1"),
         ("wls", "order = 40"),
         ("wls", "m = 2"),

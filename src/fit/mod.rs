@@ -58,6 +58,12 @@ impl FitError {
 
 /// Fits curves through a span.
 pub trait Fitter {
+    /// Whether the options are in their ranges, as far as they tell without a span.
+    ///
+    /// # Errors
+    /// One is not.
+    fn check(&self) -> Result<(), FitError>;
+
     /// Curves within `tolerance_px` of the span if the method can; else its best, and the verdict says so.
     ///
     /// # Errors

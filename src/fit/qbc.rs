@@ -50,10 +50,14 @@ impl Default for QbcN {
 }
 
 impl Fitter for Qbc {
+    fn check(&self) -> Result<(), FitError> {
+        check("qbc", self.reach)
+    }
+
     fn fit(&self, span: Span<'_>, tolerance_px: f64) -> Result<Fitted, FitError> {
+        self.check()?;
         Task {
             pull: Pull::Qbc,
-            method: "qbc",
             reach: self.reach,
             tolerance: tolerance_px,
         }
@@ -62,10 +66,14 @@ impl Fitter for Qbc {
 }
 
 impl Fitter for QbcN {
+    fn check(&self) -> Result<(), FitError> {
+        check("qbc-n", self.reach)
+    }
+
     fn fit(&self, span: Span<'_>, tolerance_px: f64) -> Result<Fitted, FitError> {
+        self.check()?;
         Task {
             pull: Pull::QbcN,
-            method: "qbc-n",
             reach: self.reach,
             tolerance: tolerance_px,
         }
@@ -73,20 +81,23 @@ impl Fitter for QbcN {
     }
 }
 
+fn check(method: &'static str, reach: usize) -> Result<(), FitError> {
+    if !(1..=1000).contains(&reach) {
+        let range = "it must be 1 to 1000";
+        return Err(FitError::option((method, "reach"), reach, range));
+    }
+    Ok(())
+}
+
 /// A fit in progress.
 struct Task {
     pull: Pull,
-    method: &'static str,
     reach: usize,
     tolerance: f64,
 }
 
 impl Task {
     fn fit(&self, span: Span<'_>) -> Result<Fitted, FitError> {
-        if !(1..=1000).contains(&self.reach) {
-            let range = "it must be 1 to 1000";
-            return Err(FitError::option((self.method, "reach"), self.reach, range));
-        }
         both_ways(span, |span| {
             Ok(self.curves(span).unwrap_or_else(|| polygon(span)))
         })

@@ -73,13 +73,18 @@ const NATURAL: f64 = 4.0;
 const USABLE: (f64, f64) = (NATURAL / 3.0, NATURAL * 3.0);
 
 impl Fitter for Timmer {
-    fn fit(&self, span: Span<'_>, tolerance_px: f64) -> Result<Fitted, FitError> {
+    fn check(&self) -> Result<(), FitError> {
         for (option, value) in [("alpha", self.alpha), ("beta", self.beta)] {
             if !(value.is_finite() && value > 0.0) {
                 let range = "it must be above 0";
                 return Err(FitError::option(("timmer", option), value, range));
             }
         }
+        Ok(())
+    }
+
+    fn fit(&self, span: Span<'_>, tolerance_px: f64) -> Result<Fitted, FitError> {
+        self.check()?;
         let rule = Rule {
             insertion: self.insertion,
             stop: self.stop,

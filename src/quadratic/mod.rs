@@ -24,6 +24,18 @@ pub enum QuadraticError {
     /// The tolerance is not a positive number.
     #[error("the tolerance is {0} units; it must be a positive number")]
     Tolerance(f64),
+    /// An option of the method is outside its range.
+    #[error("{option} is {value}; it must be {least} to {most}")]
+    Option {
+        /// name of the option
+        option: &'static str,
+        /// value given
+        value: f64,
+        /// what it may be at least
+        least: f64,
+        /// what it may be at most
+        most: f64,
+    },
     /// No run of points on the grid comes as close as asked.
     #[error(
         "contour {contour} cannot be met within {tolerance} units by points on the grid of whole font units; allow more, or use more units an em"
@@ -87,14 +99,26 @@ impl Method {
         }
     }
 
+    /// Whether the method's options are in their ranges.
+    ///
+    /// # Errors
+    /// One is not.
+    pub fn check(&self) -> Result<(), QuadraticError> {
+        match self {
+            Self::Rate(m) => m.check(),
+            Self::Split(split::Split {}) => Ok(()),
+        }
+    }
+
     /// The outline in lines and quadratics, nowhere farther than `tolerance` (font units) from the given one.
     ///
     /// # Errors
-    /// The tolerance is not positive.
+    /// The tolerance is not positive, or an option is outside its range.
     pub fn convert(&self, outline: &Outline, tolerance: f64) -> Result<Outline, QuadraticError> {
         if !(tolerance > 0.0 && tolerance.is_finite()) {
             return Err(QuadraticError::Tolerance(tolerance));
         }
+        self.check()?;
         match self {
             Self::Rate(m) => m.convert(outline, tolerance),
             Self::Split(m) => m.convert(outline, tolerance),

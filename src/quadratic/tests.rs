@@ -1,4 +1,4 @@
-use super::{Method, QuadraticError, split::Split};
+use super::{Method, QuadraticError, rate::Rate, split::Split};
 use crate::numeric::distance::Polyline;
 use crate::types::Outline;
 use kurbo::{BezPath, ParamCurve, PathSeg, Point, Shape};
@@ -79,6 +79,48 @@ fn a_tolerance_is_positive() {
     for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         let err = Method::default().convert(&Outline::EMPTY, bad);
         assert!(matches!(err, Err(QuadraticError::Tolerance(_))), "{bad}");
+    }
+}
+
+#[test]
+fn options_have_ranges() {
+    let rate = Rate::default();
+    let (nan, wide) = (f64::NAN, 1e300);
+    for (option, bad) in [
+        (
+            "corner_deg",
+            Rate {
+                corner_deg: nan,
+                ..rate.clone()
+            },
+        ),
+        (
+            "lambda",
+            Rate {
+                lambda: wide,
+                ..rate.clone()
+            },
+        ),
+        (
+            "lambda",
+            Rate {
+                lambda: -1.0,
+                ..rate.clone()
+            },
+        ),
+        (
+            "grain",
+            Rate {
+                grain: 0.0,
+                ..rate.clone()
+            },
+        ),
+    ] {
+        let said = Method::Rate(bad).convert(&Outline::EMPTY, 1.0).unwrap_err();
+        assert!(
+            said.to_string().starts_with(&format!("{option} is ")),
+            "{said}"
+        );
     }
 }
 

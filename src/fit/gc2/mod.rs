@@ -68,19 +68,6 @@ impl Default for Gc2 {
 }
 
 impl Fitter for Gc2 {
-    fn fit(&self, span: Span<'_>, tolerance_px: f64) -> Result<Fitted, FitError> {
-        self.check()?;
-        let rule = Rule {
-            insertion: self.insertion,
-            stop: self.stop,
-            seed: self.seed,
-            epsilon: tolerance_px,
-        };
-        through_knots(span, rule, |task, knots| self.curve(task, knots))
-    }
-}
-
-impl Gc2 {
     fn check(&self) -> Result<(), FitError> {
         let wrong = |option, value: f64, range| FitError::option(("gc2", option), value, range);
         let omega = self.interval_tension;
@@ -95,6 +82,19 @@ impl Gc2 {
         Ok(())
     }
 
+    fn fit(&self, span: Span<'_>, tolerance_px: f64) -> Result<Fitted, FitError> {
+        self.check()?;
+        let rule = Rule {
+            insertion: self.insertion,
+            stop: self.stop,
+            seed: self.seed,
+            epsilon: tolerance_px,
+        };
+        through_knots(span, rule, |task, knots| self.curve(task, knots))
+    }
+}
+
+impl Gc2 {
     fn curve(&self, task: &Task<'_>, knots: &[usize]) -> Option<Vec<CubicBez>> {
         let points = task.at(knots);
         let lengths = task.lengths(knots);

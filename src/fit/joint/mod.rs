@@ -56,7 +56,20 @@ const STRAY: f64 = 3.0;
 const EVEN: f64 = 1.732;
 
 impl Fitter for Joint {
+    fn check(&self) -> Result<(), FitError> {
+        if !(0.0..=1.0).contains(&self.least_noise) {
+            let range = "it must be 0 to 1";
+            return Err(FitError::option(
+                ("joint", "least_noise"),
+                self.least_noise,
+                range,
+            ));
+        }
+        Ok(())
+    }
+
     fn fit(&self, span: Span<'_>, tolerance_px: f64) -> Result<Fitted, FitError> {
+        self.check()?;
         let (points, turned) = canonical(span);
         let canonical = match span {
             Span::Open(_) => Span::Open(&points),
@@ -70,6 +83,7 @@ impl Fitter for Joint {
     }
 
     fn contour(&self, spans: &Spans, tolerance_px: f64) -> Result<BezPath, FitError> {
+        self.check()?;
         // points whose scatter they do not show themselves may lie as far off beside what is aimed at
         let scatter = spans.scatter_px();
         let least = self.least_noise * tolerance_px;

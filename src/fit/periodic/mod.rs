@@ -90,6 +90,29 @@ impl Default for Periodic {
 }
 
 impl Fitter for Periodic {
+    fn check(&self) -> Result<(), FitError> {
+        if let Some(c) = self.control.filter(|c| !(3..=10_000).contains(c)) {
+            return Err(wrong("control", c, "it must be 3 to 10000"));
+        }
+        if !(0.0..=1.0).contains(&self.step) {
+            return Err(wrong("step", self.step, "it must be 0 to 1"));
+        }
+        if !(1.0..=1000.0).contains(&self.weight_ratio) {
+            let range = "it must be 1 to 1000";
+            return Err(wrong("weight_ratio", self.weight_ratio, range));
+        }
+        if !(self.alpha.is_finite() && self.alpha >= 0.0) {
+            return Err(wrong("alpha", self.alpha, "it must be 0 or more"));
+        }
+        if !(self.beta.is_finite() && self.beta > 0.0) {
+            return Err(wrong("beta", self.beta, "it must be above 0"));
+        }
+        if self.power < 2 || self.power > 40 || self.power % 2 == 1 {
+            return Err(wrong("power", self.power, "it must be even, 2 to 40"));
+        }
+        Ok(())
+    }
+
     fn fit(&self, span: Span<'_>, tolerance_px: f64) -> Result<Fitted, FitError> {
         self.check()?;
         both_ways(span, |span| {
@@ -117,30 +140,7 @@ fn wrong(option: &'static str, value: impl ToString, range: &'static str) -> Fit
     FitError::option(("periodic", option), value, range)
 }
 
-impl Periodic {
-    fn check(&self) -> Result<(), FitError> {
-        if let Some(c) = self.control.filter(|c| !(3..=10_000).contains(c)) {
-            return Err(wrong("control", c, "it must be 3 to 10000"));
-        }
-        if !(0.0..=1.0).contains(&self.step) {
-            return Err(wrong("step", self.step, "it must be 0 to 1"));
-        }
-        if !(1.0..=1000.0).contains(&self.weight_ratio) {
-            let range = "it must be 1 to 1000";
-            return Err(wrong("weight_ratio", self.weight_ratio, range));
-        }
-        if !(self.alpha.is_finite() && self.alpha >= 0.0) {
-            return Err(wrong("alpha", self.alpha, "it must be 0 or more"));
-        }
-        if !(self.beta.is_finite() && self.beta > 0.0) {
-            return Err(wrong("beta", self.beta, "it must be above 0"));
-        }
-        if self.power < 2 || self.power > 40 || self.power % 2 == 1 {
-            return Err(wrong("power", self.power, "it must be even, 2 to 40"));
-        }
-        Ok(())
-    }
-}
+impl Periodic {}
 
 /// One span to be fitted.
 struct Task<'a> {

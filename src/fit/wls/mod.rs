@@ -93,24 +93,6 @@ enum Piece {
 }
 
 impl Fitter for Wls {
-    fn fit(&self, span: Span<'_>, tolerance_px: f64) -> Result<Fitted, FitError> {
-        self.check()?;
-        both_ways(span, |span| {
-            if let Some(m) = self.m.filter(|&m| m >= span.points().len().max(4)) {
-                let value = format!("{m} for {} points", span.points().len());
-                return Err(wrong("m", value, "it must be less than the span's points"));
-            }
-            let fitted = self.curves(span, tolerance_px);
-            Ok(fitted.unwrap_or_else(|| polygon(span)))
-        })
-    }
-}
-
-fn wrong(option: &'static str, value: impl ToString, range: &'static str) -> FitError {
-    FitError::option(("wls", option), value, range)
-}
-
-impl Wls {
     fn check(&self) -> Result<(), FitError> {
         if !(2..=12).contains(&self.order) {
             return Err(wrong("order", self.order, "it must be 2 to 12"));
@@ -131,6 +113,24 @@ impl Wls {
         Ok(())
     }
 
+    fn fit(&self, span: Span<'_>, tolerance_px: f64) -> Result<Fitted, FitError> {
+        self.check()?;
+        both_ways(span, |span| {
+            if let Some(m) = self.m.filter(|&m| m >= span.points().len().max(4)) {
+                let value = format!("{m} for {} points", span.points().len());
+                return Err(wrong("m", value, "it must be less than the span's points"));
+            }
+            let fitted = self.curves(span, tolerance_px);
+            Ok(fitted.unwrap_or_else(|| polygon(span)))
+        })
+    }
+}
+
+fn wrong(option: &'static str, value: impl ToString, range: &'static str) -> FitError {
+    FitError::option(("wls", option), value, range)
+}
+
+impl Wls {
     fn curves(&self, span: Span<'_>, tolerance: f64) -> Option<Fitted> {
         let (mut points, ends) = distinct(span);
         if points.len() < 4 || span.points().iter().any(|p| !p.is_finite()) {

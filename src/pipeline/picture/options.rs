@@ -17,6 +17,7 @@ pub struct Options {
     /// Corners.
     pub corners: corner::Method,
     /// Curves.
+    #[serde(deserialize_with = "fitter")]
     pub fit: fit::Method,
     /// Distance between contour and curve that a fitter aims at, px.
     #[serde(deserialize_with = "tolerance")]
@@ -25,6 +26,12 @@ pub struct Options {
 
 fn tolerance<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
     Options::tolerance(f64::deserialize(from)?).map_err(D::Error::custom)
+}
+
+fn fitter<'de, D: Deserializer<'de>>(from: D) -> Result<fit::Method, D::Error> {
+    let method = fit::Method::deserialize(from)?;
+    let checked = method.fitter().check();
+    checked.map(|()| method).map_err(D::Error::custom)
 }
 
 impl Default for Options {

@@ -1,6 +1,7 @@
 //! Values that a type alone cannot hold to their range. The decoder adds where they stand.
 
 use super::SheetTable;
+use crate::quadratic;
 use serde::de::Error;
 use serde::{Deserialize, Deserializer};
 use std::path::PathBuf;
@@ -45,6 +46,14 @@ pub(super) fn paths<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<PathBuf>, 
 pub(super) fn version<'de, D: Deserializer<'de>>(from: D) -> Result<String, D::Error> {
     let must = "must be a whole number, a dot, and one to three digits, such as \"1.002\"";
     checked(from, |text: &String| version_numbers(text).is_some(), must)
+}
+
+/// A way to quadratics whose options are in their ranges.
+pub(super) fn conversion<'de, D: Deserializer<'de>>(
+    from: D,
+) -> Result<quadratic::Method, D::Error> {
+    let method = quadratic::Method::deserialize(from)?;
+    method.check().map(|()| method).map_err(D::Error::custom)
 }
 
 /// Units an em that the OpenType specification allows.

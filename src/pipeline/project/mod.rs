@@ -100,6 +100,7 @@ pub struct MatchTable {
 #[serde(default, deny_unknown_fields)]
 pub struct QuadraticTable {
     /// The method and its options.
+    #[serde(deserialize_with = "check::conversion")]
     pub convert: quadratic::Method,
     /// How far the quadratics may lie from the cubics, parts of the em.
     pub tolerance_em: f64,

@@ -118,6 +118,19 @@ ttf = "build/KhattLatin.ttf"
     }
 
     #[test]
+    fn options_of_methods_have_ranges() {
+        for (key, method) in [
+            ("trace.fit", "method = \"wls\"\norder = 40"),
+            ("trace.fit", "method = \"joint\"\nleast_noise = nan"),
+            ("quadratic.convert", "method = \"rate\"\ngrain = 0.0"),
+        ] {
+            let text = format!("{GOOD}[{key}]\n{method}\n");
+            let problem = Project::parse(&text).expect_err(&text).to_string();
+            assert!(problem.contains("must be"), "{method}: {problem}");
+        }
+    }
+
+    #[test]
     fn versions_are_decimal() {
         for (text, numbers) in [
             ("1.002", Some((1, 2))),

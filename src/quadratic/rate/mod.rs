@@ -74,6 +74,26 @@ impl Default for Rate {
 }
 
 impl Rate {
+    /// Whether the options are in their ranges.
+    pub(super) fn check(&self) -> Result<(), QuadraticError> {
+        let options = [
+            ("corner_deg", self.corner_deg, (0.0, 180.0)),
+            ("lambda", self.lambda, (0.0, 1e6)),
+            ("grain", self.grain, (0.1, 10.0)),
+        ];
+        for (option, value, (least, most)) in options {
+            if !(least..=most).contains(&value) {
+                return Err(QuadraticError::Option {
+                    option,
+                    value,
+                    least,
+                    most,
+                });
+            }
+        }
+        Ok(())
+    }
+
     /// What stays at a tolerance, units.
     fn kept(&self, tolerance: f64) -> Keep {
         /// Shorter lines may become part of a curve, tolerances.
@@ -109,12 +129,12 @@ impl Rate {
         let effort = Effort {
             limit: tolerance,
             keep: self.keep,
-            grain: self.grain.clamp(0.1, 10.0),
+            grain: self.grain,
             slack: match self.keep {
                 Strictness::Corners => NARROW,
                 Strictness::Extrema | Strictness::Places => SLACK,
             },
-            lambda: self.lambda.max(0.0),
+            lambda: self.lambda,
             beside: 1.0,
             otherwise: Otherwise::Nothing,
         };
