@@ -34,11 +34,15 @@ pub struct Overlooked {
 }
 
 impl Overlooked {
-    /// Whether the picture is explained as well with the corner as before.
-    pub(super) fn explains(&self, before: &Residual<'_>, after: &Residual<'_>) -> bool {
+    /// Whether the picture of so much `grain` is explained as well with the corner as before.
+    pub(super) fn explains(
+        &self,
+        (before, grain): (&Residual<'_>, f64),
+        after: &Residual<'_>,
+    ) -> bool {
         let reach = reach_px(before);
         let gain = before.squares(self.tip, reach) - after.squares(self.tip, reach);
-        0.5 * gain + SIMPLER * GRAIN * before.grain() >= 0.0
+        0.5 * gain + SIMPLER * GRAIN * grain >= 0.0
     }
 }
 

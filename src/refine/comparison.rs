@@ -9,6 +9,7 @@ use super::{
 };
 use crate::{numeric::many::each, types::Gray};
 use kurbo::{BezPath, CubicBez, Point};
+use std::cell::LazyCell;
 
 /// Chords leave a path that is compared with the picture by no more than this, px.
 const CHORD_PX: f64 = 0.01;
@@ -59,6 +60,7 @@ impl<'g> Comparison<'g> {
     pub fn revised(&self, paths: &[BezPath], doubts: &[Doubts]) -> Vec<Doubts> {
         let before = &self.residual;
         let after = before.against(polygons(paths).iter().map(Vec::as_slice));
+        let grain = LazyCell::new(|| before.grain());
         let revised = |(path, doubts): (&BezPath, &Doubts)| {
             let mut doubts = doubts.clone();
             if doubts == Doubts::default() {
@@ -71,7 +73,11 @@ impl<'g> Comparison<'g> {
                     doubts.round.push(p);
                 }
             }
-            if !doubts.sharp.iter().all(|c| c.explains(before, &after)) {
+            if !doubts
+                .sharp
+                .iter()
+                .all(|c| c.explains((before, *grain), &after))
+            {
                 doubts.sharp.clear();
             }
             doubts

@@ -2,7 +2,7 @@
 
 use crate::{
     numeric::chain::Chain,
-    refine::{crossings::crossings, curves::polygon},
+    refine::{crossings::Chords, curves::polygon},
 };
 use kurbo::{Point, Rect};
 use std::iter::once;
@@ -13,7 +13,7 @@ const CHORD_PX: f64 = 0.001;
 /// What does not move around an open part of a path.
 #[derive(Debug)]
 pub(super) struct Beside {
-    chords: Vec<[Point; 2]>,
+    chords: Chords,
     bounds: Rect,
     /// how often the part as it was crosses them or itself
     most: usize,
@@ -26,10 +26,8 @@ impl Beside {
         part: &Chain,
         bounds: Rect,
     ) -> Self {
-        let chords = lines.flat_map(|l| l.iter().copied().zip(l.iter().copied().skip(1)));
-        let near = chords.filter(|(a, b)| Rect::from_points(*a, *b).overlaps(bounds));
         let mut beside = Self {
-            chords: near.map(<[Point; 2]>::from).collect(),
+            chords: Chords::new(lines, Some(bounds)),
             bounds,
             most: 0,
         };
@@ -44,8 +42,8 @@ impl Beside {
 
     fn crossed(&self, part: &Chain) -> usize {
         let part = polygon(&part.to_path(), CHORD_PX);
-        let lines = self.chords.iter().map(|c| c.as_slice());
-        crossings(lines.chain(once(&*part)), Some(self.bounds)).len()
+        let part = Chords::new(once(&*part), Some(self.bounds));
+        self.chords.crossed_by(&part) + part.crossings().len()
     }
 }
 

@@ -4,7 +4,7 @@
 //! and few places are mended as well without that.
 
 use super::{Ring, Work, read, rings};
-use crate::refine::crossings::crossings;
+use crate::refine::crossings::Chords;
 use kurbo::{BezPath, Rect};
 
 /// Whether outlines may cross that did not.
@@ -17,13 +17,13 @@ pub(super) enum Crossing {
 impl Work<'_> {
     /// Mends those rings once more that cross and did not in `paths`, now without crossing on the way.
     pub(super) fn untangle(&mut self, paths: &[BezPath]) {
-        let mut tangled = crossed(&self.rings, None);
+        let mut tangled = crossings(&self.rings);
         let count = tangled.len();
         if count == 0 {
             return;
         }
         let first = rings(paths);
-        let drawn = crossed(&first, None);
+        let drawn = crossings(&first);
         tangled.retain(|pair| !drawn.contains(pair));
         let again = |k: usize| tangled.iter().flatten().any(|t| *t == k);
         if tangled.is_empty() {
@@ -43,7 +43,7 @@ impl Work<'_> {
         self.crossing = Crossing::Never;
         self.mend();
         let (chains, rings) = before;
-        if crossed(&self.rings, None).len() >= count {
+        if crossings(&self.rings).len() >= count {
             (self.chains, self.rings) = (chains, rings);
             return;
         }
@@ -56,12 +56,16 @@ impl Work<'_> {
     pub(super) fn crossed(&self, bounds: Rect) -> usize {
         match self.crossing {
             Crossing::OnTheWay => 0,
-            Crossing::Never => crossed(&self.rings, Some(bounds)).len(),
+            Crossing::Never => {
+                let near = self.rings.iter().filter(|r| r.bounds.overlaps(bounds));
+                let lines = near.map(|r| r.chords.as_slice());
+                Chords::new(lines, Some(bounds)).crossings().len()
+            }
         }
     }
 }
 
-/// The crossings of rings, as pairs of their indices: within `bounds`, where there are such.
-fn crossed(rings: &[Ring], bounds: Option<Rect>) -> Vec<[usize; 2]> {
-    crossings(rings.iter().map(|r| r.chords.as_slice()), bounds)
+/// The crossings of rings, as pairs of their indices.
+fn crossings(rings: &[Ring]) -> Vec<[usize; 2]> {
+    Chords::new(rings.iter().map(|r| r.chords.as_slice()), None).crossings()
 }
