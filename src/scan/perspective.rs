@@ -38,6 +38,8 @@ const PLUMB: f64 = 0.02;
 const CLEAR: f64 = 1.1;
 /// Standard errors by which columns must be seen to meet.
 const SURE: f64 = 4.0;
+/// Rows that slope each in its own way tell a page's turn anew where it is as much more, degrees.
+const LEAST_TURN_DEG: f64 = 0.25;
 /// Pieces of ink smaller than this share of the usual one are dots.
 const BODY: f64 = 0.3;
 /// Pitches tried for columns, and how far their direction may be off in steps of what they tell.
@@ -56,6 +58,20 @@ struct Pencil {
     turn: f64,
 }
 
+impl Pencil {
+    /// A view's level lines in the picture.
+    fn of(view: &View, middle: Point) -> Self {
+        let slope = |y: f64| {
+            let [x, y, ..] = view.near(Point::new(middle.x, y)).inverse().as_coeffs();
+            y / x
+        };
+        Self {
+            slope: slope(middle.y),
+            turn: (slope(2.0 * middle.y) - slope(0.0)) / (2.0 * middle.y),
+        }
+    }
+}
+
 /// How a page's rows lie.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Rows {
@@ -63,6 +79,45 @@ pub(super) enum Rows {
     Together,
     /// Each in its own way.
     Apart,
+}
+
+/// What rows that slope each in its own way tell of how a page lies, better than all ink together.
+#[derive(Clone, Copy)]
+pub(super) struct Told {
+    /// Clockwise.
+    pub(super) skew_deg: f64,
+    pub(super) rows: Rows,
+}
+
+impl Told {
+    /// By rows that a view shows at such levels and with such slopes, px and px down for one to the right; nothing
+    /// where it shows the page as they do.
+    ///
+    /// The perspective that it found in them is theirs where they meet far faster than such slopes do by chance.
+    pub(super) fn by(rows: &[(f64, f64)], view: &View, middle: Point) -> Option<Self> {
+        let seen = Pencil::of(view, middle);
+        let count = rows.len() as f64;
+        let mean = |of: &dyn Fn(&(f64, f64)) -> f64| rows.iter().map(of).sum::<f64>() / count;
+        let (level, slope) = (mean(&|r| r.0), mean(&|r| r.1));
+        let lever = mean(&|r| (r.0 - level).powi(2));
+        let trend = mean(&|r| (r.0 - level) * (r.1 - slope)) / lever;
+        let off = mean(&|r| (r.1 - slope - trend * (r.0 - level)).powi(2));
+        let doubt = (off / (count - 2.0) / lever).sqrt();
+        let by_chance = view.affine().is_none() && (seen.turn + trend).abs() < SURE * doubt;
+        // all rows in the mean as they lie in the picture, or the one in its middle
+        let below = level - view.at(middle).y;
+        let (rows, turn) = if by_chance {
+            (Rows::Apart, seen.turn)
+        } else {
+            (Rows::Together, 0.0)
+        };
+        let more = slope + turn * below;
+        let news = rows == Rows::Apart || more.atan().to_degrees().abs() >= LEAST_TURN_DEG;
+        news.then(|| Self {
+            skew_deg: (seen.slope + more).atan().to_degrees(),
+            rows,
+        })
+    }
 }
 
 /// What tells how a page was seen.

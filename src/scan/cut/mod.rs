@@ -32,7 +32,7 @@ use super::components::{Component, gap};
 use super::deskew::{self, Edges};
 use super::error::{Fault, ScanError};
 use super::options::Options;
-use super::perspective::{Rows, Scene};
+use super::perspective::{Rows, Scene, Told};
 use super::separation::{Colour, Separation};
 use crate::numeric::view::View;
 use crate::types::{Cell, Label};
@@ -47,8 +47,7 @@ use std::fmt;
 const DUST: f64 = 0.85;
 /// Skews below this, degrees, are left alone: over a page they move a letter by a hair.
 const LEAST_SKEW_DEG: f64 = 0.01;
-/// Rows that slope each in its own way tell the turn anew where it is as much more, degrees, and so many times.
-const LEAST_TURN_DEG: f64 = 0.25;
+/// Times that a page is cut again whose rows tell anew how it lies.
 const TURNS: usize = 2;
 
 /// What a page was cut into.
@@ -234,30 +233,26 @@ pub fn cut(
     options: &Options,
     pins: &[Pin],
 ) -> Result<Cut, ScanError> {
-    let cut = |apart| cut_page(page, labels, options, pins, apart);
-    let (mut best, mut turn_deg) =
+    let cut = |told| cut_page(page, labels, options, pins, told);
+    let (mut best, mut told) =
         cut(None).map_err(|fault| fault.of(&page.sheet.source, page.sheet.guessed))?;
-    // of rows that slope each in its own way all ink together tells neither turn nor perspective
     for _ in 0..TURNS {
-        let Some(turn) = turn_deg else { break };
-        let Ok(next) = cut(Some(best.skew_deg + turn)) else {
+        let Some(Ok(next)) = told.map(|t| cut(Some(t))) else {
             break;
         };
-        (best, turn_deg) = next;
-        turn_deg = turn_deg.filter(|t| t.abs() >= LEAST_TURN_DEG);
+        (best, told) = next;
     }
     Ok(best)
 }
 
-/// Cuts a page that is turned as its ink tells, or of rows that lie apart and by so many degrees; with the turn that its
-/// rows' own slopes add.
+/// Cuts a page that lies as its ink tells, or as was told; with what its rows tell anew.
 fn cut_page(
     page: &Page,
     labels: &[Label],
     options: &Options,
     pins: &[Pin],
-    apart: Option<f64>,
-) -> Result<(Cut, Option<f64>), Fault> {
+    told: Option<Told>,
+) -> Result<(Cut, Option<Told>), Fault> {
     let gray = &page.sheet.gray;
     let (low, ink) = level::pieces(gray, page.noise);
     let Inks {
@@ -269,7 +264,7 @@ fn cut_page(
     let separation = Separation::measure(&page.sheet, &all, &options.ink, speck_limit(&all))?;
     let telling = telling(&all, page);
     let middle = Point::new(gray.width() as f64 / 2.0, gray.height() as f64 / 2.0);
-    let (skew_deg, upright) = seen(page, &telling, middle, options, apart);
+    let (skew_deg, upright) = seen(page, &telling, middle, options, told);
     let claims = pins::claim(&mut all, pins);
     all.par_iter_mut().for_each(|c| c.stand(&upright));
     pins::stand(&mut all, &claims, pins, &upright);
@@ -328,27 +323,28 @@ fn cut_page(
         colours: separation.map_or_else(Vec::new, |s| s.colours()),
         misfit: stance.misfit(),
     };
-    Ok((cut, guides.turn_deg))
+    let rows = guides.apart.as_deref();
+    let told = rows.and_then(|rows| Told::by(rows, &upright, middle));
+    Ok((cut, told))
 }
 
-/// Degrees by which a page lies turned clockwise, by ink that tells or of rows that lie apart as said, and how it was
-/// seen.
+/// Degrees by which a page lies turned clockwise, by ink that tells or as was told, and how it was seen.
 fn seen(
     page: &Page,
     telling: &[&Component],
     middle: Point,
     options: &Options,
-    apart: Option<f64>,
+    told: Option<Told>,
 ) -> (f64, View) {
     let edges = Edges::new(telling, page.sheet.gray.height());
-    let turn_deg = apart.unwrap_or_else(|| deskew::skew_deg(&edges));
+    let turn_deg = told.map_or_else(|| deskew::skew_deg(&edges), |t| t.skew_deg);
     let worth_it = turn_deg.abs() >= LEAST_SKEW_DEG;
     let scene = Scene {
         ink: telling,
         edges: &edges,
         middle,
         skew_deg: if worth_it { turn_deg } else { 0.0 },
-        rows: apart.map_or(Rows::Together, |_| Rows::Apart),
+        rows: told.map_or(Rows::Together, |t| t.rows),
         layout: options.layout,
         paper: page.paper.as_ref(),
     };

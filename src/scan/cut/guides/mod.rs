@@ -36,8 +36,8 @@ const USUAL_EXTENT: f64 = 1.0;
 pub(super) struct Guides {
     /// How far the baseline lies below the slots' levels, px, for each row of the layer.
     pub(super) drop: Vec<f64>,
-    /// The mean slope of rows that slope each in its own way, degrees clockwise.
-    pub(super) turn_deg: Option<f64>,
+    /// Where rows lie that slope each in its own way, px, and how, px down for one to the right.
+    pub(super) apart: Option<Vec<(f64, f64)>>,
     pub(super) px_per_em: f64,
     pub(super) warnings: Vec<Warning>,
 }
@@ -66,23 +66,22 @@ pub(super) fn measure(
     };
     let mut letters: Vec<Letter> = layer.slots.iter().filter_map(letter).collect();
     let hangs = hanging::tell(&mut letters, layer.rows, layer.levels);
-    let mut turn_deg = None;
-    let drop = match layer.levels {
-        Levels::Loose if !hangs => {
-            if let Some(slopes) = slopes(&letters, layer.rows, near(&letters)) {
-                let mean = slopes.iter().sum::<f64>() / slopes.len() as f64;
-                turn_deg = Some(mean.atan().to_degrees());
-                slope(layer, &slopes, all);
-                letters = layer.slots.iter().filter_map(letter).collect();
-            }
-            unruled(&letters, layer.rows)
-        }
-        levels => ruled(&letters, layer.rows, levels),
+    let guided = hangs || !matches!(layer.levels, Levels::Loose);
+    let told = slopes(&letters, layer.rows, near(&letters)).filter(|_| !guided);
+    if let Some(slopes) = &told {
+        slope(layer, slopes, all);
+        letters = layer.slots.iter().filter_map(letter).collect();
+    }
+    let drop = if guided {
+        ruled(&letters, layer.rows, layer.levels)
+    } else {
+        unruled(&letters, layer.rows)
     };
     let (px_per_em, warning) = scale(&letters, &drop, page, options)?;
+    let apart = told.map(|slopes| drop.iter().copied().zip(slopes).collect());
     Ok(Guides {
         drop,
-        turn_deg,
+        apart,
         px_per_em,
         warnings: warning.into_iter().collect(),
     })
