@@ -277,7 +277,7 @@ fn pages_done_apart_are_merged_to_the_same_bytes() {
     let said = desk.fails(&["page", "font.toml", "--sheet", "3", "-o", "third"]);
     assert!(said.contains("the project has 2 sheets"), "{said}");
     let said = desk.fails(&["merge", "font.toml", "page.png"]);
-    assert!(said.contains("no result"), "{said}");
+    assert!(said.contains("not what khatt page writes"), "{said}");
 }
 
 /// The table of a second page of other letters, before the outputs.

@@ -101,8 +101,11 @@ fn read(path: &Path) -> Result<Vec<Entry>, Failure> {
     let (mut rest, mut entries) = (bytes.as_slice(), Vec::new());
     while !rest.is_empty() {
         let (entry, after) = entry(rest).ok_or_else(|| {
-            Failure::new(format!("{}: is no result of khatt page", path.display()))
-                .help("make it again with khatt page")
+            Failure::new(format!(
+                "{}: not what khatt page writes, or cut short",
+                path.display()
+            ))
+            .help("make it again with khatt page")
         })?;
         entries.push(entry);
         rest = after;

@@ -73,11 +73,8 @@ impl<'g> Comparison<'g> {
                     doubts.round.push(p);
                 }
             }
-            if !doubts
-                .sharp
-                .iter()
-                .all(|c| c.explains((before, *grain), &after))
-            {
+            let explains = |c: &Overlooked| c.explains((before, *grain), &after);
+            if !doubts.sharp.iter().all(explains) {
                 doubts.sharp.clear();
             }
             doubts

@@ -103,7 +103,8 @@ impl Told {
         let trend = mean(&|r| (r.0 - level) * (r.1 - slope)) / lever;
         let off = mean(&|r| (r.1 - slope - trend * (r.0 - level)).powi(2));
         let doubt = (off / (count - 2.0) / lever).sqrt();
-        let by_chance = view.affine().is_none() && (seen.turn + trend).abs() < SURE * doubt;
+        let sure = (seen.turn + trend).abs() >= SURE * doubt;
+        let by_chance = view.affine().is_none() && !sure;
         // all rows in the mean as they lie in the picture, or the one in its middle
         let below = level - view.at(middle).y;
         let (rows, turn) = if by_chance {

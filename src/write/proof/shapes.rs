@@ -2,7 +2,7 @@
 
 use super::draw::{dot, stroke};
 use crate::types::{Info, Outline};
-use kurbo::{ParamCurve, ParamCurveCurvature, ParamCurveDeriv, PathSeg, Point, Vec2};
+use kurbo::{CubicBez, ParamCurve, ParamCurveCurvature, ParamCurveDeriv, PathSeg, Point, Vec2};
 
 /// Teeth of the comb a curve.
 const TEETH: u32 = 12;
@@ -12,6 +12,8 @@ const COMB: f64 = 100.0;
 const CORNER_DEG: f64 = 8.0;
 /// Directions this near to level or upright are, as a share of their length.
 const LEVEL: f64 = 0.02;
+/// A shorter handle is none, units.
+const HANDLE: f64 = 1e-6;
 /// Upper ends of the classes of deviation, thousandths of the em, and what the style calls them.
 const CLASSES: [(f64, &str); 4] = [
     (0.5, "fine"),
@@ -52,14 +54,12 @@ pub(super) fn comb(outline: &Outline, info: &Info) -> String {
 
 /// Direction in which a segment leaves its start and reaches its end.
 fn directions(segment: PathSeg) -> (Vec2, Vec2) {
-    let cubic = segment.to_cubic();
-    let points = [cubic.p0, cubic.p1, cubic.p2, cubic.p3];
-    let leave = points.iter().map(|p| *p - cubic.p0);
-    let reach = points.iter().rev().map(|p| cubic.p3 - *p);
-    let first = |mut each: Box<dyn Iterator<Item = Vec2> + '_>| {
-        each.find(|v| v.hypot2() > 0.0).unwrap_or_default()
+    let first = |points: [Point; 4]| {
+        let mut ways = points.iter().map(|p| *p - points[0]);
+        ways.find(|v| v.hypot() > HANDLE).unwrap_or_default()
     };
-    (first(Box::new(leave)), first(Box::new(reach)))
+    let CubicBez { p0, p1, p2, p3 } = segment.to_cubic();
+    (first([p0, p1, p2, p3]), -first([p3, p2, p1, p0]))
 }
 
 /// Every joint of two segments with the directions in which the way comes and goes.

@@ -67,7 +67,11 @@ pub(super) fn measure(
     let mut letters: Vec<Letter> = layer.slots.iter().filter_map(letter).collect();
     let hangs = hanging::tell(&mut letters, layer.rows, layer.levels);
     let guided = hangs || !matches!(layer.levels, Levels::Loose);
-    let told = slopes(&letters, layer.rows, near(&letters)).filter(|_| !guided);
+    let told = if guided {
+        None
+    } else {
+        slopes(&letters, layer.rows, near(&letters))
+    };
     if let Some(slopes) = &told {
         slope(layer, slopes, all);
         letters = layer.slots.iter().filter_map(letter).collect();

@@ -55,7 +55,7 @@ impl Row {
             return None;
         }
         let pairs: Vec<Vec2> = kinds.values().flat_map(|v| pairs(v)).collect();
-        let slope = median(pairs.iter().map(|d| d.y / d.x).filter(|s| s.is_finite()))?;
+        let slope = median(pairs.iter().map(|d| d.y / d.x))?;
         let lever = |places: &Vec<Point>| -> f64 {
             let mean = places.iter().map(|p| p.x).sum::<f64>() / places.len() as f64;
             places.iter().map(|p| (p.x - mean).powi(2)).sum()
