@@ -5,12 +5,13 @@
         'FreeSans.ttf --rows 8 --cols 9 --skew 2' 'KacstBook.ttf --forms --rows 12 --cols 10 --condition rough'
 
 A page is a font's file, found below --fonts, and options of make_sheet.py, as in untried.py; --pages FILE reads one a line, as bare.txt,
-bare-unseen.txt, bare-uneven.txt, bare-slopes.txt, bare-later.txt, bare-last.txt and bare-drawn.txt have them. Pages of --forms are read from the right. A piece is a letter's where half of its ink lies in the letter's cell; a letter has its pieces where
+bare-unseen.txt, bare-uneven.txt, bare-slopes.txt, bare-tilted.txt, bare-later.txt, bare-last.txt and bare-drawn.txt have them. Pages of --forms are read from the right. A piece is a letter's where half of its ink lies in the letter's cell; a letter has its pieces where
 its cell has all of its own and none of another letter's. Dust is ink of no letter, a dot's worth or more, in a cell. Behind the figures of
 the free page stand those of the same page as a grid. Baselines are compared with the page's own, of the letters in order: how far they scatter
 (standard deviation) and how far the worst lies from the median, in 1/1000 em; a page drawn with jitter has that much in it. --keep FOLDER keeps pages and cells, and draws none anew that is there. --forget N
 cuts each page so often again with one name left out, and counts how often that is told, and told at its place or the next one, and where names stand in lines, and as often with one name too many. A page's
-own options --stray MM and --slope DEGREES move its rows up and down and let them slope by so much in the mean. --build appends what font_bench.py says of the font of each bare
+own options --stray MM and --slope DEGREES move its rows up and down and let them slope by so much in the mean; --tilt SHARE shows it with its
+left side that much nearer than its middle, and how much letters then differ in size, a standard deviation, stands behind the baselines. --build appends what font_bench.py says of the font of each bare
 page.
 Needs numpy, scipy, pillow and what make_sheet.py needs.
 """
@@ -38,11 +39,14 @@ def draw(bench, font, options, folder):
         own = argparse.ArgumentParser()
         own.add_argument("--stray", type=float, default=0)
         own.add_argument("--slope", type=float, default=0)
+        own.add_argument("--tilt", type=float, default=0)
         own, options = own.parse_known_args(options)
         command = [sys.executable, os.path.join(bench, "make_sheet.py"), "--font-file", font, "--chars", "latin"]
         subprocess.run(command + options + ["--out", picture], check=True, capture_output=True)
         if own.stray or own.slope:
             stray(picture, own.stray, own.slope)
+        if own.tilt:
+            tilt(picture, own.tilt)
     return json.load(open(picture + ".json"))
 
 
@@ -73,6 +77,30 @@ def stray(picture, mm, degrees):
     json.dump(truth, open(picture + ".json", "w"), ensure_ascii=False, indent=1)
 
 
+def tilt(picture, share):
+    """Shows a page with its left side nearer than its middle by a share."""
+    truth, page = json.load(open(picture + ".json")), Image.open(picture)
+    x, y = (side / 2 for side in page.size)
+    g = share / x
+    back = [1 - g * x, 0, g * x * x, -g * y, 1, g * x * y, -g, 0]
+    back = np.array(back) / (1 + g * x)
+    page.transform(page.size, Image.PERSPECTIVE, back, Image.BICUBIC, fillcolor=255).save(picture, dpi=page.info.get("dpi"))
+    for cell in truth["cells"]:
+        cell["tilt"] = [g, x, y]
+        left, top, right, bottom = cell["ink_box"]
+        ends = np.array(seen(cell, np.array([left, right, left, right]), np.array([top, top, bottom, bottom])))
+        cell["ink_box"] = [*ends.min(1), *ends.max(1)]
+        cell["origin_px"] = [float(v) for v in seen(cell, *cell["origin_px"])]
+    json.dump(truth, open(picture + ".json", "w"), ensure_ascii=False, indent=1)
+
+
+def seen(cell, x, y):
+    """Where the picture has a place of the page."""
+    g, *middle = cell.get("tilt", [0, 0, 0])
+    nearer = 1 + g * (x - middle[0])
+    return middle[0] + (x - middle[0]) / nearer, middle[1] + (y - middle[1]) / nearer
+
+
 def outline(font, cell):
     """A cell's outline in px of the page, flattened, as make_sheet.py drew it."""
     import make_sheet as ms
@@ -86,7 +114,7 @@ def outline(font, cell):
         contours = ob.true_outline(known, known.getGlyphSet(), cell["name"])
     a, b, c, d, e, f = cell["map"]
     for poly in ob.flatten(contours, 8):
-        yield a * poly[:, 0] + c * poly[:, 1] + e, b * poly[:, 0] + d * poly[:, 1] + f
+        yield seen(cell, a * poly[:, 0] + c * poly[:, 1] + e, b * poly[:, 0] + d * poly[:, 1] + f)
 
 
 outline.cache = {}
@@ -160,19 +188,27 @@ def cut(khatt, truth, layout, forms, folder, without=None, line=10**9, more=None
         pixels = np.floor([a * x + c * y + e, b * x + d * y + f]).astype(int)
         dx, dy = np.array(truth["cells"][place]["origin_px"]) - [c * cell["baseline_px"] + e, d * cell["baseline_px"] + f]
         drop = (dx * b - dy * a) / np.hypot(a, b) / truth["ppem"] * 1000
-        found[place] = pixels, drop
+        found[place] = pixels, (drop, size(truth["cells"][place], cell["to_sheet"]))
     return found, said, took
+
+
+def size(cell, to_sheet):
+    """The logarithm of a letter's size in its cell, of the page's own px."""
+    (x, y), (a, b, c, d, _, _) = cell["origin_px"], to_sheet
+    g, middle, _ = cell.get("tilt", [0, 0, 0])
+    # a place of the picture lies where the page is so much nearer
+    return np.log(1 - g * (x - middle)) * 1.5 - np.log(abs(a * d - b * c)) / 2
 
 
 def judge(found, truth, page):
     """Letters in order, letters with just their pieces, pieces lost, pieces of others, dust; which are wrong; scatter and worst of the
-    baselines."""
+    baselines, and scatter of the sizes."""
     of, letters, areas = page
     height, width = of.shape
     sums, bad, drops = np.zeros(5, int), [], []
     for i in range(len(truth["cells"])):
         own = np.flatnonzero(letters == i)
-        (x, y), drop = found.get(i, (np.zeros((2, 0), int), 0))
+        (x, y), drop = found.get(i, (np.zeros((2, 0), int), (0, 0)))
         inside = (x >= 0) & (y >= 0) & (x < width) & (y < height)
         x, y = x[inside], y[inside]
         ids = of[y, x]
@@ -191,8 +227,8 @@ def judge(found, truth, page):
             drops.append(drop)
         if not whole:
             bad.append(f"{i}:{truth['cells'][i]['name']}" + (f"-{len(lost)}" if len(lost) else "") + (f"+{len(foreign)}" if len(foreign) else ""))
-    drops = np.array(drops or [0])
-    return sums, bad, (drops.std(), abs(drops - np.median(drops)).max())
+    drops, sizes = np.array(drops or [(0, 0)]).T
+    return sums, bad, (drops.std(), abs(drops - np.median(drops)).max(), sizes.std())
 
 
 def dust(x, y, ids, of, own):
@@ -278,7 +314,8 @@ def row(args, text, folder):
             continue
         sums, bad, drops = judge(found, truth, page)
         shown = f" ({' '.join(bad[:args.show])})" if bad and args.show else ""
-        cells += f" | {sums[0]} | {sums[1]}{shown} | {sums[2]}, {sums[3]} | {sums[4]} | {drops[0]:.1f}, {drops[1]:.1f} | {took:.1f}"
+        cells += f" | {sums[0]} | {sums[1]}{shown} | {sums[2]}, {sums[3]} | {sums[4]} | {drops[0]:.1f}, {drops[1]:.1f}"
+        cells += (f", ±{100 * drops[2]:.1f} %" if "--tilt" in options else "") + f" | {took:.1f}"
     if args.build and "free" in args.layouts:
         cells += font_row(args, fonts[0], folder)
     if args.forget:
