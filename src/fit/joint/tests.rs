@@ -58,6 +58,15 @@ fn a_straight_span_is_one_line() {
 }
 
 #[test]
+fn a_span_of_which_a_part_is_tried_first_is_fit_whole() {
+    let along = (0..=LONG).map(|i| i as f64);
+    let p: Vec<Point> = along.map(|x| Point::new(x, 0.3 * x)).collect();
+    let got = fit(Span::Open(&p));
+    assert_eq!(got.path.segments().count(), 1);
+    assert_eq!(got.verdict, Verdict::Met);
+}
+
+#[test]
 fn a_line_runs_into_a_curve_without_a_kink() {
     let path = BezPath::from_svg("M0 0L0 60C0 90 20 110 50 110L100 110").unwrap();
     let got = fit(Span::Open(&points(&path))).path;

@@ -17,6 +17,10 @@ const LOST_PX: f64 = 8.0;
 const LOST: f64 = 0.5;
 /// Where more are missing corners are not why: hatching and noise leave them everywhere.
 const MOST_LOST: usize = 4;
+/// Nor where more are doubted, and more than one in so many points of the contours: noise has one in 36, those
+/// contours of letters that have any one in 260.
+const MOST_DOUBTS: usize = 1000;
+const DOUBTS_APART: usize = 100;
 /// Times that a contour which was fit again is looked at once more.
 const REVISIONS: usize = 3;
 
@@ -30,7 +34,7 @@ pub(super) fn reviewed(
 ) -> Result<Vec<BezPath>, FitError> {
     let blur = found.first().map_or(0.0, |(c, _)| c.blur_px());
     let seen = Comparison::new(coverage, paths, blur);
-    let mut doubts = seen.doubts(paths);
+    let mut doubts = borne_out(found, seen.doubts(paths));
     let mut wanted = corrected(found, &doubts);
     let mut again = refit(coverage, (found, paths), &wanted, options)?;
     for _ in 0..REVISIONS {
@@ -115,6 +119,17 @@ fn refit(
     Ok(paths)
 }
 
+/// The doubts about contours, or none where they are so many that the picture is one of noise.
+fn borne_out(found: &[Cornered], doubts: Vec<Doubts>) -> Vec<Doubts> {
+    let count: usize = doubts.iter().map(|d| d.round.len() + d.sharp.len()).sum();
+    let points: usize = found.iter().map(|(c, _)| c.points().len()).sum();
+    if count > MOST_DOUBTS.max(points / DOUBTS_APART) {
+        vec![Doubts::default(); doubts.len()]
+    } else {
+        doubts
+    }
+}
+
 /// The contours without the corners that are drawn round, and with those that were overlooked.
 fn corrected(found: &[Cornered], doubts: &[Doubts]) -> Vec<Cornered> {
     found.iter().zip(doubts).map(told).collect()
@@ -138,4 +153,26 @@ fn told(((contour, at), doubts): (&Cornered, &Doubts)) -> Cornered {
     at.sort_unstable();
     at.dedup();
     (contour.clone(), at)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::types::Contour;
+
+    #[test]
+    fn doubts_everywhere_are_none() {
+        let doubted = |count: usize| {
+            let round = vec![Point::ORIGIN; count];
+            let sharp = Vec::new();
+            vec![Doubts { round, sharp }]
+        };
+        let long = 2 * DOUBTS_APART * MOST_DOUBTS;
+        for (points, most) in [(3, MOST_DOUBTS), (long, 2 * MOST_DOUBTS)] {
+            let ring = (0..points).map(|i| Point::new(i as f64, (i % 2) as f64));
+            let found = [(Contour::new(ring.collect()).unwrap(), Vec::new())];
+            assert_eq!(borne_out(&found, doubted(most)), doubted(most));
+            assert_eq!(borne_out(&found, doubted(most + 1)), doubted(0));
+        }
+    }
 }

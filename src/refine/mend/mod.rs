@@ -55,8 +55,11 @@ const WRONG: f64 = 0.018;
 const WRONG_GRAIN: f64 = 90.0;
 /// And from which a part of the drawing is missing there.
 const LOST: f64 = 0.5;
-/// Places that are tried at most, the worst first: a picture of noise is wrong everywhere.
+/// Places that are tried at most, the worst first, and crossings: a picture of noise is wrong everywhere.
 const MOST: usize = 1000;
+/// Chords of a ring that is mended at most, since each place draws them anew: a letter of 9000 px an em has some
+/// thousands, a ring of noise half a million.
+const RING_CHORDS: usize = 100_000;
 /// Places nearer to one that was tried are that one, px.
 const SAME_PX: f64 = 5.0;
 /// A node that went further than this, px, is followed by a window of its own, so many of them at most.
@@ -93,7 +96,7 @@ struct Work<'a> {
     residual: Residual<'a>,
     wrong: Wrong,
     reach: f64,
-    /// rings of which there is none, or none could be read, stay
+    /// rings of noise, and those of which there is none or none could be read, stay
     chains: Vec<Option<Chain>>,
     rings: Vec<Ring>,
     /// places that were tried in vain, and the squares around them then
@@ -105,13 +108,14 @@ struct Work<'a> {
 impl<'a> Work<'a> {
     fn new(residual: &'a Residual<'_>, paths: &[BezPath]) -> Self {
         let rings = rings(paths);
+        let chains = rings.iter().map(Ring::chain).collect();
         let residual = residual.against(rings.iter().map(|r| r.chords.as_slice()));
         let length: f64 = rings.iter().map(Ring::length).sum();
         Self {
             wrong: Wrong::new(&residual),
             reach: REACH_PX + REACH_LENS * residual.lens_px(),
             residual,
-            chains: paths.iter().map(read).collect(),
+            chains,
             rings,
             vain: Vec::new(),
             crossing: Crossing::OnTheWay,
@@ -156,7 +160,7 @@ impl Work<'_> {
     /// The paths as they are, with nodes at all extrema.
     fn finished(self) -> Vec<BezPath> {
         let finished = |(chain, ring): (Option<Chain>, Ring)| {
-            let Some(mut chain) = chain else {
+            let Some(mut chain) = chain.or_else(|| read(&ring.path)) else {
                 return ring.path;
             };
             let before = chain.kinds.len();
@@ -409,6 +413,12 @@ impl Ring {
             chords,
             bounds,
         }
+    }
+
+    /// What of it may move: nothing of noise.
+    fn chain(&self) -> Option<Chain> {
+        let few = self.chords.len() <= RING_CHORDS;
+        few.then(|| read(&self.path)).flatten()
     }
 
     /// px

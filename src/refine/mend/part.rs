@@ -13,12 +13,22 @@ const HIDDEN_PX: f64 = 1.0;
 pub(super) fn changed(before: &Chain, after: &Chain) -> Option<Rect> {
     let curves = |c: &Chain| (0..c.kinds.len()).map(|i| c.cubic(i)).collect::<Vec<_>>();
     let (before, after) = (curves(before), curves(after));
-    let lacking = |a: &[CubicBez], b: &[CubicBez]| {
-        let other = a.iter().filter(|c| !b.contains(c));
-        other.map(CubicBez::bounding_box).reduce(|a, b| a.union(b))
-    };
     let both = [lacking(&before, &after), lacking(&after, &before)];
     both.into_iter().flatten().reduce(|a, b| a.union(b))
+}
+
+/// What the curves take up that are not among others, px. After one that is, the next is looked for first where it
+/// would follow: a ring of noise has too many to look through them all for each.
+fn lacking(curves: &[CubicBez], others: &[CubicBez]) -> Option<Rect> {
+    let mut next = 0;
+    let is_new = |c: &&CubicBez| {
+        let (before, after) = others.split_at(next);
+        let found = after.iter().chain(before).position(|o| o == *c);
+        next = found.map_or(next, |k| (next + k + 1) % others.len());
+        found.is_none()
+    };
+    let new = curves.iter().filter(is_new);
+    new.map(CubicBez::bounding_box).reduce(|a, b| a.union(b))
 }
 
 /// How far the control points of two curves are apart at most, px.

@@ -3,7 +3,7 @@
 //! On the way to what explains a picture best they may: what crosses there is mostly cut off, or pulled apart again,
 //! and few places are mended as well without that.
 
-use super::{Ring, Work, read, rings};
+use super::{MOST, Ring, Work, rings};
 use crate::refine::crossings::Chords;
 use kurbo::{BezPath, Rect};
 
@@ -15,11 +15,12 @@ pub(super) enum Crossing {
 }
 
 impl Work<'_> {
-    /// Mends those rings once more that cross and did not in `paths`, now without crossing on the way.
+    /// Mends those rings once more that cross and did not in `paths`, now without crossing on the way. Noise crosses
+    /// everywhere, and stays.
     pub(super) fn untangle(&mut self, paths: &[BezPath]) {
         let mut tangled = crossings(&self.rings);
         let count = tangled.len();
-        if count == 0 {
+        if count == 0 || count > MOST {
             return;
         }
         let first = rings(paths);
@@ -30,9 +31,9 @@ impl Work<'_> {
             return;
         }
         let before = (self.chains.clone(), self.rings.clone());
-        for (k, (path, ring)) in paths.iter().zip(first).enumerate() {
+        for (k, ring) in first.into_iter().enumerate() {
             if again(k) {
-                (self.chains[k], self.rings[k]) = (read(path), ring);
+                (self.chains[k], self.rings[k]) = (ring.chain(), ring);
             } else {
                 // those stay
                 self.chains[k] = None;

@@ -1,9 +1,9 @@
 use super::{
-    Ring, SMOOTH, Work,
+    RING_CHORDS, Ring, SMOOTH, Work,
     bends::tight_bends,
     budget::Budget,
     ends::{is_blunt, square as squared},
-    part::open_part,
+    part::{begun_at, changed, open_part},
     tangle::Crossing,
     tips::{ONE_PX, is_needle, trimmed},
     variants::variants,
@@ -23,7 +23,7 @@ use crate::{
     },
     types::{Contour, Gray},
 };
-use kurbo::{BezPath, ParamCurveNearest, PathSeg, Point, Shape};
+use kurbo::{BezPath, ParamCurveNearest, PathSeg, Point, Rect, Shape};
 
 /// The largest distance of two closed paths.
 fn apart(a: &BezPath, b: &BezPath) -> f64 {
@@ -339,6 +339,37 @@ fn no_chain_is_put_that_crosses_where_none_may() {
         assert_eq!(work.put(0, bow.clone(), f64::INFINITY), put);
         let stays = work.finished() == [square()];
         assert_eq!(stays, !put);
+    }
+}
+
+#[test]
+fn what_changed_of_a_ring_is_found_wherever_it_begins() {
+    let path = BezPath::from_svg("M0 0L10 -2L20 0L20 20L0 20Z").unwrap();
+    let ring = Chain::from_path(&path, SMOOTH).unwrap();
+    for start in 0..5 {
+        let mut other = begun_at(&ring, start);
+        assert_eq!(changed(&ring, &other), None);
+        let low = other.nodes.iter_mut().find(|n| n.point.y < 0.0).unwrap();
+        low.point.y = -5.0;
+        let around = Rect::new(0.0, -5.0, 20.0, 0.0);
+        assert_eq!(changed(&ring, &other), Some(around));
+        other.nodes.clear();
+        other.kinds.clear();
+        assert_eq!(changed(&ring, &other), Some(path.bounding_box()));
+    }
+}
+
+#[test]
+fn a_ring_of_more_chords_than_any_letters_stays() {
+    let zigzag = |corners: usize| {
+        let mut path = BezPath::new();
+        path.move_to((0.0, -1.0));
+        (0..corners).for_each(|i| path.line_to((i as f64, (i % 2) as f64)));
+        path.close_path();
+        path
+    };
+    for (corners, moves) in [(RING_CHORDS / 2, true), (RING_CHORDS + 1, false)] {
+        assert_eq!(Ring::new(zigzag(corners)).chain().is_some(), moves);
     }
 }
 
