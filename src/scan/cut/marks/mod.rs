@@ -43,9 +43,9 @@ const EXTRA: f64 = 2.5;
 const FEW: f64 = 0.25;
 /// What is torn off a letter that has dots, or a sign within it, lies nearer than this share of its length.
 const NEAR: f64 = 0.5;
-/// The longer side of a stroke's piece beside its shorter one at least, and how far from it it lies at most, in
-/// strokes.
-const STROKE: f64 = 2.5;
+/// The area of a stroke's piece beside the square of its width at least, straight or bent: a straight one is 2.5 times
+/// as long as wide, a square has 2.25; and how far from it it lies at most, in strokes.
+const STROKE: f64 = 3.6;
 const TORN: f64 = 0.6;
 /// The same in px at least: a gap of one is blurred to three.
 const LEAST_GAP: f64 = 3.0;
@@ -296,7 +296,7 @@ fn usual_dot(layer: &Layer, all: &[Component], names: &GlyphData) -> Option<f64>
 
 /// Whether a piece is a thin end of a stroke that is parted from it: a dot or dust is no stroke.
 fn torn(c: &Component, body: &Component) -> bool {
-    side(c) > STROKE * c.upright.size().min_side() && is_close(c, body)
+    c.area as f64 > STROKE * c.stroke().powi(2) && is_close(c, body)
 }
 
 /// Whether less than a part of a stroke lies between a piece and the body.
