@@ -58,7 +58,7 @@ const LOST: f64 = 0.5;
 /// Places that are tried at most, the worst first, and crossings: a picture of noise is wrong everywhere.
 const MOST: usize = 1000;
 /// Chords of a ring that is mended at most, since each place draws them anew: a letter of 9000 px an em has some
-/// thousands, a ring of noise half a million.
+/// ten thousand, a ring of noise half a million.
 const RING_CHORDS: usize = 100_000;
 /// Places nearer to one that was tried are that one, px.
 const SAME_PX: f64 = 5.0;

@@ -30,10 +30,6 @@ const HALF: f32 = 0.5;
 /// Paper inside ink that lies within a square of this many stroke widths is a pinhole: the smallest counter of a
 /// hundred fonts, in Amiri Bold's لا, has 0.40.
 const PINHOLE: f64 = 0.25;
-/// Within a square of one stroke's width what is nowhere as light as this coverage is pale ink, or dust on it: through
-/// what is thicker than so many px, as [`Component::stroke`] measures it, a lens would see paper.
-const PALE: f32 = 0.3;
-const CLEAR_PX: f64 = 3.0;
 /// Lobes of the kernel.
 const LOBES: usize = 3;
 /// Positions between two pixels for which the kernel is tabled.
@@ -200,7 +196,7 @@ impl Patch {
         }
         // a letter that is nearly all ink has no larger pinholes than others
         let body = parts.iter().max_by_key(|c| c.area);
-        new.heal(body.map_or(0.0, |c| c.stroke().min(shutter.stroke)));
+        new.heal(PINHOLE * body.map_or(0.0, |c| c.stroke().min(shutter.stroke)));
         new
     }
 
@@ -225,21 +221,12 @@ impl Patch {
         }
     }
 
-    /// Fills what strokes of that width, px, enclose and is no counter: it is too small, or no paper.
-    fn heal(&mut self, stroke: f64) {
+    /// Fills the paper that ink encloses where it lies within a square of that side, px.
+    fn heal(&mut self, side: f64) {
         let is_paper = |x: usize, y: usize| self.samples[y * self.width + x] < HALF;
         let holes = enclosed((self.width, self.height), is_paper).into_iter();
-        let is_pale = |c: &Component| {
-            let row = |r: &Run| &self.samples[r.y * self.width..][r.start..r.end];
-            let rows = c.runs.iter().map(row);
-            c.stroke() > CLEAR_PX && rows.flatten().all(|v| *v > PALE)
-        };
-        let is_none = |c: &Component| {
-            let side = c.bounds.size().max_side();
-            side < PINHOLE * stroke || side < stroke && is_pale(c)
-        };
-        let filled: Vec<Component> = holes.filter(is_none).collect();
-        for r in filled.into_iter().flat_map(|c| c.runs) {
+        let is_pinhole = |c: &Component| c.bounds.size().max_side() < side;
+        for r in holes.filter(is_pinhole).flat_map(|c| c.runs) {
             self.samples[r.y * self.width..][r.start..r.end].fill(1.0);
         }
     }
