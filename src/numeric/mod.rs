@@ -9,6 +9,7 @@ pub mod clip;
 pub mod coverage;
 pub mod curves;
 pub mod distance;
+pub mod edge;
 pub mod iso;
 pub mod joins;
 pub mod levels;

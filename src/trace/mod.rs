@@ -10,7 +10,6 @@
 //! slits whose crest never reaches the level, where it stands out for 6 px (`thin`).
 
 mod chain;
-mod edge;
 mod focus;
 mod ink;
 mod levels;
@@ -20,7 +19,7 @@ mod tests;
 mod thin;
 
 use crate::{
-    numeric::iso,
+    numeric::{edge, iso},
     types::{Contour, Gray},
 };
 use kurbo::Point;
@@ -85,6 +84,8 @@ impl Default for Options {
 
 /// Distance between neighbouring points, px: a little denser than the pixels they come from.
 const SPACING_PX: f64 = 0.8;
+/// No edge is taken for softer than this, px.
+const MAX_BLUR_PX: f64 = 4.0;
 
 /// The contours of a picture's ink, evenly sampled, with the blur of the picture's edges.
 #[must_use]
@@ -99,7 +100,9 @@ pub fn trace(gray: &Gray, options: &Options) -> Vec<Contour> {
     let mut even: Vec<Contour> = large(rings.into_iter(), options)
         .filter_map(spaced)
         .collect();
-    let blur = edge::blur_px(gray, &even);
+    let edges = even.iter().map(Contour::points);
+    let blur = edge::blur_px(gray.samples(), gray.width(), edges);
+    let blur = blur.clamp(Contour::PIXEL_BLUR_PX, MAX_BLUR_PX);
     if let Some(lifted) = thin::lifted(gray, options.level, blur) {
         let rings = rings_at(&lifted, options.level).into_iter();
         even = large(rings, options).filter_map(spaced).collect();

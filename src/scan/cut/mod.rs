@@ -12,9 +12,10 @@
 //! | `marks` | dots in another letter's cell, or smaller than dust may be, come back; dust as large as dots goes |
 //! | `guides` | baselines of the rows, and the size of the em |
 //! | `stance`, `remarks` | whether letters stand as their names say, and what a user should look at |
-//! | `window` | each letter's own picture, upright |
+//! | `window` | each letter's own picture, upright; holes in its ink that are no counters are filled (`holes`) |
 
 mod guides;
+mod holes;
 mod layout;
 mod level;
 mod marks;

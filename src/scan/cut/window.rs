@@ -4,12 +4,12 @@
 //! paper. On an upright page the pixels are the scan's own; else they are interpolated once, by a kernel that
 //! keeps what the scanner could resolve (Lanczos of three lobes). Perspective is undone in the same step.
 
-use super::Slot;
+use super::{Slot, holes};
 use crate::numeric::cast::{index, single};
 use crate::numeric::view::View;
 use crate::scan::chamfer::distances;
 use crate::scan::clean::Page;
-use crate::scan::components::{Component, Run, components, enclosed};
+use crate::scan::components::{Component, Run, components};
 use crate::scan::separation::{self, Separation};
 use crate::types::{Cell, Gray, Guides, Plate};
 use kurbo::{Affine, Point, Rect, Vec2};
@@ -25,11 +25,6 @@ const EDGE: u16 = 3;
 const FAINT: f32 = 0.1;
 /// Standard deviations of noise above which paper far from the cell's ink is somebody else's.
 const NOISE: f32 = 4.0;
-/// Coverage at which ink ends.
-const HALF: f32 = 0.5;
-/// Paper inside ink that lies within a square of this many stroke widths is a pinhole: the smallest counter of a
-/// hundred fonts, in Amiri Bold's لا, has 0.40.
-const PINHOLE: f64 = 0.25;
 /// Lobes of the kernel.
 const LOBES: usize = 3;
 /// Positions between two pixels for which the kernel is tabled.
@@ -196,7 +191,8 @@ impl Patch {
         }
         // a letter that is nearly all ink has no larger pinholes than others
         let body = parts.iter().max_by_key(|c| c.area);
-        new.heal(PINHOLE * body.map_or(0.0, |c| c.stroke().min(shutter.stroke)));
+        let stroke = body.map_or(0.0, |c| c.stroke().min(shutter.stroke));
+        holes::fill(&mut new.samples, width, stroke);
         new
     }
 
@@ -218,16 +214,6 @@ impl Patch {
         let lines = components(&passing, least, least).into_iter();
         for r in lines.filter(|c| long(c) && far(c)).flat_map(|c| c.runs) {
             self.samples[r.y * width..][r.start..r.end].fill(0.0);
-        }
-    }
-
-    /// Fills the paper that ink encloses where it lies within a square of that side, px.
-    fn heal(&mut self, side: f64) {
-        let is_paper = |x: usize, y: usize| self.samples[y * self.width + x] < HALF;
-        let holes = enclosed((self.width, self.height), is_paper).into_iter();
-        let is_pinhole = |c: &Component| c.bounds.size().max_side() < side;
-        for r in holes.filter(is_pinhole).flat_map(|c| c.runs) {
-            self.samples[r.y * self.width..][r.start..r.end].fill(1.0);
         }
     }
 

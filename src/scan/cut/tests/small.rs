@@ -70,7 +70,8 @@ fn slits_are_no_pinholes() {
 
 #[test]
 fn pinholes_are_filled() {
-    for (side, open) in [(4.0, false), (12.0, true)] {
+    // as light as paper, and as pale ink
+    for (side, shade, open) in [(4.0, 0.0, false), (12.0, 0.0, true), (12.0, 0.45, false)] {
         let mut paper = Paper::new(420, 200, 1.0);
         paper.letter('n', 90.0, 120.0);
         paper.letter('n', 210.0, 120.0);
@@ -79,10 +80,16 @@ fn pinholes_are_filled() {
         paper.bar(x, y + 40.0 - rest, 40.0, rest);
         paper.bar(x, y, rest, 40.0);
         paper.bar(x + 40.0 - rest, y, rest, 40.0);
+        let hole = Rect::new(x + rest, y + rest, x + rest + side, y + rest + side);
+        paper.bars.push((hole, shade));
         let cut = cut_page(&paper, "n n o", &options(Layout::Grid(1, 3))).unwrap();
         let gray = &cut.cells[2].gray;
         let middle = gray.at(gray.width() / 2, gray.height() / 2);
-        assert_eq!(middle < 0.5, open, "a hole of {side} px: {middle}");
+        assert_eq!(
+            middle < 0.5,
+            open,
+            "a hole of {side} px, {shade} dark: {middle}"
+        );
     }
 }
 
