@@ -200,18 +200,26 @@ pub(super) fn set(drafts: &mut [Draft], em: f64, options: &Options) -> (Report, 
     };
     let mut joints = joints(drafts, em, options.method);
     let contract = contract(&mut joints, em, options);
-    let edges = contract.filter(|_| options.method == Method::Contract);
-    if options.method == Method::Cursive {
+    let cursive = options.method == Method::Cursive;
+    if cursive {
         joints.iter_mut().for_each(Joint::choose_outermost);
     }
+    let from_beside = coming(&joints);
     joints.retain(|joint| {
         let Some(draft) = drafts.get_mut(joint.draft) else {
             return false;
         };
-        let x = edges.and_then(|c| met(draft, joint, c.edges));
+        let edges = if cursive {
+            from_beside(joint.side).filter(|_| joint.end().is_none())
+        } else {
+            contract.map(|c| c.edges)
+        };
+        let x = edges.and_then(|edges| met(draft, joint, edges));
+        let height = edges.filter(|_| cursive && x.is_some());
+        let height = height.map(|(low, high)| f64::midpoint(low, high));
         match joint.side {
-            Side::Left => draft.joint.0 = x,
-            Side::Right => draft.joint.1 = x,
+            Side::Left => (draft.joint.0, draft.cursive.0) = (x, height),
+            Side::Right => (draft.joint.1, draft.cursive.1) = (x, height),
         }
         if x.is_none() && joint.end().is_none() {
             notes.push(no_stroke(draft, joint.side));
@@ -444,6 +452,20 @@ fn median(joints: &[&Joint], of: impl Fn(&End) -> Edges) -> Option<Edges> {
         middle(ends().map(|e| e.0), f64::total_cmp)?,
         middle(ends().map(|e| e.1), f64::total_cmp)?,
     ))
+}
+
+/// The edges of the strokes that come to a side of letters from beside, where each ends at its own height: the median
+/// of the ends on other letters' opposite sides.
+fn coming(joints: &[Joint]) -> impl Fn(Side) -> Option<Edges> + use<> {
+    let opposite = |side: Side| {
+        let others: Vec<&Joint> = joints.iter().filter(|j| j.side != side).collect();
+        median(&others, |e| e.edges)
+    };
+    let (left, right) = (opposite(Side::Left), opposite(Side::Right));
+    move |side| match side {
+        Side::Left => left,
+        Side::Right => right,
+    }
 }
 
 /// What every end is brought to.

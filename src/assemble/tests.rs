@@ -179,3 +179,44 @@ fn a_body_that_no_stroke_leaves_stays_as_drawn() {
         );
     }
 }
+
+#[test]
+fn a_stem_is_met_where_strokes_come_to_it() {
+    let mut alef = drawn("uni0627.fina");
+    let stem = BezPath::from_svg("M0 0L90 -20L90 700L0 700Z").unwrap();
+    alef.outline = Outline::new(vec![stem]).unwrap();
+    let options = Options {
+        joining: joining::Options {
+            method: joining::Method::Cursive,
+            ..joining::Options::default()
+        },
+        ..Options::default()
+    };
+    let shapes = vec![drawn("uni0628.init"), drawn("uni0628.fina"), alef];
+    let built = font(shapes, Info::default(), &options).unwrap();
+    let glyph = |name: &str| {
+        built
+            .font
+            .glyphs()
+            .iter()
+            .find(|g| g.name.as_str() == name)
+            .unwrap()
+    };
+    let at = |name: &str, anchor: &str| {
+        let anchors = glyph(name).anchors.iter();
+        anchors
+            .filter(|a| a.name == anchor)
+            .map(|a| a.at)
+            .next()
+            .unwrap()
+    };
+    let (exit, entry) = (at("uni0628.init", "exit"), at("uni0627.fina", "entry"));
+    assert!((exit.y - entry.y).abs() < 1.0, "{exit:?} {entry:?}");
+    // the stroke ends within the stem
+    let alef = glyph("uni0627.fina");
+    let right = alef.outline.bounds().unwrap().x1;
+    assert!(
+        (entry.x - alef.advance).abs() < 1e-9 && entry.x < right,
+        "{entry:?}"
+    );
+}

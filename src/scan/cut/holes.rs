@@ -19,6 +19,8 @@ const APART_PX: f64 = 2.0;
 /// Paper within ink is at least this share as light as the lens that blurs the letter's edges lets it be: what is
 /// darker is pale ink, or dust on it.
 const LIGHT: f32 = 0.75;
+/// What is no thicker, as [`Component::stroke`] measures it, may be a streak of paper whose pixels hold ink, too, px.
+const CLEAR_PX: f64 = 2.5;
 /// A hole's midst is where its lightest place is hardly lighter: dust has sharp edges, a counter has not.
 const MIDST: f32 = 0.9;
 
@@ -78,6 +80,7 @@ impl Picture<'_> {
         let lens = LazyCell::new(|| self.lens());
         pale.retain(|c| {
             side(c) < stroke
+                && c.stroke() > CLEAR_PX
                 && c.pixels().any(|p| self.at(p) < PALE.0)
                 && !self.opens(c, &inside)
                 && (side(c) < PINHOLE * stroke
@@ -181,6 +184,21 @@ mod tests {
             let filled = middle(dusty(1.6, side, coverage));
             assert!(filled > 0.9, "{side} px, {coverage} dark: {filled}");
         }
+    }
+
+    /// Of streaks thinner than a pixel no pixel is as light as paper.
+    #[test]
+    fn thin_streaks_stay() {
+        let streak = block(0.0, |x, y| {
+            if (y - 0.5).abs() < 0.1 && x.abs() < 8.0 {
+                0.55
+            } else {
+                0.0
+            }
+        });
+        let mut filled = streak.clone();
+        fill(&mut filled, SIDE, 20.0);
+        assert_eq!(filled, streak);
     }
 
     #[test]
