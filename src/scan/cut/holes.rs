@@ -91,7 +91,15 @@ impl Picture<'_> {
 
     /// The blur of its edges, px.
     fn lens(&self) -> f64 {
-        let edges = rings(self.size(), |x, y| self.at((x, y)), HALF.into());
+        let (width, height) = self.size();
+        let or_paper = |x, y| {
+            if x < width && y < height {
+                self.at((x, y))
+            } else {
+                0.0
+            }
+        };
+        let edges = rings((width, height), or_paper, HALF.into());
         blur_px(self.samples, self.width, edges.iter().map(Vec::as_slice))
     }
 
@@ -184,6 +192,15 @@ mod tests {
             let filled = middle(dusty(1.6, side, coverage));
             assert!(filled > 0.9, "{side} px, {coverage} dark: {filled}");
         }
+    }
+
+    #[test]
+    fn ink_may_reach_the_pictures_edge() {
+        let mut ink = vec![1.0; SIDE * SIDE];
+        for row in ink.chunks_mut(SIDE).skip(30).take(12) {
+            row[30..42].fill(0.4);
+        }
+        assert!(middle(ink) > 0.9);
     }
 
     /// Of streaks thinner than a pixel no pixel is as light as paper.
