@@ -20,6 +20,7 @@ pub mod pieces;
 pub mod powers;
 pub mod qbc;
 pub mod refit;
+pub mod sets;
 pub mod shortest;
 pub mod side;
 pub mod skyline;

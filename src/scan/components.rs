@@ -1,6 +1,7 @@
 //! Connected ink: runs along rows, joined where they touch, also at their corners.
 
 use crate::numeric::cast::index;
+use crate::numeric::sets::Sets;
 use crate::numeric::view::View;
 use crate::types::Gray;
 use kurbo::{Affine, Point, Rect};
@@ -229,6 +230,33 @@ pub(super) fn gap(a: Rect, b: Rect) -> f64 {
     dx.hypot(dy)
 }
 
+/// Pairs of boxes that are nearer to each other than either's `reach` px, found along the page's width.
+pub(super) fn close(
+    boxes: &[Rect],
+    reach: impl Fn(usize) -> f64,
+) -> impl Iterator<Item = (usize, usize)> {
+    let mut order: Vec<usize> = (0..boxes.len()).collect();
+    order.sort_by(|&a, &b| boxes[a].x0.total_cmp(&boxes[b].x0));
+    let mut from = 0;
+    let mut next = 1;
+    iter::from_fn(move || {
+        loop {
+            let &i = order.get(from)?;
+            let end = boxes[i].x1 + reach(i);
+            let after = order.get(next).filter(|&&j| boxes[j].x0 < end);
+            let Some(&j) = after else {
+                from += 1;
+                next = from + 1;
+                continue;
+            };
+            next += 1;
+            if gap(boxes[i], boxes[j]) < reach(i).min(reach(j)) {
+                return Some((i, j));
+            }
+        }
+    })
+}
+
 /// Runs of one row and of the next that overlap by at least a pixel.
 fn pairs(runs: &[Run]) -> impl Iterator<Item = (Run, Run)> {
     let mut from = 0;
@@ -313,16 +341,9 @@ pub(super) fn enclosed(
         .collect()
 }
 
-/// Indices of runs that touch: union-find along neighbouring rows.
+/// Indices of runs that touch, found along neighbouring rows.
 fn group(runs: &[Run], touch: Touch) -> Vec<Vec<usize>> {
-    let mut parent: Vec<usize> = (0..runs.len()).collect();
-    fn root(parent: &mut [usize], mut i: usize) -> usize {
-        while parent[i] != i {
-            parent[i] = parent[parent[i]];
-            i = parent[i];
-        }
-        i
-    }
+    let mut sets = Sets::new(runs.len());
     let reach = usize::from(touch == Touch::Corners);
     let mut above = 0;
     for (i, run) in runs.iter().enumerate() {
@@ -334,20 +355,7 @@ fn group(runs: &[Run], touch: Touch) -> Vec<Vec<usize>> {
         let touching = runs[above..i]
             .iter()
             .take_while(|a| a.y < run.y && a.start < run.end + reach);
-        for j in above..above + touching.count() {
-            let (a, b) = (root(&mut parent, i), root(&mut parent, j));
-            parent[a.max(b)] = a.min(b);
-        }
+        (above..above + touching.count()).for_each(|j| sets.join(i, j));
     }
-    let mut groups: Vec<Vec<usize>> = Vec::new();
-    let mut place = vec![usize::MAX; runs.len()];
-    for i in 0..runs.len() {
-        let r = root(&mut parent, i);
-        if place[r] == usize::MAX {
-            place[r] = groups.len();
-            groups.push(Vec::new());
-        }
-        groups[place[r]].push(i);
-    }
-    groups
+    sets.into_groups()
 }

@@ -9,9 +9,10 @@ mod lost;
 mod small;
 
 pub(super) use lost::{reclaim, restore};
-pub(super) use small::{SMALL, group};
+pub(super) use small::{SMALL, groups};
 
 use super::{Layer, Reason, Slot, bounds, gap, largest};
+use crate::numeric::cast::index;
 use crate::numeric::median::median;
 use crate::scan::components::Component;
 use crate::scan::letters::{Kind, Pieces, Shape};
@@ -55,6 +56,9 @@ const BLOT: f64 = 1.3;
 /// What all letters of one body have beside it is drawn where its area differs by this factor at most: dust is not
 /// the same everywhere.
 const SAME: f64 = 2.0;
+/// Of a letter of many dots, which a pen draws in one piece, what lies so many times as far from the next dot as is
+/// usual is none: dots on a slope are 1.4 times as far apart as those along a line.
+const STRAYED: f64 = 3.0;
 /// Areas of grains of one page's dust differ by this factor at most.
 const GRAINS: f64 = 4.0;
 /// What another letter of the same body and form has beside it lies at the same place from the body's middle up to
@@ -137,6 +141,11 @@ fn beside_letter(slot: &Slot, all: &[Component], names: &GlyphData, usual: &Usua
     let Some(body) = largest(all, parts) else {
         return Vec::new();
     };
+    let dots = Dots::of(&shape, (parts, all), usual.a_dot);
+    let is_surplus = |c: &Component| {
+        let dots = dots.as_ref().filter(|_| !in_pieces);
+        dots.is_some_and(|dots| surplus(c, &shape, dots, usual.a_dot))
+    };
     let is_dust = |i: usize| {
         let (c, main) = (&all[i], &all[body]);
         let dust = match shape.pieces {
@@ -155,7 +164,7 @@ fn beside_letter(slot: &Slot, all: &[Component], names: &GlyphData, usual: &Usua
             Pieces::DotAbove | Pieces::DotBelow | Pieces::Marked => {
                 gap(c.upright, main.upright) > side(main).max(usual.side)
                     || astray(c, parts, all)
-                    || !in_pieces && surplus(c, &shape, (parts, all), usual.a_dot)
+                    || is_surplus(c)
                     || opposite(c, &shape, parts, all)
                     || !usual.with_specks
                         && shape.pieces == Pieces::Marked
@@ -167,14 +176,31 @@ fn beside_letter(slot: &Slot, all: &[Component], names: &GlyphData, usual: &Usua
         dust && (!in_pieces || apart(c, parts, all, 1.0))
     };
     let surely = parts.iter().filter(|&&i| i != body && !is_dust(i));
-    let least = surely.map(|&i| all[i].area).min().filter(|_| in_pieces);
+    let surely = surely.map(|&i| all[i].area);
+    // the largest of many dots is a piece like the others
+    let alike = is_scattered(body, parts, all).then(|| one_of_many(&all[body]));
+    let least = surely.chain(alike).min().filter(|_| in_pieces);
     // of letters in pieces what is no smaller than a piece is one
     let is_piece = |i: usize| least.is_some_and(|least| all[i].area >= least);
-    parts
-        .iter()
-        .copied()
-        .filter(|&i| is_dust(i) && !is_piece(i))
-        .collect()
+    let mut found: Vec<usize> = match shape.pieces {
+        Pieces::One if alike.is_some() && in_pieces => strayed(parts, all),
+        _ => Vec::new(),
+    };
+    found.extend(parts.iter().filter(|&&i| is_dust(i) && !is_piece(i)));
+    found
+}
+
+/// Of a letter of many pieces those that are far from all others.
+fn strayed(parts: &[usize], all: &[Component]) -> Vec<usize> {
+    let to_next = parts.iter().filter_map(|&i| {
+        let others = parts.iter().filter(|&&j| j != i);
+        let off = others.map(|&j| (all[i].centre - all[j].centre).hypot());
+        Some((i, off.min_by(f64::total_cmp)?))
+    });
+    let to_next: Vec<(usize, f64)> = to_next.collect();
+    let usual = median(to_next.iter().map(|n| n.1)).unwrap_or(0.0);
+    let far = to_next.into_iter().filter(|n| n.1 > STRAYED * usual);
+    far.map(|n| n.0).collect()
 }
 
 /// What is no dust, since all letters of one body and its forms have about as much of it.
@@ -237,7 +263,7 @@ fn drawn_again(
 }
 
 /// Whether most letters that a pen draws in one piece are drawn in several that lie close together, like a stencil's
-/// or a clock's: then only what lies apart is dust.
+/// or a clock's, or in many alike: then only what lies apart is dust, or is less than those.
 pub(super) fn in_pieces<'a>(
     letters: impl Iterator<Item = (&'a Label, &'a [usize])>,
     all: &[Component],
@@ -247,11 +273,24 @@ pub(super) fn in_pieces<'a>(
     let parted = asked.filter_map(|(_, parts)| {
         let body = largest(all, parts)?;
         let mut others = parts.iter().filter(|&&i| i != body);
-        Some(others.any(|&i| is_close(&all[i], &all[body])))
+        let close = others.any(|&i| is_close(&all[i], &all[body]));
+        Some(close || is_scattered(body, parts, all))
     });
     let parted: Vec<bool> = parted.collect();
     let most = parted.iter().filter(|p| **p).count();
     parted.len() >= ENOUGH && 2 * most > parted.len()
+}
+
+/// Whether pieces about as large as a letter's largest one have more ink than it: it is no body, but one of many.
+fn is_scattered(body: usize, parts: &[usize], all: &[Component]) -> bool {
+    let others = parts.iter().filter(|&&i| i != body).map(|&i| all[i].area);
+    let alike = others.filter(|&area| area >= one_of_many(&all[body]));
+    alike.sum::<usize>() > all[body].area
+}
+
+/// The area of pieces that are about as large as a letter's largest one at least, px².
+fn one_of_many(largest: &Component) -> usize {
+    index(largest.area as f64 / SAME)
 }
 
 /// Whether many letters of one piece have specks unlike the page's dust: then the style has them, or these are other
@@ -368,50 +407,70 @@ fn astray(c: &Component, parts: &[usize], all: &[Component]) -> bool {
     })
 }
 
+/// Pieces that lie where a letter has its dots.
+struct Dots<'a> {
+    /// The box of the letter's body.
+    body: Rect,
+    pieces: Vec<&'a Component>,
+    /// Indices of those that are most like its dots, of the page's usual area and near to the body, and their area, px²;
+    /// dots that lie close together go together. None where the page does not tell the usual area.
+    best: Option<(Vec<usize>, f64)>,
+}
+
+impl<'a> Dots<'a> {
+    fn of(
+        shape: &Shape,
+        (parts, all): (&[usize], &'a [Component]),
+        usual: Option<f64>,
+    ) -> Option<Self> {
+        let (body, pieces) = dots(shape, parts, all).filter(|_| shape.dots > 0)?;
+        let boxes: Vec<Rect> = pieces.iter().map(|c| c.upright).collect();
+        let area = |g: &[usize]| g.iter().map(|&i| pieces[i].area).sum::<usize>() as f64;
+        let cost = |g: &[usize], usual: f64| {
+            let near = g.iter().map(|&i| gap(boxes[i], body));
+            let off = near.fold(f64::INFINITY, f64::min) / body.height().max(1.0);
+            (area(g) / (usual * shape.dots as f64)).ln().abs() + off
+        };
+        let best = usual.and_then(|usual| {
+            let groups = match shape.dots {
+                1 => (0..boxes.len()).map(|i| vec![i]).collect(),
+                _ => groups(&boxes),
+            };
+            let costs = groups.into_iter().map(|g| (cost(&g, usual), g));
+            let (_, best) = costs.min_by(|a, b| a.0.total_cmp(&b.0))?;
+            let area = area(&best);
+            Some((best, area))
+        });
+        Some(Self { body, pieces, best })
+    }
+}
+
 /// Whether other pieces are rather the dots of its letter: nearer to as large as the page's dots are, and to the
-/// body. Dots that lie close together go together; if they are all that the letter has, what more lies on their side
-/// is dust, and so is what is as compact as a dot and no larger anywhere else.
-fn surplus(
-    c: &Component,
-    shape: &Shape,
-    (parts, all): (&[usize], &[Component]),
-    usual: Option<f64>,
-) -> bool {
-    let Some((body, dots)) = dots(shape, parts, all).filter(|_| shape.dots > 0) else {
+/// body. If they are all that the letter has, what more lies on their side is dust, and so is what is as compact as a
+/// dot and no larger anywhere else.
+fn surplus(c: &Component, shape: &Shape, dots: &Dots<'_>, usual: Option<f64>) -> bool {
+    let Some(usual) = usual else {
+        return shape.dots == 1 && dots.pieces.iter().any(|o| rather(o, c, dots.body));
+    };
+    let Some((best, area)) = &dots.best else {
         return false;
     };
-    let Some(usual) = usual else {
-        return shape.dots == 1 && dots.iter().any(|o| rather(o, c, body));
-    };
     let whole = usual * shape.dots as f64;
-    let own: Vec<Component> = dots.into_iter().cloned().collect();
-    let indices: Vec<usize> = (0..own.len()).collect();
-    let area = |g: &[usize]| g.iter().map(|&i| own[i].area).sum::<usize>() as f64;
-    let cost = |g: &[usize]| {
-        let near = g.iter().map(|&i| gap(own[i].upright, body));
-        let off = near.fold(f64::INFINITY, f64::min) / body.height().max(1.0);
-        (area(g) / whole).ln().abs() + off
-    };
-    let groups = indices.iter().map(|&i| match shape.dots {
-        1 => vec![i],
-        _ => group(&own, i, indices.iter()),
-    });
-    let best = groups.min_by(|a, b| cost(a).total_cmp(&cost(b)));
     // fewer pieces than dots are all of them only where some touch
-    let least = |g: &[usize]| match g.len() < shape.dots {
+    let least = match best.len() < shape.dots {
         true => whole - (1.0 - WHOLE) * usual,
         false => WHOLE * whole,
     };
-    best.filter(|best| is_dot(c) && area(best) > least(best))
-        .is_some_and(|best| {
-            let is_own = |i: &usize| own[*i].bounds == c.bounds;
-            let most = if indices.iter().any(is_own) {
-                EXTRA * area(&best)
-            } else {
-                usual / LARGER[1].0
-            };
-            !best.iter().any(is_own) && (c.area as f64) < most
-        })
+    let is_own = |o: &Component| o.bounds == c.bounds;
+    let most = if dots.pieces.iter().any(|o| is_own(o)) {
+        EXTRA * area
+    } else {
+        usual / LARGER[1].0
+    };
+    is_dot(c)
+        && *area > least
+        && !best.iter().any(|&i| is_own(dots.pieces[i]))
+        && (c.area as f64) < most
 }
 
 /// Whether a piece is rather the one dot of its letter than another: larger, or about as large and nearer to the
@@ -506,11 +565,9 @@ fn share_out(layer: &mut Layer, all: &mut Vec<Component>, small: &[Component]) {
     let bodies = bodies.map(|body| body.map(|i| all[i].upright));
     let bodies: Vec<Option<Rect>> = bodies.collect();
     let mut wanted: Vec<Vec<Component>> = vec![Vec::new(); layer.slots.len()];
-    let mut left: Vec<usize> = (0..small.len()).collect();
-    while let Some(&first) = left.first() {
-        // the dots of a letter go to it together
-        let dots = group(small, first, left.iter());
-        left.retain(|i| !dots.contains(i));
+    let boxes: Vec<Rect> = small.iter().map(|c| c.upright).collect();
+    // the dots of a letter go to it together
+    for dots in groups(&boxes) {
         let Some(place) = bounds(small, &dots) else {
             break;
         };

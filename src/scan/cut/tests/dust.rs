@@ -186,6 +186,32 @@ fn of_letters_in_pieces_what_is_no_smaller_than_a_piece_is_one() {
     assert_eq!(heights, [34.0, 27.0, 27.0], "a piece, dust, and none");
 }
 
+#[test]
+fn letters_of_dots_that_lie_apart_keep_them() {
+    let place = |i: usize| (80.0 + 120.0 * (i % 5) as f64, 70.0 + 100.0 * (i / 5) as f64);
+    let mut paper = Paper::new(700, 500, 0.0);
+    for (x, y) in (0..20).map(place) {
+        for (column, row) in [(0, 0), (0, 1), (0, 2), (1, 0), (2, 0), (2, 1), (2, 2)] {
+            paper.bar(
+                x + 14.0 * f64::from(column),
+                y + 14.0 * f64::from(row),
+                6.0,
+                6.0,
+            );
+        }
+    }
+    // dust, and some as large as the dots
+    paper.bar(place(7).0 + 14.0, place(7).1 + 28.0, 3.5, 3.5);
+    paper.bar(place(9).0 - 36.0, place(9).1 - 28.0, 6.0, 6.0);
+    let names = ["n"; 20].join(" ");
+    let cut = cut_page(&paper, &names, &options(Layout::Grid(4, 5))).unwrap();
+    let size = |c: &Cell| (c.in_sheet.width().round(), c.in_sheet.height().round());
+    let sizes: Vec<(f64, f64)> = cut.cells.iter().map(size).collect();
+    assert_eq!(sizes, [(34.0, 34.0); 20]);
+    let rejected = cut.rejected.len() + cut.specks;
+    assert_eq!(rejected, 2, "{:?}", cut.rejected);
+}
+
 /// Four forms of feh, each a body with a dot over it; in so many of them, a spot below.
 fn with_spots(spots: usize) -> Vec<f64> {
     let mut paper = grid_page(0.0);

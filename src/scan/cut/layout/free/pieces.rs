@@ -1,7 +1,8 @@
 //! The ink of a bare page → pieces that are surely one, and how likely each is a part of another.
 
 use crate::numeric::cast::index;
-use crate::scan::components::Component;
+use crate::numeric::sets::Sets;
+use crate::scan::components::{Component, close};
 use crate::scan::cut::bounds;
 use crate::scan::cut::gap;
 use kurbo::Rect;
@@ -247,27 +248,15 @@ fn joined(
     (reach, one): (f64, &dyn Fn(usize, usize) -> bool),
 ) -> Vec<Piece> {
     let boxes: Vec<Rect> = ink.iter().map(|&i| all[i].upright).collect();
-    let mut of: Vec<usize> = (0..ink.len()).collect();
-    for (i, j) in close(&boxes, reach) {
-        let (a, b) = (root(&of, i), root(&of, j));
-        if a != b && one(ink[i], ink[j]) {
-            of[a.max(b)] = a.min(b);
+    let mut sets = Sets::new(ink.len());
+    for (i, j) in close(&boxes, |_| reach) {
+        if sets.first(i) != sets.first(j) && one(ink[i], ink[j]) {
+            sets.join(i, j);
         }
     }
-    let mut members: Vec<Vec<usize>> = vec![Vec::new(); ink.len()];
-    for (i, &c) in ink.iter().enumerate() {
-        members[root(&of, i)].push(c);
-    }
-    let members = members.into_iter().filter(|m| !m.is_empty());
+    let members = sets.into_groups().into_iter();
+    let members = members.map(|g| g.into_iter().map(|i| ink[i]).collect::<Vec<usize>>());
     members.filter_map(|m| Piece::of(m, all, usual)).collect()
-}
-
-/// The first of the pieces that one belongs to.
-fn root(of: &[usize], mut i: usize) -> usize {
-    while of[i] != i {
-        i = of[i];
-    }
-    i
 }
 
 /// For each piece those that are not clearly less than it and of which it may be a part.
@@ -275,7 +264,11 @@ pub(super) fn ties(pieces: &[Piece], all: &[Component], usual: Usual) -> Vec<Vec
     let boxes: Vec<Rect> = pieces.iter().map(|p| p.bounds).collect();
     let mut ties: Vec<Vec<Tie>> = vec![Vec::new(); pieces.len()];
     let reach = (REACH * usual.size).max(BESIDE * usual.stroke);
-    for (i, j) in close(&boxes, reach) {
+    let mut pairs: Vec<(usize, usize)> = close(&boxes, |_| reach)
+        .map(|(i, j)| (i.min(j), i.max(j)))
+        .collect();
+    pairs.sort_unstable();
+    for (i, j) in pairs {
         for (part, to) in [(i, j), (j, i)] {
             if !pieces[to].is_smaller(&pieces[part]) {
                 let off = pieces[part].off(&pieces[to], all, usual);
@@ -284,21 +277,6 @@ pub(super) fn ties(pieces: &[Piece], all: &[Component], usual: Usual) -> Vec<Vec
         }
     }
     ties
-}
-
-/// Pairs of boxes that are less than `reach` px apart, found along the page's width.
-fn close(boxes: &[Rect], reach: f64) -> Vec<(usize, usize)> {
-    let mut order: Vec<usize> = (0..boxes.len()).collect();
-    order.sort_by(|&a, &b| boxes[a].x0.total_cmp(&boxes[b].x0));
-    let mut pairs = Vec::new();
-    for (k, &i) in order.iter().enumerate() {
-        let after = order[k + 1..].iter();
-        let within = after.take_while(|&&j| boxes[j].x0 < boxes[i].x1 + reach);
-        let near = within.filter(|&&j| gap(boxes[i], boxes[j]) < reach);
-        pairs.extend(near.map(|&j| (i.min(j), i.max(j))));
-    }
-    pairs.sort_unstable();
-    pairs
 }
 
 /// Whether two pieces are of one letter, whatever its name: one lies over the other, and less than `torn` px are

@@ -5,6 +5,7 @@
 
 use super::axis::line;
 use super::shared::Shared;
+use crate::numeric::cast::ceiling;
 use crate::scan::components::Component;
 use crate::scan::cut::largest;
 use kurbo::{Point, Rect, Vec2};
@@ -29,6 +30,7 @@ pub(super) fn find(all: &[Component], shared: &Shared, asked: &[usize]) -> BTree
     let Some(shared) = &Cells::new(all, shared, asked).filter(|_| asked.len() >= ENOUGH) else {
         return out;
     };
+    let few = asked.len() - ceiling(NEARLY_ALL * asked.len() as f64);
     for _ in 0..KINDS {
         let step = asked.len().div_ceil(SEEDS);
         let seeds = asked.iter().step_by(step);
@@ -37,15 +39,13 @@ pub(super) fn find(all: &[Component], shared: &Shared, asked: &[usize]) -> BTree
             .filter(|(_, i)| !out.contains(i))
             .filter_map(|(cell, i)| {
                 let place = shared.place(cell, all[i].upright)?;
-                let most = asked
+                let lacking = asked
                     .iter()
-                    .filter(|&&c| has(all, shared, (c, place), &out))
-                    .count();
-                Some((most, i, place))
+                    .filter(|&&c| !has(all, shared, (c, place), &out));
+                let lacking = lacking.take(few + 1).count();
+                (lacking <= few).then_some((lacking, i, place))
             });
-        let best = places.max_by(|a, b| (a.0, b.1).cmp(&(b.0, a.1)));
-        let Some((_, _, place)) = best.filter(|b| b.0 as f64 >= NEARLY_ALL * asked.len() as f64)
-        else {
+        let Some((_, _, place)) = places.min_by_key(|p| (p.0, p.1)) else {
             break;
         };
         for cell in 0..shared.ink.cells.len() {

@@ -13,7 +13,7 @@ use super::named::{Place, named};
 use super::ruling;
 use crate::scan::components::Component;
 use crate::scan::cut::largest;
-use crate::scan::cut::marks::{self, SMALL, group};
+use crate::scan::cut::marks::{self, SMALL, groups};
 use crate::scan::cut::sieve::LATTICE_COVER;
 use crate::scan::cut::{Layer, Levels, Reason, gap};
 use crate::scan::error::Fault;
@@ -21,8 +21,9 @@ use crate::scan::letters::{Pieces, Shape};
 use crate::types::Label;
 use axis::Axis;
 use glyphs_reader::glyphdata::GlyphData;
-use kurbo::Point;
+use kurbo::{Point, Rect};
 use shared::{NEAR, Shared, neighbours, share};
+use std::slice;
 
 /// A piece longer than this many cells is no letter if it is thin or hollow.
 const LINE_LENGTH: f64 = 1.4;
@@ -131,6 +132,13 @@ fn settle_small_parts(all: &[Component], cells: &mut [Vec<usize>], x: &Axis, y: 
     let bodies: Vec<Option<usize>> = cells.iter().map(|c| largest(all, c)).collect();
     let mut moves = Vec::new();
     for (from, parts) in cells.iter().enumerate() {
+        let others = parts.iter().copied().filter(|&p| bodies[from] != Some(p));
+        let others: Vec<usize> = others.collect();
+        let boxes: Vec<Rect> = others.iter().map(|&i| all[i].upright).collect();
+        let groups = groups(&boxes).into_iter();
+        let groups: Vec<Vec<usize>> = groups
+            .map(|g| g.into_iter().map(|i| others[i]).collect())
+            .collect();
         for &part in parts {
             let c = &all[part];
             let main = bodies[from].map_or(0, |b| all[b].area);
@@ -139,12 +147,8 @@ fn settle_small_parts(all: &[Component], cells: &mut [Vec<usize>], x: &Axis, y: 
             if !alone && c.area as f64 > SMALL * main as f64 {
                 continue;
             }
-            let others = parts.iter().filter(|&&p| bodies[from] != Some(p));
-            let group = if alone {
-                vec![part]
-            } else {
-                group(all, part, others)
-            };
+            let group = groups.iter().find(|g| g.contains(&part));
+            let group = group.map_or(slice::from_ref(&part), Vec::as_slice);
             let is_near = |at: Point| y.clearance(at.y) < NEAR || x.clearance(at.x) < NEAR;
             if !group.iter().any(|&i| is_near(all[i].centre)) {
                 continue;
