@@ -12,6 +12,7 @@ use crate::numeric::cast::single;
 use crate::numeric::median::{self, quantile};
 use crate::numeric::tone::at_half;
 use crate::types::Gray;
+use kurbo::Vec2;
 use serde::{Deserialize, Serialize};
 
 /// What becomes of ink that is grain, as of a pencil or a dry brush.
@@ -37,6 +38,9 @@ const MOST: f64 = 0.5;
 /// How far slopes within strokes may go one way, of 1 for all of them: grain has 0.22 to 0.44, hatching and the edges
 /// of thin or pale lines 0.46 and more.
 const ONE_WAY: f64 = 0.45;
+/// How far slopes within strokes may go the way of the average's, of 1 for all of them: those of grain do by 0.07 to
+/// 0.26 on pages of pencil, a real one's by 0.71, those of fine dots by 0.98, being their edges.
+const ALONG: f64 = 0.9;
 /// Slopes are compared within so many pixels to each side: more than a grain.
 const AROUND: usize = 4;
 /// What lies within strokes is told by an average over this part of their width, a Gaussian's standard deviation,
@@ -95,7 +99,7 @@ fn averaged(gray: &Gray, counts: impl Fn(usize, usize) -> bool) -> Option<(Gray,
     }
     let strokes = Strokes::measure(gray, &counts)?;
     let unsure = CERTAIN * noise(gray, &counts) > SURE * strokes.level;
-    if unsure || strokes.rough < MOST || strokes.one_way > ONE_WAY {
+    if unsure || strokes.rough < MOST || strokes.one_way > ONE_WAY || strokes.along > ALONG {
         return None;
     }
     let px = strokes.averaged_px();
@@ -133,6 +137,8 @@ struct Strokes {
     rough: f64,
     /// How far its slopes go one way, of 1 for all of them.
     one_way: f64,
+    /// How far they go the way of the average's.
+    along: f64,
     /// Standard deviation of its darkness, parts of the level.
     deviation: f64,
     /// How well the darkness of a pixel tells that of the next.
@@ -183,6 +189,7 @@ impl Strokes {
             width_px,
             rough: rough.count() as f64 / count,
             one_way: one_way(gray, &soft, least, &places),
+            along: along(gray, &soft, &places),
             deviation: square.sqrt() / level,
             alike: next / square,
         })
@@ -236,6 +243,20 @@ fn one_way(gray: &Gray, soft: &Gray, least: f32, places: &[(usize, usize)]) -> f
         all += f64::from(xx + yy);
     }
     one / all.max(f64::MIN_POSITIVE)
+}
+
+/// How far the slopes at places go the way of those of the average there: 1 where all do, 0 where they go any way.
+fn along(gray: &Gray, soft: &Gray, places: &[(usize, usize)]) -> f64 {
+    let (mut same, mut all) = (0.0, 0.0);
+    for &(x, y) in places {
+        let [a, b] = [gray, soft].map(|p| {
+            let across = p.at(x + 1, y) - p.at(x - 1, y);
+            Vec2::new(across.into(), (p.at(x, y + 1) - p.at(x, y - 1)).into())
+        });
+        same += a.dot(b);
+        all += a.hypot() * b.hypot();
+    }
+    same / all.max(f64::MIN_POSITIVE)
 }
 
 /// The picture, whose ink is grain of this level on average, averaged over so many px: 1 within strokes, a half where
@@ -383,6 +404,20 @@ mod tests {
         let paper = (0..W * H).map(|i| (i % W, i / W));
         let mut paper = paper.filter(|&(x, y)| off(x, y) > 8);
         assert!(paper.all(|(x, y)| even.at(x, y) < 0.5));
+    }
+
+    #[test]
+    fn fine_dots_stay() {
+        let mut noise = noise();
+        let mut samples: Vec<f32> = (0..W * H).map(|_| 0.1 * (noise() - 0.5)).collect();
+        for (i, v) in samples.iter_mut().enumerate() {
+            let (x, y) = (i % W % 20, i / W % 20);
+            *v += f32::from(u8::from(x.max(y) < 8));
+        }
+        blur(&mut samples, W, 1.2, 0);
+        let dots = Gray::new(W, H, samples).unwrap();
+        assert!(is_rough(&dots, |_, _| true), "as rough as grain");
+        assert!(averaged(&dots, |_, _| true).is_none());
     }
 
     #[test]
