@@ -1,6 +1,7 @@
 //! Signs that lie in no letter's cell, or in another's, go to letters that have none.
 
-use super::{EXTRA, REACH, dots, is_dot, usual_dot};
+use super::dots::{EXTRA, dots, usual_dot};
+use super::{REACH, is_dot};
 use crate::scan::components::Component;
 use crate::scan::cut::{Layer, Reason, Slot, gap, largest};
 use crate::scan::letters::{Pieces, Shape};

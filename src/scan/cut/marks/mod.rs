@@ -5,20 +5,23 @@
 //! piece beside it, and those like it, unless it has larger ones already; and one that is drawn in one piece has none
 //! of them, but a thin end that is parted from its stroke. How large a dot is, the page's letters of one dot say.
 
+mod dots;
 mod lost;
+mod pieces;
 mod small;
 
 pub(super) use lost::{reclaim, restore};
+pub(super) use pieces::in_pieces;
 pub(super) use small::{SMALL, groups};
 
 use super::{Layer, Reason, Slot, bounds, gap, largest};
-use crate::numeric::cast::index;
 use crate::numeric::median::median;
 use crate::scan::components::Component;
 use crate::scan::letters::{Kind, Pieces, Shape};
-use crate::types::Label;
+use dots::{Dots, opposite, surplus, usual_dot};
 use glyphs_reader::glyphdata::GlyphData;
 use kurbo::{Rect, Vec2};
+use pieces::{is_scattered, one_of_many, strayed};
 use std::collections::BTreeMap;
 use std::ptr;
 
@@ -36,10 +39,6 @@ const COMPACT: (f64, f64) = (2.0, 0.4);
 const ROUND: f64 = 1.5;
 /// Letters that say how large dots are on a page, or whether letters are drawn in pieces, at least.
 const ENOUGH: usize = 3;
-/// Dots are all that a letter has from this share of their usual area on: some are drawn smaller, or as one stroke.
-const WHOLE: f64 = 0.6;
-/// What is more times as large as all dots of its letter is no dust beside them.
-const EXTRA: f64 = 2.5;
 /// Letters of one piece that have specks by dust alone, of all of them at most.
 const FEW: f64 = 0.25;
 /// What is torn off a letter that has dots, or a sign within it, lies nearer than this share of its length.
@@ -56,9 +55,6 @@ const BLOT: f64 = 1.3;
 /// What all letters of one body have beside it is drawn where its area differs by this factor at most: dust is not
 /// the same everywhere.
 const SAME: f64 = 2.0;
-/// Of a letter of many dots, which a pen draws in one piece, what lies so many times as far from the next dot as is
-/// usual is none: dots on a slope are 1.4 times as far apart as those along a line.
-const STRAYED: f64 = 3.0;
 /// Areas of grains of one page's dust differ by this factor at most.
 const GRAINS: f64 = 4.0;
 /// What another letter of the same body and form has beside it lies at the same place from the body's middle up to
@@ -190,19 +186,6 @@ fn beside_letter(slot: &Slot, all: &[Component], names: &GlyphData, usual: &Usua
     found
 }
 
-/// Of a letter of many pieces those that are far from all others.
-fn strayed(parts: &[usize], all: &[Component]) -> Vec<usize> {
-    let to_next = parts.iter().filter_map(|&i| {
-        let others = parts.iter().filter(|&&j| j != i);
-        let off = others.map(|&j| (all[i].centre - all[j].centre).hypot());
-        Some((i, off.min_by(f64::total_cmp)?))
-    });
-    let to_next: Vec<(usize, f64)> = to_next.collect();
-    let usual = median(to_next.iter().map(|n| n.1)).unwrap_or(0.0);
-    let far = to_next.into_iter().filter(|n| n.1 > STRAYED * usual);
-    far.map(|n| n.0).collect()
-}
-
 /// What is no dust, since all letters of one body and its forms have about as much of it.
 fn drawn_alike(
     slots: &[Slot],
@@ -262,37 +245,6 @@ fn drawn_again(
     again.collect()
 }
 
-/// Whether most letters that a pen draws in one piece are drawn in several that lie close together, like a stencil's
-/// or a clock's, or in many alike: then only what lies apart is dust, or is less than those.
-pub(super) fn in_pieces<'a>(
-    letters: impl Iterator<Item = (&'a Label, &'a [usize])>,
-    all: &[Component],
-    names: &GlyphData,
-) -> bool {
-    let asked = letters.filter(|l| Shape::of(l.0, names).pieces == Pieces::One);
-    let parted = asked.filter_map(|(_, parts)| {
-        let body = largest(all, parts)?;
-        let mut others = parts.iter().filter(|&&i| i != body);
-        let close = others.any(|&i| is_close(&all[i], &all[body]));
-        Some(close || is_scattered(body, parts, all))
-    });
-    let parted: Vec<bool> = parted.collect();
-    let most = parted.iter().filter(|p| **p).count();
-    parted.len() >= ENOUGH && 2 * most > parted.len()
-}
-
-/// Whether pieces about as large as a letter's largest one have more ink than it: it is no body, but one of many.
-fn is_scattered(body: usize, parts: &[usize], all: &[Component]) -> bool {
-    let others = parts.iter().filter(|&&i| i != body).map(|&i| all[i].area);
-    let alike = others.filter(|&area| area >= one_of_many(&all[body]));
-    alike.sum::<usize>() > all[body].area
-}
-
-/// The area of pieces that are about as large as a letter's largest one at least, px².
-fn one_of_many(largest: &Component) -> usize {
-    index(largest.area as f64 / SAME)
-}
-
 /// Whether many letters of one piece have specks unlike the page's dust: then the style has them, or these are other
 /// letters than their names say.
 fn with_specks(layer: &Layer, (all, stray): (&[Component], &Stray), names: &GlyphData) -> bool {
@@ -317,20 +269,6 @@ fn usual_side(layer: &Layer, all: &[Component]) -> f64 {
 /// Its longer side, px.
 fn side(c: &Component) -> f64 {
     c.upright.size().max_side()
-}
-
-/// The usual area of a dot, px²: the median of those letters of one dot that have one piece where it may be.
-fn usual_dot(layer: &Layer, all: &[Component], names: &GlyphData) -> Option<f64> {
-    let areas = layer.slots.iter().filter_map(|slot| {
-        let shape = Shape::of(&slot.label, names);
-        let (_, dots) = dots(&shape, &slot.parts, all).filter(|_| shape.dots == 1)?;
-        let [dot] = dots.as_slice() else {
-            return None;
-        };
-        Some(dot.area as f64)
-    });
-    let areas: Vec<f64> = areas.collect();
-    median(areas.iter().copied()).filter(|_| areas.len() >= ENOUGH)
 }
 
 /// Whether a piece is a thin end of a stroke that is parted from it: a dot or dust is no stroke.
@@ -405,118 +343,6 @@ fn astray(c: &Component, parts: &[usize], all: &[Component]) -> bool {
             beside || far > widths * REACH * rest.height()
         })
     })
-}
-
-/// Pieces that lie where a letter has its dots.
-struct Dots<'a> {
-    /// The box of the letter's body.
-    body: Rect,
-    pieces: Vec<&'a Component>,
-    /// Indices of those that are most like its dots, of the page's usual area and near to the body, and their area, px²;
-    /// dots that lie close together go together. None where the page does not tell the usual area.
-    best: Option<(Vec<usize>, f64)>,
-}
-
-impl<'a> Dots<'a> {
-    fn of(
-        shape: &Shape,
-        (parts, all): (&[usize], &'a [Component]),
-        usual: Option<f64>,
-    ) -> Option<Self> {
-        let (body, pieces) = dots(shape, parts, all).filter(|_| shape.dots > 0)?;
-        let boxes: Vec<Rect> = pieces.iter().map(|c| c.upright).collect();
-        let area = |g: &[usize]| g.iter().map(|&i| pieces[i].area).sum::<usize>() as f64;
-        let cost = |g: &[usize], usual: f64| {
-            let near = g.iter().map(|&i| gap(boxes[i], body));
-            let off = near.fold(f64::INFINITY, f64::min) / body.height().max(1.0);
-            (area(g) / (usual * shape.dots as f64)).ln().abs() + off
-        };
-        let best = usual.and_then(|usual| {
-            let groups = match shape.dots {
-                1 => (0..boxes.len()).map(|i| vec![i]).collect(),
-                _ => groups(&boxes),
-            };
-            let costs = groups.into_iter().map(|g| (cost(&g, usual), g));
-            let (_, best) = costs.min_by(|a, b| a.0.total_cmp(&b.0))?;
-            let area = area(&best);
-            Some((best, area))
-        });
-        Some(Self { body, pieces, best })
-    }
-}
-
-/// Whether other pieces are rather the dots of its letter: nearer to as large as the page's dots are, and to the
-/// body. If they are all that the letter has, what more lies on their side is dust, and so is what is as compact as a
-/// dot and no larger anywhere else.
-fn surplus(c: &Component, shape: &Shape, dots: &Dots<'_>, usual: Option<f64>) -> bool {
-    let Some(usual) = usual else {
-        return shape.dots == 1 && dots.pieces.iter().any(|o| rather(o, c, dots.body));
-    };
-    let Some((best, area)) = &dots.best else {
-        return false;
-    };
-    let whole = usual * shape.dots as f64;
-    // fewer pieces than dots are all of them only where some touch
-    let least = match best.len() < shape.dots {
-        true => whole - (1.0 - WHOLE) * usual,
-        false => WHOLE * whole,
-    };
-    let is_own = |o: &Component| o.bounds == c.bounds;
-    let most = if dots.pieces.iter().any(|o| is_own(o)) {
-        EXTRA * area
-    } else {
-        usual / LARGER[1].0
-    };
-    is_dot(c)
-        && *area > least
-        && !best.iter().any(|&i| is_own(dots.pieces[i]))
-        && (c.area as f64) < most
-}
-
-/// Whether a piece is rather the one dot of its letter than another: larger, or about as large and nearer to the
-/// body.
-fn rather(one: &Component, other: &Component, body: Rect) -> bool {
-    let off = |o: &Component| gap(o.upright, body);
-    let times = one.area as f64 / other.area as f64;
-    times >= LARGER[0].0 || (times >= LARGER[1].0 && off(one) < off(other))
-}
-
-/// Whether a small piece lies apart under a letter that has its dots above it, or over one that has them below.
-fn opposite(c: &Component, shape: &Shape, parts: &[usize], all: &[Component]) -> bool {
-    let most = parts.iter().map(|&i| all[i].area).max().unwrap_or(0);
-    dots(shape, parts, all).is_some_and(|(body, dots)| {
-        let beyond = if shape.pieces == Pieces::DotAbove {
-            c.upright.y0 >= body.y1
-        } else {
-            c.upright.y1 <= body.y0
-        };
-        beyond
-            && !dots.is_empty()
-            && (c.area as f64) < SMALL * most as f64
-            && apart(c, parts, all, NEAR)
-    })
-}
-
-/// The box of a letter's body, and the pieces that lie on the side on which its name says that it has dots.
-fn dots<'a>(
-    shape: &Shape,
-    parts: &[usize],
-    all: &'a [Component],
-) -> Option<(Rect, Vec<&'a Component>)> {
-    let side = match shape.pieces {
-        Pieces::DotAbove => -1.0,
-        Pieces::DotBelow => 1.0,
-        _ => return None,
-    };
-    let main = largest(all, parts)?;
-    let body = all[main].upright;
-    let rest = parts.iter().filter(|&&i| i != main).map(|&i| &all[i]);
-    // dots that touch are one long piece, and pieces of the body lie beside it
-    let long = if shape.dots > 1 { 2.0 } else { 1.0 };
-    let is_there = |o: &&Component| {
-        is_compact(o, long * COMPACT.0) && side * (o.centre.y - body.center().y) > 0.0
-    };
-    Some((body, rest.filter(is_there).collect()))
 }
 
 /// Whether a piece is as compact as a dot is, and no stroke or ring.
