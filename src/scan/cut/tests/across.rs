@@ -109,3 +109,36 @@ fn letters_that_pale_ink_alone_joins_are_cut_there() {
     assert!((left.1 - 147.0).abs() < 1.5, "{left:?}");
     assert!((right.0 - 148.0).abs() < 1.5, "{right:?}");
 }
+
+/// The hook at the right end of the seventh letter lies beneath a block of the eighth; another form of the same letter
+/// shows it.
+#[test]
+fn letters_drawn_alike_show_how_hidden_edges_go_on() {
+    let mut paper = grid_page(0.0);
+    let is_drawn = |b: &Rect| {
+        let (column, row) = ((b.x0 - 90.0) / 120.0, (b.y1 - 120.0) / 100.0);
+        ![(1.0, 1.0), (2.0, 1.0), (1.0, 2.0)].contains(&(column.floor(), row.ceil()))
+    };
+    paper.bars.retain(|(b, _)| is_drawn(b));
+    for (x, y) in [(190.0, 220.0), (175.0, 320.0)] {
+        paper.bar(x, y - 30.0, 6.0, 30.0);
+        paper.bar(x + 50.0, y - 30.0, 6.0, 30.0);
+        paper.bar(x, y - 6.0, 84.0, 6.0);
+        // the hook
+        paper.bar(x + 78.0, y - 24.0, 6.0, 24.0);
+    }
+    paper.bar(256.0, 180.0, 24.0, 50.0);
+    paper.bar(274.0, 224.0, 150.0, 6.0);
+    let mut names: Vec<&str> = NAMES.split(' ').collect();
+    (names[6], names[11]) = ("uni0635", "uni0635.init");
+    let cut = cut_page(&paper, &names.join(" "), &options(Layout::Grid(4, 5))).unwrap();
+    let [hidden, free] = [6, 11].map(|i| ends(&cut, i));
+    assert!((free.1 - 259.0).abs() < 1.0, "{free:?}");
+    assert!((hidden.1 - 274.0).abs() < 1.5, "{hidden:?}");
+    let cell = &cut.cells[6];
+    let within = cell.to_sheet.inverse() * Point::new(271.0, 200.0);
+    assert!(
+        cell.gray.at(index(within.x), index(within.y)) > 0.7,
+        "the hook"
+    );
+}

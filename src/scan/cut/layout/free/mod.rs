@@ -136,7 +136,7 @@ fn read(
     let mut other = all.clone();
     let cut = across
         .iter()
-        .flat_map(|t| t.part(&mut other, (task.gray(), &task.upright)));
+        .flat_map(|t| t.part(&mut other, (task.gray(), &task.upright)).pieces);
     let cut: Vec<usize> = cut.collect();
     let whole = read_beside(all, Vec::new(), names, task);
     match (whole, read_beside(&mut other, cut, names, task)) {
@@ -164,7 +164,7 @@ fn read_beside(
         };
         let before = parted.len();
         for touch in &unread.touching {
-            parted.extend(touch.part(all, (task.gray(), &task.upright)));
+            parted.extend(touch.part(all, (task.gray(), &task.upright)).pieces);
         }
         if parted.len() == before {
             return Err(unread);

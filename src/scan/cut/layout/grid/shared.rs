@@ -21,6 +21,7 @@ const WHOLE: f64 = 2.0;
 const NAMELESS: usize = 2;
 
 /// Ink shared out to equal cells.
+#[derive(Clone)]
 pub(super) struct Shared {
     pub(super) x: Axis,
     pub(super) y: Axis,

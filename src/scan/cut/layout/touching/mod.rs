@@ -8,6 +8,7 @@ mod seam;
 #[cfg(test)]
 mod tests;
 
+pub(super) use overlap::{Example, Side};
 pub(super) use seam::Along;
 
 use crate::numeric::view::View;
@@ -40,6 +41,8 @@ pub(super) struct End {
     /// Upright px.
     pub(super) stretch: Range<f64>,
     pub(super) meeting: Meeting,
+    /// Letters drawn alike as the one before it and the one after it, where they lie free.
+    pub(super) examples: [Vec<Example>; 2],
 }
 
 impl End {
@@ -48,6 +51,7 @@ impl End {
         Self {
             stretch: place - reach..place + reach,
             meeting: Meeting::Any,
+            examples: [Vec::new(), Vec::new()],
         }
     }
 }
@@ -101,15 +105,12 @@ impl Touch {
     /// Cuts the ink of `page` in `all`, where new pieces go to the end, and says which pieces were cut from others.
     ///
     /// The surest border comes first: where it is tells how far the letters beside it reach, and so of the next ones.
-    pub(super) fn part(
-        &self,
-        all: &mut Vec<Component>,
-        (page, upright): (&Gray, &View),
-    ) -> Vec<usize> {
+    pub(super) fn part(&self, all: &mut Vec<Component>, (page, upright): (&Gray, &View)) -> Parted {
         let ink: Vec<Component> = self.ink.iter().map(|&i| all[i].clone()).collect();
         let mut pieces: Vec<Vec<Component>> = ink.iter().map(|c| vec![c.clone()]).collect();
         let mut left: Vec<usize> = (0..self.ends.len()).collect();
         let mut costs: Vec<Option<f64>> = vec![None; left.len()];
+        let mut paid = vec![f64::INFINITY; left.len()];
         while !left.is_empty() {
             // the last one needs no price
             let priced = if left.len() > 1 { &left[..] } else { &[] };
@@ -131,13 +132,17 @@ impl Touch {
                 seam.get_or_init(|| Seam::within(border.stretch, (self.along, &ink), upright))
                     .as_ref()
             };
-            let cut = |piece: &Component| {
-                let told = border.parting(piece, page).map(|p| p.pieces);
-                let cut = || seam().map(|s| piece.parted(|x, y| s.is_before(x, y)));
-                told.or_else(cut).unwrap_or_else(|| vec![piece.clone()])
+            let paid = &mut paid[k];
+            let mut cut = |piece: &Component| {
+                if let Some(told) = border.parting(piece, page) {
+                    *paid = paid.min(told.cost);
+                    return told.pieces;
+                }
+                let cut = seam().map(|s| piece.parted(|x, y| s.is_before(x, y)));
+                cut.unwrap_or_else(|| vec![piece.clone()])
             };
             for of in &mut pieces {
-                *of = of.iter().flat_map(cut).collect();
+                *of = of.iter().flat_map(&mut cut).collect();
             }
             left.retain(|&other| other != k);
             // more is known of those beside it
@@ -145,17 +150,25 @@ impl Touch {
                 costs[*beside] = None;
             }
         }
-        self.put(pieces, all, upright)
+        Parted {
+            pieces: self.put(pieces, all, upright),
+            costs: paid,
+        }
     }
 
     /// The border number `k`, where those that are `left` are not cut yet.
     fn border<'a>(&'a self, k: usize, left: &[usize], upright: &'a View) -> Border<'a> {
         let is_left = |k: Option<usize>| k.is_some_and(|k| left.contains(&k));
-        let End { stretch, meeting } = &self.ends[k];
+        let End {
+            stretch,
+            meeting,
+            examples,
+        } = &self.ends[k];
         Border {
             along: self.along,
             stretch,
             meeting: *meeting,
+            examples: examples.each_ref().map(Vec::as_slice),
             upright,
             cells: self.cells,
             is_single: [!is_left(k.checked_sub(1)), !is_left(Some(k + 1))],
@@ -184,12 +197,22 @@ impl Touch {
     }
 }
 
+/// What became of ink that is of several letters.
+pub(super) struct Parted {
+    /// Indices of the components that were cut from others.
+    pub(super) pieces: Vec<usize>,
+    /// How unlikely the cut at each end is; infinite where neither pixels nor edges tell of one.
+    pub(super) costs: Vec<f64>,
+}
+
 /// Where one letter ends and the next one begins.
 struct Border<'a> {
     along: Along,
     /// Upright px.
     stretch: &'a Range<f64>,
     meeting: Meeting,
+    /// Letters drawn alike as the one before it and the one after it, where they lie free.
+    examples: [&'a [Example]; 2],
     upright: &'a View,
     /// How far apart the middles of the cells are, px, where letters stand in the middle of theirs.
     cells: Option<f64>,

@@ -121,6 +121,7 @@ mod tests {
             along: Along::Row,
             stretch: &(40.0..80.0),
             meeting: Meeting::Any,
+            examples: [&[], &[]],
             upright: &View::from(Affine::IDENTITY),
             cells: None,
             is_single: [true; 2],

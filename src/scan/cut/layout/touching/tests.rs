@@ -29,9 +29,11 @@ fn the_surest_border_tells_where_the_next_letter_ends() {
     let end = |place: f64, meeting| End {
         stretch: place - 15.0..place + 15.0,
         meeting,
+        examples: [Vec::new(), Vec::new()],
     };
     let ends = vec![end(70.5, Meeting::Strokes), end(121.5, Meeting::Any)];
-    let parted = Touch::at(ends, (Along::Row, vec![0]), 51.0).part(&mut all, (&gray, &upright));
+    let touch = Touch::at(ends, (Along::Row, vec![0]), 51.0);
+    let parted = touch.part(&mut all, (&gray, &upright)).pieces;
     assert_eq!(parted.len(), 3, "{parted:?}");
     let mut found: Vec<[f64; 2]> = all
         .iter()

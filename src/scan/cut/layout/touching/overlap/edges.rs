@@ -1,18 +1,16 @@
 //! A picture of ink → the rings around it, and their corners inwards near a border.
 
 use super::across::Across;
+use super::example::{Example, Ground, Placed};
 use super::joint::{Place, joint};
 use super::parabola::Parabola;
 use super::shape::{filled, pixel};
-use super::{Field, LEVEL};
+use super::{Field, SPACING};
 use crate::numeric::cast::index;
-use crate::numeric::iso;
 use crate::numeric::pieces::around;
 use crate::scan::cut::layout::touching::{Border, Meeting};
 use kurbo::{Point, Vec2};
 
-/// Points of a ring are so many px apart.
-const SPACING: f64 = 1.0;
 /// So much of an edge beside a corner is not looked at, in strokes and px: lens and pen round it.
 const ROUND: f64 = 0.15;
 const ROUNDS: (f64, f64) = (1.5, 4.0);
@@ -33,8 +31,6 @@ const LONGEST: f64 = 3.0;
 /// So many corners are looked at, the sharpest, and so many places where their sides come out.
 const CORNERS: usize = 20;
 const EXITS: usize = 16;
-/// A hole of less than a square of so many strokes is the paper's grain.
-const GRAIN: f64 = 0.25;
 
 /// The rings around some ink, on their left, px, y up, and their corners inwards.
 pub(super) struct Edges {
@@ -47,12 +43,16 @@ pub(super) struct Edges {
     sides: Vec<Vec<f64>>,
     pub(super) across: Across,
     /// Half of the border's stretch, px.
-    half: f64,
+    pub(super) half: f64,
     /// How much of a ring a corner takes on either side, points.
     round: usize,
     /// Which pixels lie within the rings, row by row from above, and how many there are.
     inside: Vec<bool>,
-    size: (usize, usize),
+    pub(super) size: (usize, usize),
+    /// Letters drawn alike as the one before the border and the one after it, where they lie free.
+    pub(super) examples: [Option<Placed>; 2],
+    /// Whether each point of each ring lies along their edges, where these are known.
+    told: Vec<Vec<[Option<bool>; 2]>>,
 }
 
 /// A corner inwards, a side of strokes that lie in line, or a place where the side of one comes out of the ink.
@@ -85,10 +85,7 @@ impl Edges {
         side: impl Fn(Point) -> f64,
     ) -> Option<Self> {
         let size = (field.width, field.height);
-        let grain = (GRAIN * stroke).powi(2);
-        let rings = iso::rings(size, |x, y| field.at(x, y), LEVEL).into_iter();
-        let rings = rings.filter(|r| area(r).abs() >= grain);
-        let rings: Vec<Vec<Point>> = rings.map(|r| iso::even(&r, SPACING)).collect();
+        let rings = field.rings(stroke);
         let across = Across::of(side);
         let sides = rings.iter().map(|r| r.iter().map(|&p| across.at(p)));
         let mut new = Self {
@@ -100,6 +97,8 @@ impl Edges {
             round: index((ROUND * stroke).clamp(ROUNDS.0, ROUNDS.1) / SPACING + 0.5),
             inside: filled(&rings, size),
             size,
+            told: rings.iter().map(|r| vec![[None; 2]; r.len()]).collect(),
+            examples: [None, None],
             rings,
         };
         let mut corners: Vec<Corner> = (0..new.rings.len()).flat_map(|r| new.inward(r)).collect();
@@ -111,6 +110,7 @@ impl Edges {
             let sides = joint(&new.rings, stroke, &new.across, border.middles());
             sides.into_iter().flatten().for_each(|p| new.join(p));
         }
+        new.follow(field, border.examples);
         let exits = new.exits();
         new.corners.extend(exits);
         new.corners.sort_by_key(|c| (c.ring, c.at));
@@ -169,18 +169,77 @@ impl Edges {
             let (on, back) = (self.finish(before[k]), self.begin(k));
             for (from, way) in [(on.at, on.way), (back.at, -back.way)] {
                 let exit = self.leaves(from, way).and_then(|p| self.nearest(p));
-                let is_new = |c: &Corner| {
-                    let near = |o: &Corner| {
-                        let d = o.at.abs_diff(c.at);
-                        let n = self.rings[c.ring].len();
-                        o.ring == c.ring && d.min(n - d) <= self.apart()
-                    };
-                    !self.corners.iter().chain(&out).any(near)
-                };
-                out.extend(exit.filter(is_new).filter(|_| out.len() < EXITS));
+                let exit = exit.filter(|c| self.is_apart(c, &out));
+                out.extend(exit.filter(|_| out.len() < EXITS));
             }
         }
         out
+    }
+
+    /// Lays letters drawn alike as the one before the border and the one after it onto the ink: where their edges go
+    /// beneath it there is a corner.
+    fn follow(&mut self, field: &Field, examples: [&[Example]; 2]) {
+        if examples.iter().all(|e| e.is_empty()) {
+            return;
+        }
+        let ground = Ground::of(self);
+        let placed = examples.map(|e| ground.place(field, e));
+        for (owner, placed) in placed.iter().enumerate() {
+            let Some(placed) = placed else { continue };
+            self.compare(owner, placed);
+            for (ring, at) in placed.gone(self.apart()) {
+                let corner = Corner {
+                    ring,
+                    at,
+                    sharp: 0.0,
+                    is_joint: false,
+                };
+                if self.is_apart(&corner, &[]) {
+                    self.corners.push(corner);
+                }
+            }
+        }
+        self.corners.sort_by_key(|c| (c.ring, c.at));
+        self.examples = placed;
+    }
+
+    /// Tells which points lie along the example of one letter, and which do not though they lie beside it, from where
+    /// it begins on towards the border.
+    fn compare(&mut self, owner: usize, placed: &Placed) {
+        let toward = [1.0, -1.0][owner];
+        let behind = |p: &Point| toward * self.across.at(*p);
+        let from = placed.points().map(behind).fold(f64::INFINITY, f64::min);
+        for (told, ring) in self.told.iter_mut().zip(&self.rings) {
+            for (told, p) in told.iter_mut().zip(ring) {
+                told[owner] = (behind(p) >= from).then_some(false);
+            }
+        }
+        for (ring, at) in placed.seen() {
+            self.told[ring][at][owner] = Some(true);
+        }
+    }
+
+    /// Whether a corner is none of those that are known or of some others.
+    fn is_apart(&self, corner: &Corner, others: &[Corner]) -> bool {
+        let is_near = |o: &Corner| {
+            let d = o.at.abs_diff(corner.at);
+            let n = self.rings[corner.ring].len();
+            o.ring == corner.ring && d.min(n - d) <= self.apart()
+        };
+        !self.corners.iter().chain(others).any(is_near)
+    }
+
+    /// By how many strokes more of the stretch after a corner is not the first letter's, by the examples, than is not
+    /// the second's, and the other way round.
+    pub(super) fn told(&self, corner: usize) -> [f64; 2] {
+        let told = &self.told[self.corners[corner].ring];
+        let points = || self.stretch(corner).map(|i| told[i]);
+        let is_other = |t: &[Option<bool>; 2], k: usize| {
+            t[k] == Some(false) || t[k].is_none() && t[1 - k] == Some(true)
+        };
+        let other = |k: usize| points().filter(|t| is_other(t, k)).count() as f64;
+        let [first, second] = [0, 1].map(|k| other(k) * SPACING / self.stroke);
+        [(first - second).max(0.0), (second - first).max(0.0)]
     }
 
     /// Marks a place, or the corner that is there, as a side of strokes that lie in line.
@@ -354,11 +413,4 @@ impl Lie {
 /// The angle from one way to another, to the left, radians.
 pub(super) fn angle(a: Vec2, b: Vec2) -> f64 {
     a.cross(b).atan2(a.dot(b))
-}
-
-/// The area within a ring, of a hole below 0, px².
-fn area(ring: &[Point]) -> f64 {
-    let next = ring.iter().cycle().skip(1);
-    let cross = |(a, b): (&Point, &Point)| a.to_vec2().cross(b.to_vec2());
-    ring.iter().zip(next).map(cross).sum::<f64>() / 2.0
 }

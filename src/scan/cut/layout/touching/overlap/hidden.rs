@@ -60,6 +60,7 @@ impl Hidden {
         from: End,
         to: End,
         (stroke, along): (f64, Option<Vec2>),
+        example: Option<Vec<Point>>,
         is_ink: impl Fn(Point) -> bool,
     ) -> Option<Self> {
         let chord = (to.at - from.at).hypot();
@@ -76,7 +77,8 @@ impl Hidden {
         let ways = ways.into_iter().flatten().map(|way| whole(way, false));
         let cut = whole((CUT, vec![from.at, to.at]), true);
         let stub = along.and_then(|along| stub(from, to, (stroke, along), &is_ink));
-        let ways = ways.chain([cut]).chain(stub);
+        let example = example.map(|path| whole((0.0, path), false));
+        let ways = ways.chain([cut]).chain(stub).chain(example);
         let is_hidden = |path: &[Point]| {
             let far = |p: &&Point| p.distance(from.at).min(p.distance(to.at)) > BLUR;
             path.iter().filter(far).all(|&p| is_ink(p))

@@ -7,6 +7,7 @@
 //! |---|---|
 //! | `across` | how far behind the border a place is |
 //! | `edges` | the ink's rings, their corners inwards and how they come to them (`parabola`) |
+//! | `example` | where an edge runs beneath ink, if a letter drawn alike lies free |
 //! | `joint` | where joining strokes of both letters lie in line, without a corner |
 //! | `hidden` | how an edge may go on from one corner to another beneath the ink, and how unlikely that is |
 //! | `owners` | whose the stretches between the corners are: of all ways to share them out the likeliest ones |
@@ -14,6 +15,7 @@
 
 mod across;
 mod edges;
+mod example;
 mod hidden;
 mod joint;
 mod owners;
@@ -22,8 +24,11 @@ mod shape;
 #[cfg(test)]
 mod tests;
 
+pub(in crate::scan::cut::layout) use example::{Example, Side};
+
 use super::{Border, LEVEL, Parting};
 use crate::numeric::cast::index;
+use crate::numeric::iso;
 use crate::numeric::pieces::around;
 use crate::scan::components::Component;
 use crate::types::Gray;
@@ -38,6 +43,11 @@ const MARGIN: usize = 2;
 const LOST: f64 = 0.2;
 /// A letter has at least so much ink, in squares of a stroke's width.
 const LEAST: f64 = 1.0;
+
+/// Points of a ring are so many px apart.
+const SPACING: f64 = 1.0;
+/// A hole of less than a square of so many strokes is the paper's grain.
+const GRAIN: f64 = 0.25;
 
 /// The ink of the letter before a border and of the one after it; none where no way to part them is likely.
 pub(super) fn part(ink: &Component, page: &Gray, border: &Border<'_>) -> Option<Parting> {
@@ -111,6 +121,20 @@ impl Field {
         }
     }
 
+    /// The rings around its ink, grain left out.
+    fn rings(&self, stroke: f64) -> Vec<Vec<Point>> {
+        let grain = (GRAIN * stroke).powi(2);
+        let rings = iso::rings((self.width, self.height), |x, y| self.at(x, y), LEVEL);
+        let rings = rings.into_iter().filter(|r| area(r).abs() >= grain);
+        rings.map(|r| iso::even(&r, SPACING)).collect()
+    }
+
+    /// A place of the sheet.
+    fn of_sheet(&self, p: Point) -> Point {
+        let (x, y) = self.corner;
+        Point::new(p.x - x as f64, (y + self.height) as f64 - p.y)
+    }
+
     /// A place in the sheet.
     fn in_sheet(&self, p: Point) -> Point {
         let (x, y) = self.corner;
@@ -138,4 +162,11 @@ impl Field {
         let is_rim = f64::from(self.samples[i]) < LEVEL && !shape.far[i] && !shape.veiled[i];
         if is_rim { 1.0 } else { shape.shares[i] }
     }
+}
+
+/// The area within a ring, of a hole below 0, px².
+fn area(ring: &[Point]) -> f64 {
+    let next = ring.iter().cycle().skip(1);
+    let cross = |(a, b): (&Point, &Point)| a.to_vec2().cross(b.to_vec2());
+    ring.iter().zip(next).map(cross).sum::<f64>() / 2.0
 }

@@ -21,6 +21,8 @@ const CERTAIN: f64 = 4.0;
 const OWN: f64 = 0.5;
 /// What it costs that a letter's middle is half the border's stretch from its cell's.
 const MIDDLE: f64 = 3.0;
+/// What each stroke's width of an edge costs that lies along the example of the other letter alone.
+const TOLD: f64 = 1.0;
 /// What it costs to cut through a stroke, where no edge goes on beneath the other letter.
 const SEVERED: f64 = 0.6;
 /// Ways that cost more are not believed.
@@ -98,27 +100,31 @@ pub(super) fn likeliest(edges: &Edges, middles: [Option<f64>; 2]) -> Vec<Split> 
         .collect();
     let n = edges.corners.len();
     let before = edges.before();
-    let hidden: Vec<Vec<Option<Hidden>>> = (0..n)
-        .map(|i| {
-            let from = edges.finish(before[i]);
-            let to = |j: usize| {
-                let end = (i != j).then(|| edges.begin(j))?;
-                let is_joint = [i, j].iter().all(|&k| edges.corners[k].is_joint);
-                let along = is_joint.then(|| edges.across.along());
-                Hidden::between(from, end, (edges.stroke, along), |p| edges.is_ink(p))
-            };
-            (0..n).map(to).collect()
+    let between = |(owner, i, j): (usize, usize, usize)| {
+        let (from, to) = (edges.finish(before[i]), (i != j).then(|| edges.begin(j))?);
+        let is_joint = [i, j].iter().all(|&k| edges.corners[k].is_joint);
+        let along = is_joint.then(|| edges.across.along());
+        let example = edges.examples[owner].as_ref();
+        let example = example.and_then(|e| e.between(from, to));
+        Hidden::between(from, to, (edges.stroke, along), example, |p| {
+            edges.is_ink(p)
         })
-        .collect();
+    };
+    let hidden = [0, 1].map(|owner| {
+        let to = |i: usize| (0..n).map(|j| between((owner, i, j))).collect();
+        (0..n).map(to).collect::<Vec<Vec<Option<Hidden>>>>()
+    });
     let least =
         |to: &Vec<Option<Hidden>>| to.iter().flatten().map(|h| h.cost).fold(NEVER, f64::min);
+    let known = |k: usize| middles[k].filter(|_| edges.examples[k].is_none());
     let mut search = Search {
         edges,
-        middles,
+        middles: [known(0), known(1)],
+        told: (0..n).map(|k| edges.told(k)).collect(),
         lies: (0..n).map(|k| edges.lie(k)).collect(),
         whole: &whole,
         doubts: (0..n).map(|k| edges.doubt(k)).collect(),
-        least: hidden.iter().map(least).collect(),
+        least: hidden.each_ref().map(|h| h.iter().map(least).collect()),
         before: &before,
         hidden: &hidden,
         found: Vec::new(),
@@ -128,7 +134,7 @@ pub(super) fn likeliest(edges: &Edges, middles: [Option<f64>; 2]) -> Vec<Split> 
     let split = |(cost, owners): (f64, Vec<Owner>)| {
         let pairs = search.pairs(&owners).unwrap_or_default().into_iter();
         let path = |owner: Owner, i: usize, j: usize| {
-            let hidden = hidden[i][j].as_ref()?;
+            let hidden = hidden[owner as usize][i][j].as_ref()?;
             Some(hidden.path(search.farther(&owners, owner, hidden)))
         };
         let paths = pairs.filter_map(|(owner, i, j)| Some(((owner, i), (j, path(owner, i, j)?))));
@@ -161,13 +167,15 @@ struct Search<'a> {
     edges: &'a Edges,
     middles: [Option<f64>; 2],
     lies: Vec<Lie>,
+    /// How much of each stretch lies along the example of the one letter alone, and of the other.
+    told: Vec<[f64; 2]>,
     /// The rings without a corner.
     whole: &'a [(usize, Owner, Lie)],
     doubts: Vec<f64>,
     /// What the edge that goes into the ink at each corner costs at least.
-    least: Vec<f64>,
+    least: [Vec<f64>; 2],
     before: &'a [usize],
-    hidden: &'a [Vec<Option<Hidden>>],
+    hidden: &'a [Vec<Vec<Option<Hidden>>>; 2],
     /// What ways cost, the likeliest first.
     found: Vec<(f64, Vec<Owner>)>,
     /// How many more choices are looked at.
@@ -188,6 +196,8 @@ impl Search<'_> {
             return self.take(owners, so.place);
         }
         let [before, behind] = self.lies[k].beyond.map(|v| ASTRAY * v);
+        let [first, second] = self.told[k].map(|v| TOLD * v);
+        let (behind, before) = (behind + first, before + second);
         let mut choices = [
             (Owner::First, behind, before),
             (Owner::Second, before, behind),
@@ -201,8 +211,8 @@ impl Search<'_> {
             };
             match owners.get(self.before[k]) {
                 Some(same) if *same == owner => next.least += OWN * self.doubts[k],
-                Some(_) => {
-                    next.least += self.least[k];
+                Some(other) => {
+                    next.least += self.least[*other as usize][k];
                     next.crossings[owner as usize] += 1;
                 }
                 None => (),
@@ -226,7 +236,7 @@ impl Search<'_> {
         let edges = || {
             pairs
                 .iter()
-                .filter_map(|&(_, i, j)| self.hidden[i][j].as_ref())
+                .filter_map(|&(owner, i, j)| self.hidden[owner as usize][i][j].as_ref())
         };
         // of the two edges at a crossing one goes on
         let severed = edges()
@@ -249,7 +259,7 @@ impl Search<'_> {
     fn off(&self, owners: &[Owner], pairs: &[(Owner, usize, usize)]) -> f64 {
         let off = |(owner, middle): (Owner, Option<f64>)| {
             let own = pairs.iter().filter(|p| p.0 == owner);
-            let hidden = own.filter_map(|&(_, i, j)| self.hidden[i][j].as_ref());
+            let hidden = own.filter_map(|&(_, i, j)| self.hidden[owner as usize][i][j].as_ref());
             let ends = hidden.filter_map(|h| {
                 let stub = h.stub?;
                 let end = stub.at + self.farther(owners, owner, h) * stub.way;
@@ -307,7 +317,8 @@ impl Search<'_> {
             (Owner::Second, &second, &first),
         ];
         for (owner, from, to) in both {
-            let cost = |i: usize, j: usize| self.hidden[i][j].as_ref().map_or(NEVER, |h| h.cost);
+            let hidden = &self.hidden[owner as usize];
+            let cost = |i: usize, j: usize| hidden[i][j].as_ref().map_or(NEVER, |h| h.cost);
             let row = |&i: &usize| to.iter().map(|&j| cost(i, j)).collect();
             let costs: Vec<Vec<f64>> = from.iter().map(row).collect();
             let pairs = assign(&costs).into_iter().enumerate();

@@ -30,6 +30,7 @@ fn parted_in(
         along: Along::Row,
         stretch: &(at - 20.0..at + 20.0),
         meeting,
+        examples: [&[], &[]],
         upright: &View::from(Affine::IDENTITY),
         cells,
         is_single: [true; 2],
