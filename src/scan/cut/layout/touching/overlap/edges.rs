@@ -4,10 +4,9 @@ use super::across::Across;
 use super::example::{Example, Ground, Placed};
 use super::joint::{Place, joint};
 use super::parabola::Parabola;
-use super::shape::{filled, pixel};
+use super::shape::{Ink, filled};
 use super::{Field, SPACING};
 use crate::numeric::cast::index;
-use crate::numeric::pieces::around;
 use crate::scan::cut::layout::touching::{Border, Meeting};
 use kurbo::{Point, Vec2};
 
@@ -43,12 +42,12 @@ pub(super) struct Edges {
     sides: Vec<Vec<f64>>,
     pub(super) across: Across,
     /// Half of the border's stretch, px.
-    pub(super) half: f64,
+    half: f64,
     /// How much of a ring a corner takes on either side, points.
     round: usize,
     /// Which pixels lie within the rings, row by row from above, and how many there are.
     inside: Vec<bool>,
-    pub(super) size: (usize, usize),
+    size: (usize, usize),
     /// Letters drawn alike as the one before the border and the one after it, where they lie free.
     pub(super) examples: [Option<Placed>; 2],
     /// Whether each point of each ring lies along their edges, where these are known.
@@ -182,7 +181,7 @@ impl Edges {
         if examples.iter().all(|e| e.is_empty()) {
             return;
         }
-        let ground = Ground::of(self);
+        let ground = Ground::of(&self.rings, self.ink(), (self.stroke, self.half));
         let placed = examples.map(|e| ground.place(field, e));
         for (owner, placed) in placed.iter().enumerate() {
             let Some(placed) = placed else { continue };
@@ -288,10 +287,16 @@ impl Edges {
         })
     }
 
+    fn ink(&self) -> Ink<'_> {
+        Ink {
+            inside: &self.inside,
+            size: self.size,
+        }
+    }
+
     /// Whether there is ink at a place or a pixel beside it, holes by grain included: corners inwards are rounded.
     pub(super) fn is_ink(&self, p: Point) -> bool {
-        let (column, row) = pixel(p, self.size.1);
-        around((column, row), 1, self.size).any(|i| self.inside[i])
+        self.ink().is_near(p)
     }
 
     /// The corner after another on its ring, which may be the same.

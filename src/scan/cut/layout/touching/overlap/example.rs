@@ -5,8 +5,7 @@
 //! nothing of it on paper, says how the edges go on that the other letter hides.
 
 use super::Field;
-use super::edges::{Edges, End};
-use super::shape::pixel;
+use super::shape::{Ink, pixel};
 use crate::numeric::cast::index;
 use crate::numeric::pieces::around;
 use crate::numeric::view::View;
@@ -151,7 +150,11 @@ impl Fit {
 
 /// The ink that examples are laid onto.
 pub(super) struct Ground<'a> {
-    edges: &'a Edges,
+    rings: &'a [Vec<Point>],
+    ink: Ink<'a>,
+    /// Width of a stroke and half of the border's stretch, px.
+    stroke: f64,
+    half: f64,
     /// Which way each ring goes at each of its points.
     ways: Vec<Vec<Vec2>>,
     /// The point of the rings that is nearest to each pixel, within a step.
@@ -160,14 +163,15 @@ pub(super) struct Ground<'a> {
 }
 
 impl<'a> Ground<'a> {
-    pub(super) fn of(edges: &'a Edges) -> Self {
-        let least = LEAST_STEP.0.max(LEAST_STEP.1 * edges.half);
-        let step = (STEP * edges.stroke).max(least);
-        let size = edges.size;
+    /// Rings around ink of strokes so wide, and half of the border's stretch.
+    pub(super) fn of(rings: &'a [Vec<Point>], ink: Ink<'a>, (stroke, half): (f64, f64)) -> Self {
+        let least = LEAST_STEP.0.max(LEAST_STEP.1 * half);
+        let step = (STEP * stroke).max(least);
+        let size = ink.size;
         let mut nearest: Vec<Option<(usize, usize)>> = vec![None; size.0 * size.1];
         let mut far = vec![f64::INFINITY; nearest.len()];
         let reach = index(step.ceil());
-        for (r, ring) in edges.rings.iter().enumerate() {
+        for (r, ring) in rings.iter().enumerate() {
             for (k, p) in ring.iter().enumerate() {
                 for i in around(pixel(*p, size.1), reach, size) {
                     let middle = (i % size.0, size.1 - 1 - i / size.0);
@@ -186,8 +190,11 @@ impl<'a> Ground<'a> {
             ways.map(|w| w / w.hypot().max(f64::MIN_POSITIVE)).collect()
         };
         Self {
-            edges,
-            ways: edges.rings.iter().map(closed).collect(),
+            rings,
+            ink,
+            stroke,
+            half,
+            ways: rings.iter().map(closed).collect(),
             nearest,
             step,
         }
@@ -195,17 +202,17 @@ impl<'a> Ground<'a> {
 
     /// How a point lies through which an edge goes that way.
     fn lies(&self, (p, way): (Point, Vec2), near: f64) -> Lies {
-        let size = self.edges.size;
+        let size = self.ink.size;
         let (x, y) = pixel(p, size.1);
         if p.x < 0.0 || p.y < 0.0 || x >= size.0 || y >= size.1 {
             return Lies::Beyond;
         }
         let along = self.nearest[y * size.0 + x].filter(|&(r, k)| {
-            self.ways[r][k].dot(way) > PARALLEL && self.edges.rings[r][k].distance(p) <= near
+            self.ways[r][k].dot(way) > PARALLEL && self.rings[r][k].distance(p) <= near
         });
         match along {
             Some((r, k)) => Lies::Along(r, k),
-            None if self.edges.is_ink(p) => Lies::Beneath,
+            None if self.ink.is_near(p) => Lies::Beneath,
             None => Lies::Beyond,
         }
     }
@@ -232,7 +239,7 @@ impl<'a> Ground<'a> {
         let best = tried.iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
         let other = tried
             .iter()
-            .filter(|t| (t.0 - best.0).hypot() > self.edges.stroke);
+            .filter(|t| (t.0 - best.0).hypot() > self.stroke);
         let other = other.map(|t| t.1).fold(0.0, f64::max);
         let by = self.settle(&points, best.0)?;
         let fit = self.fit(&points, by, NEAR);
@@ -251,7 +258,7 @@ impl<'a> Ground<'a> {
 
     /// All ways to move an example, a step apart.
     fn tries(&self) -> impl Iterator<Item = Vec2> {
-        let [x, y] = [ALONG, ACROSS].map(|reach| index(reach * self.edges.half / self.step));
+        let [x, y] = [ALONG, ACROSS].map(|reach| index(reach * self.half / self.step));
         let steps = |n: usize| (0..=2 * n).map(move |i| i as f64 - n as f64);
         let step = self.step;
         steps(y).flat_map(move |v| steps(x).map(move |u| step * Vec2::new(u, v)))
@@ -284,7 +291,7 @@ impl<'a> Ground<'a> {
                 if let Lies::Along(r, k) = self.lies((p + by, way), near) {
                     let way = self.ways[r][k];
                     let normal = Vector2::new(-way.y, way.x);
-                    let off = self.edges.rings[r][k] - (p + by);
+                    let off = self.rings[r][k] - (p + by);
                     normals += normal * normal.transpose();
                     offs += normal * normal.dot(&Vector2::new(off.x, off.y));
                 }
@@ -322,9 +329,9 @@ impl Placed {
     }
 
     /// The way along it from one end of a seen edge to another one.
-    pub(super) fn between(&self, from: End, to: End) -> Option<Vec<Point>> {
-        let nearest = |line: &[Point], end: End| {
-            let off = |p: &Point| p.distance(end.at);
+    pub(super) fn between(&self, from: Point, to: Point) -> Option<Vec<Point>> {
+        let nearest = |line: &[Point], end: Point| {
+            let off = |p: &Point| p.distance(end);
             let all = line.iter().enumerate().map(|(i, p)| (i, off(p)));
             let best = all.min_by(|a, b| a.1.total_cmp(&b.1));
             best.filter(|b| b.1 <= BLUR).map(|b| b.0)
@@ -343,8 +350,8 @@ impl Placed {
                     .collect()
             };
             let within = path.iter().skip(1).take(path.len().saturating_sub(2));
-            let on = iter::once(from.at).chain(within.copied());
-            Some(on.chain([to.at]).collect())
+            let on = iter::once(from).chain(within.copied());
+            Some(on.chain([to]).collect())
         })
     }
 }

@@ -105,7 +105,7 @@ pub(super) fn likeliest(edges: &Edges, middles: [Option<f64>; 2]) -> Vec<Split> 
         let is_joint = [i, j].iter().all(|&k| edges.corners[k].is_joint);
         let along = is_joint.then(|| edges.across.along());
         let example = edges.examples[owner].as_ref();
-        let example = example.and_then(|e| e.between(from, to));
+        let example = example.and_then(|e| e.between(from.at, to.at));
         Hidden::between(from, to, (edges.stroke, along), example, |p| {
             edges.is_ink(p)
         })

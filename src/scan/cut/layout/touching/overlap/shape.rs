@@ -80,6 +80,21 @@ impl Shape {
     }
 }
 
+/// Which pixels of a picture are ink, row by row from above.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Ink<'a> {
+    pub(super) inside: &'a [bool],
+    pub(super) size: (usize, usize),
+}
+
+impl Ink<'_> {
+    /// Whether there is ink at a place or a pixel beside it.
+    pub(super) fn is_near(self, p: Point) -> bool {
+        let (column, row) = pixel(p, self.size.1);
+        around((column, row), 1, self.size).any(|i| self.inside[i])
+    }
+}
+
 /// Column and row of the pixel at a place in a picture so high.
 pub(super) fn pixel(p: Point, height: usize) -> (usize, usize) {
     (index(p.x.max(0.0)), index((height as f64 - p.y).max(0.0)))
