@@ -46,24 +46,31 @@ pub(crate) struct Cache {
 impl Cache {
     /// Deletes the oldest entries of all programs where there are too many.
     pub(crate) fn trim(&self) {
+        self.trim_to(FULL);
+    }
+
+    /// The same where they have more than so many bytes, until half of that is left. What else lies in the folder
+    /// that the user named is not touched.
+    fn trim_to(&self, full: u64) {
         let Some(all) = self.folder.as_deref().and_then(Path::parent) else {
             return;
         };
-        let folders = entries(all).filter(|e| e.is_dir());
+        let folders = entries(all).filter(|e| is_digest(e) && e.is_dir());
         let mut files: Vec<(SystemTime, u64, PathBuf)> = folders
             .flat_map(|folder| entries(&folder))
+            .filter(|path| is_digest(path))
             .filter_map(|path| {
                 let data = fs::metadata(&path).ok()?;
                 Some((data.modified().ok()?, data.len(), path))
             })
             .collect();
         let mut size: u64 = files.iter().map(|(_, len, _)| len).sum();
-        if size <= FULL {
+        if size <= full {
             return;
         }
         files.sort();
         for (_, len, path) in files {
-            if size <= FULL / 2 {
+            if size <= full / 2 {
                 break;
             }
             // another build may have deleted it
@@ -101,6 +108,13 @@ fn entries(folder: &Path) -> impl Iterator<Item = PathBuf> + use<> {
     entries.filter_map(|e| Some(e.ok()?.path()))
 }
 
+/// Whether a file's or folder's name is a digest, as those of entries and of programs are.
+fn is_digest(path: &Path) -> bool {
+    let name = path.file_name().and_then(|n| n.to_str());
+    let is_hex = |n: &str| n.bytes().all(|b| b.is_ascii_hexdigit());
+    name.is_some_and(|n| n.len() == digest(b"").len() && is_hex(n))
+}
+
 /// The user's folder for what can be made again.
 #[expect(
     clippy::disallowed_methods,
@@ -122,4 +136,36 @@ fn program() -> Option<String> {
     Some(digest(
         format!("{version} {} {built}", file.len()).as_bytes(),
     ))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_oldest_entries_go_and_nothing_else() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let foreign = ["notes/thesis.txt", "notes/0123456789", "letter.txt"];
+        for name in foreign {
+            let path = folder.path().join(name);
+            fs::create_dir_all(path.parent().expect("a folder")).expect("made");
+            let file = fs::File::create(path).and_then(|mut f| f.write_all(&[0; 100]));
+            file.expect("written");
+        }
+        let cache = Cache {
+            folder: Some(folder.path().join(digest(b"program"))),
+        };
+        let keys: Vec<String> = (0..4_u8).map(|i| digest(&[i])).collect();
+        let kept = || keys.iter().filter(|k| cache.get(k).is_some()).count();
+        for key in &keys {
+            cache.put(key, &[7; 96]);
+        }
+        cache.trim_to(400);
+        assert_eq!(kept(), 4, "as many as may be");
+        cache.trim_to(399);
+        assert_eq!(kept(), 1, "until less than half is left");
+        for name in foreign {
+            assert!(folder.path().join(name).exists(), "{name}");
+        }
+    }
 }
