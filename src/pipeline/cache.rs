@@ -60,7 +60,7 @@ fn key(
     earlier.spacing = <_>::default();
     earlier.anchors = <_>::default();
     earlier.kerning = <_>::default();
-    earlier.font.features = None;
+    earlier.font = project.font.of_pages();
     earlier.quadratic = <_>::default();
     earlier.gate = <_>::default();
     earlier.matching = <_>::default();

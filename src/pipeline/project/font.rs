@@ -70,6 +70,28 @@ fn vendor() -> String {
 }
 
 impl FontTable {
+    /// What of it pages depend on: the units in which letters are placed, and the family, which printed pages name.
+    /// All else is fixed.
+    #[must_use]
+    pub fn of_pages(&self) -> Self {
+        Self {
+            family: self.family.clone(),
+            style: style(),
+            version: version(),
+            units_per_em: self.units_per_em,
+            weight: weight(),
+            italic_angle: 0.0,
+            features: None,
+            copyright: None,
+            designer: None,
+            manufacturer: None,
+            licence: None,
+            licence_url: None,
+            vendor_url: None,
+            vendor: vendor(),
+        }
+    }
+
     /// What the font says about itself; `created` is seconds since 1970. Heights are still to be measured,
     /// except those that the file gives.
     #[must_use]
