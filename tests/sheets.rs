@@ -3,6 +3,8 @@
 use crate::common::desk::{BUILD, Desk, said};
 use crate::common::pictures::{LETTERS, edge, encoded, page, png};
 use crate::common::read::{drawn, face};
+use crate::template;
+use image::ImageFormat;
 use khatt::numeric::coverage::blur;
 use khatt::scan::{Polarity, load};
 use kurbo::Shape;
@@ -230,6 +232,52 @@ fn anchors_kerning_and_features_may_be_set_by_hand() {
 }
 
 #[test]
+fn what_the_font_says_of_itself_redoes_no_page() {
+    let desk = Desk::letters();
+    let kept = |table: &str| {
+        desk.edit(|text| text.replacen("[font]\n", &format!("[font]\n{table}"), 1));
+        desk.done(&["build", "font.toml", "--quiet", "--cache-dir", "kept"]);
+        desk.files("kept").len()
+    };
+    assert_eq!(kept(""), 2, "a page and a build");
+    let version = "version = \"2.0\"\nweight = 700\n";
+    assert_eq!(kept(version), 3, "a build more");
+    assert_eq!(kept("units_per_em = 2000\n"), 5, "letters are placed anew");
+}
+
+/// The steps of its edges are no detail of its letters.
+#[test]
+fn a_template_page_of_two_levels_is_smooth() {
+    let (layout, pages) = template::printed(template::PROJECT);
+    let grey = pages
+        .iter()
+        .map(|p| template::drawn(&layout, p, template::FLATBED));
+    let grey: Vec<Vec<u8>> = grey.collect();
+    let two = |bytes: &Vec<u8>| {
+        let mut picture = image::load_from_memory(bytes)
+            .expect("a picture")
+            .to_luma8();
+        picture
+            .pixels_mut()
+            .for_each(|p| p.0[0] = if p.0[0] < 128 { 0 } else { 255 });
+        encoded(picture, ImageFormat::Png)
+    };
+    let nodes = |pages: &[Vec<u8>]| {
+        let desk = template::folder(&[("1.png", &pages[0]), ("2.png", &pages[1])]);
+        desk.done(&["build", "font.toml", "--no-cache"]);
+        let report = desk.json("out/report.json");
+        let glyphs = report["glyphs"].as_array().expect("a list").iter();
+        glyphs.filter_map(|g| g["nodes"].as_u64()).sum::<u64>()
+    };
+    let stepped = nodes(&grey.iter().map(two).collect::<Vec<_>>());
+    let even = nodes(&grey);
+    assert!(
+        even > 100 && stepped < even + even / 4,
+        "{stepped}, {even} in grey"
+    );
+}
+
+#[test]
 fn what_is_kept_may_be_spoilt() {
     let desk = Desk::letters();
     let args = ["build", "font.toml", "--quiet", "--cache-dir", "kept"];
@@ -333,7 +381,7 @@ fn a_file_of_names_may_begin_with_a_byte_order_mark() {
 /// The first half of a JPEG of the page.
 fn truncated_jpeg() -> Vec<u8> {
     let picture = image::load_from_memory(&page(&[])).expect("a picture");
-    let bytes = encoded(picture, image::ImageFormat::Jpeg);
+    let bytes = encoded(picture, ImageFormat::Jpeg);
     bytes[..bytes.len() / 2].to_vec()
 }
 

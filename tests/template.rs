@@ -13,7 +13,7 @@ use kurbo::{Affine, BezPath, Circle, Rect, Shape};
 use std::path::Path;
 
 /// A flat-bed scanner.
-const FLATBED: Camera = Camera {
+pub(crate) const FLATBED: Camera = Camera {
     dpi: 300.0,
     skew_deg: 0.0,
     quarters: 0,
@@ -342,7 +342,7 @@ fn ink_outside_the_fields_is_listed() {
 }
 
 /// A project of twenty letters on two pages.
-const PROJECT: &str = r#"
+pub(crate) const PROJECT: &str = r#"
 [font]
 family = "Test Family"
 [template]
@@ -359,7 +359,7 @@ report = "out/report.json"
 "#;
 
 /// The pages that are printed for a project.
-fn printed(project: &str) -> (Layout, Vec<Page>) {
+pub(crate) fn printed(project: &str) -> (Layout, Vec<Page>) {
     let project = Project::parse(&project.replace("IMAGES", "[]")).expect("a project");
     let none = |path: &Path| Err(format!("{} is not wanted", path.display()));
     let pages = pipeline::sheets(&project, World::of(&none)).expect("pages");
@@ -367,15 +367,15 @@ fn printed(project: &str) -> (Layout, Vec<Page>) {
 }
 
 /// The picture of a page with a letter in every cell.
-fn drawn(layout: &Layout, page: &Page, camera: Camera) -> Vec<u8> {
+pub(crate) fn drawn(layout: &Layout, page: &Page, camera: Camera) -> Vec<u8> {
     camera.take(page, &letters(layout, page)).0
 }
 
 /// A picture's file and its bytes.
-type Picture<'a> = (&'a str, &'a [u8]);
+pub(crate) type Picture<'a> = (&'a str, &'a [u8]);
 
 /// A folder with the project, whose pages are these pictures.
-fn folder(pictures: &[Picture<'_>]) -> Desk {
+pub(crate) fn folder(pictures: &[Picture<'_>]) -> Desk {
     let names: Vec<&str> = pictures.iter().map(|p| p.0).collect();
     let text = PROJECT.replace("IMAGES", &format!("{names:?}"));
     let desk = Desk::with("font.toml", text);

@@ -148,7 +148,8 @@ impl<'a> Printing<'a> {
             tones: self.table.tones,
             ..Reading::default()
         };
-        let mut sheets = scan::load(&bytes, &image.display().to_string(), reading)?;
+        let sheets = scan::load(&bytes, &image.display().to_string(), reading)?;
+        let mut sheets: Vec<Sheet> = sheets.into_iter().map(scan::grey).collect();
         match self.table.page {
             None => Ok(sheets),
             Some(n) if (1..=sheets.len()).contains(&n) => Ok(vec![sheets.swap_remove(n - 1)]),

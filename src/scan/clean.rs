@@ -98,7 +98,8 @@ fn is_surrounded(paper: &Paper) -> bool {
 }
 
 /// The sheet in grey levels, softened where it has but two.
-fn grey(sheet: Sheet) -> Sheet {
+#[must_use]
+pub fn grey(sheet: Sheet) -> Sheet {
     match softened(&sheet.gray) {
         Some(gray) => Sheet { gray, ..sheet },
         None => sheet,

@@ -30,7 +30,7 @@ mod shading;
 mod steps;
 mod streaks;
 
-pub use clean::{Page, Texture, clean, clean_otherwise};
+pub use clean::{Page, Texture, clean, clean_otherwise, grey};
 pub use cut::{Cut, Pin, Reason, Region, Rejected, Warning, cut};
 pub use cut::{SMALL, SMALL_LETTER, is_full};
 pub use error::{Fault, ScanError};

@@ -87,7 +87,7 @@ fn drawing(
             px_per_em: layout.em() * px_per_mm,
             row: None,
         },
-        gray: crop(&tile, window, level),
+        gray: crop(&tile, window, level).with_scatter(sheet.gray.scatter_px()),
         plates: Vec::new(),
     };
     let joins = joining(&place.label);

@@ -120,10 +120,13 @@ fn edge(at: &impl Fn(Point) -> f64, centre: Point, turn: f64, step: f64) -> Opti
     let profile: Vec<[f64; 2]> = filled
         .map(|(i, s)| [(i as f64 + 0.5) * BIN - REACH, s[0] / s[1]])
         .collect();
-    let end = (profile.len() / 8).max(1);
+    if profile.len() < 8 {
+        return None;
+    }
+    let end = profile.len() / 8;
     let mean = |p: &[[f64; 2]]| p.iter().map(|v| v[1]).sum::<f64>() / p.len() as f64;
     let (ink, paper) = (mean(&profile[..end]), mean(&profile[profile.len() - end..]));
-    if profile.len() < 8 || ink - paper < 0.1 {
+    if ink - paper < 0.1 {
         return None;
     }
     let shade: Vec<[f64; 2]> = profile
