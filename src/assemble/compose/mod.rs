@@ -167,14 +167,11 @@ impl Work<'_> {
         missing
     }
 
-    /// Ligatures that end in a letter of which marks make others: لا gives لأ.
+    /// Ligatures that end in a letter of which marks make others: لا gives لأ. Of letters that join alone: accents
+    /// have no place on fi, whose dot would stay.
     fn ligatures(&mut self) {
-        let wanted: Vec<char> = self
-            .options
-            .letters
-            .iter()
-            .flat_map(|l| l.letters.clone())
-            .collect();
+        let wanted = self.options.letters.iter().flat_map(|l| l.letters.clone());
+        let wanted: Vec<char> = wanted.filter(|&c| recipes::forms(c).len() > 1).collect();
         for i in 0..self.drafts.len() {
             let Some(ligature) = self.drafts.get(i).map(|d| d.id.clone()) else {
                 continue;

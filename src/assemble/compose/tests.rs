@@ -278,6 +278,16 @@ fn a_hacek_beside_a_tall_letter_is_an_apostrophe_and_a_comma_stands_below() {
 }
 
 #[test]
+fn accents_make_no_ligatures_of_latin_letters() {
+    let mut drawn_ones = latin();
+    drawn_ones.push(drawn("f_i", &[[0.0, 0.0, 400.0, 700.0]]));
+    let font = build(drawn_ones, &["latin"]).font;
+    let made = font.glyphs().iter().map(|g| g.name.to_string());
+    let with_f: Vec<String> = made.filter(|n| n.starts_with("uni0066")).collect();
+    assert!(with_f.is_empty(), "{with_f:?}");
+}
+
+#[test]
 fn composed_letters_are_kerned_as_their_bodies() {
     let font = build(latin(), &["latin"]).font;
     let group = &font.kerning.second["a"];
