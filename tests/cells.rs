@@ -47,6 +47,19 @@ fn what_was_found_can_be_written_and_builds_the_same_font() {
 }
 
 #[test]
+fn words_are_no_cells_to_correct() {
+    let desk = Desk::letters();
+    let words = "[[sheet]]\nimage = \"page.png\"\nlayout = { grid = [3, 3] }\ncontent = \"words\"\npixels_per_em = 100\n\
+        glyphs = \"aa ab ac ba bb bc ca cb cc\"\n\n[output]";
+    desk.edit(|text| text.replacen("[output]", words, 1));
+    desk.done(&["cut", "font.toml", "--write-overrides", "cells.toml"]);
+    let cells = desk.text("cells.toml");
+    assert_eq!(cells.matches("box = ").count(), 9, "{cells}");
+    desk.edit(|text| format!("cells_file = \"cells.toml\"\n{text}"));
+    desk.done(&["cut", "font.toml", "-o", "cells"]);
+}
+
+#[test]
 fn a_picture_that_says_how_it_tells_light_is_asked_where_tones_say_so() {
     let plain = page(&[]);
     // as sRGB: length, kind and intent of the chunk, and its sum

@@ -68,6 +68,10 @@ impl Convert {
     }
 
     fn format(&self) -> Result<&'static Format, Failure> {
+        if files::is_dash(&self.output) {
+            let what = "- is standard output, to which no font is written";
+            return Err(Failure::new(what).help("name a file, or a folder for SVG files"));
+        }
         let ending = self
             .output
             .extension()

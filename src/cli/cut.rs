@@ -5,7 +5,7 @@ use super::files::is_dash;
 use super::project::Opened;
 use super::{Common, Outcome, staged};
 use clap::Args;
-use khatt::pipeline::project::{CellTable, Cells, Layout, Project};
+use khatt::pipeline::project::{CellTable, Cells, Content, Layout, Project, SheetTable};
 use khatt::pipeline::{self, Inputs, Page};
 use khatt::scan::{self, Tones, Warning};
 use khatt::types::{Cell, Files, Png};
@@ -43,8 +43,8 @@ impl Cut {
         let ((pages, notes), ..) = opened.work(common, |project, world| {
             let pages = pipeline::pages(project, world, |page| {
                 let table = project.sheets.get(page.table);
-                let layout = table.map(|t| t.layout);
-                Ok((entry(&page), found(&page, layout), warnings(&page)))
+                let found = table.map_or_else(Cells::new, |t| found(&page, t));
+                Ok((entry(&page), found, warnings(&page)))
             })?;
             Ok((pages, unasked(project, &opened)))
         })?;
@@ -110,10 +110,12 @@ fn unasked(project: &Project, inputs: &dyn Inputs) -> String {
     said.map(line).collect()
 }
 
-/// Where a page's letters were found; a template's page says that itself.
-fn found(page: &Page, layout: Option<Layout>) -> Cells {
-    let free = layout != Some(Layout::Template);
-    let cells = page.cut.cells.iter().map(|c| {
+/// Where a page's letters were found; a template's page says that itself, and words are no letters to correct.
+fn found(page: &Page, table: &SheetTable) -> Cells {
+    let free = table.layout != Layout::Template;
+    let letters = page.cut.cells.iter();
+    let letters = letters.filter(|_| table.content == Content::Letters);
+    let cells = letters.map(|c| {
         let table = CellTable {
             bounds: free.then(|| corners(c.in_sheet)),
             rotation: free.then_some(0.0),
