@@ -15,6 +15,8 @@ use kurbo::{Affine, Line, ParamCurveNearest, Point, Vec2};
 const MARGIN: f64 = 12.0;
 /// Distances beyond this share of the em count as this: drawings differ by less.
 const REACH_EM: f64 = 0.06;
+/// Pixels of a drawing in the middle of others at most, as of a page.
+const LARGEST: usize = 300_000_000;
 /// Half the width of the edge's ramp from paper to ink, px.
 const SOFT: f64 = 1.0;
 
@@ -24,7 +26,8 @@ struct Laid {
     baseline: f64,
 }
 
-/// A cell with the middle drawing, in the place of the first; `None` where one of them holds no ink.
+/// A cell with the middle drawing, in the place of the first; `None` where one of them holds no ink, or they differ in size
+/// so much that it would be larger than a page.
 pub(super) fn middle(drawings: &[&Letter]) -> Option<Cell> {
     let first = drawings.first()?;
     let px_per_em = first.guides.px_per_em;
@@ -42,6 +45,10 @@ pub(super) fn middle(drawings: &[&Letter]) -> Option<Cell> {
         index((high.x - low.x + 2.0 * MARGIN).ceil()),
         index((high.y - low.y + 2.0 * MARGIN).ceil()),
     );
+    // drawings of very different resolutions could be as large as memory
+    if width.saturating_mul(height) > LARGEST {
+        return None;
+    }
     let reach = REACH_EM * px_per_em;
     let fields: Vec<Vec<f64>> = laid
         .iter()

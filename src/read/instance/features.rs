@@ -95,7 +95,7 @@ fn with(table: &[u8], lookups: &[(usize, Vec<u8>)]) -> Option<Vec<u8>> {
             behind += 4 + l.len();
             (*k, behind - 4 - l.len())
         });
-        let stays = features + word(table, at + 4)? + more - HEAD;
+        let stays = (features + word(table, at + 4)? + more).checked_sub(HEAD)?;
         push(
             &mut out,
             new.find(|(k, _)| *k == i).map_or(stays, |(_, at)| at),

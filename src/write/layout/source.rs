@@ -83,7 +83,7 @@ pub(super) fn resolver(
         if path == Path::new(&name) {
             Ok(Arc::clone(&text))
         } else {
-            let why = "include() is resolved before a font is built";
+            let why = "khatt reads one feature file: write what it includes into it, in place of include()";
             Err(SourceLoadError::new(path.to_owned(), why))
         }
     }
