@@ -3,6 +3,7 @@
 use crate::common::approved;
 use crate::common::desk::{Desk, said, transcript};
 use crate::common::pictures::{edge, encoded, png};
+use crate::convert::{converted, font};
 use image::{GrayImage, ImageFormat, Luma};
 use kurbo::{BezPath, ParamCurve, ParamCurveNearest};
 
@@ -407,4 +408,32 @@ fn names_that_promise_another_kind_are_refused() {
         desk.done(args);
     }
     assert!(desk.has("o.UFO/metainfo.plist"));
+}
+
+#[test]
+fn what_drawings_do_not_say_of_a_font_is_named() {
+    let mut large = font();
+    large.info.units_per_em = 2048;
+    let desk = Desk::with("large.ttf", converted(&large, "ttf"));
+    desk.write("usual.ttf", converted(&font(), "ttf"));
+    let said = |name: &str| desk.done(&["convert", name, "-o", &name[..5]]);
+    let (large, usual) = (said("large.ttf"), said("usual.ttf"));
+    assert!(
+        large.contains("not carried over: 2048 units an em"),
+        "{large}"
+    );
+    assert!(!usual.contains("units an em"), "{usual}");
+    // beh has two
+    assert!(
+        usual.contains("second characters (glyphs that have some: 1"),
+        "{usual}"
+    );
+}
+
+#[test]
+fn a_dash_is_no_folder() {
+    let desk = Desk::with("font.ttf", converted(&font(), "ttf"));
+    let run = desk.run(&["convert", "font.ttf", "-o", "-"]);
+    assert_eq!(run.status.code(), Some(1), "{}", said(&run));
+    assert!(!desk.has("-"));
 }

@@ -8,6 +8,7 @@ use clap::{Args, CommandFactory};
 use khatt::pipeline::convert::{Options, Outlines, convert};
 use khatt::quadratic::{Method, rate::Strictness};
 use khatt::read::{self, Reading};
+use khatt::types::Font;
 use khatt::write::{FORMATS, Format, format};
 use std::ffi::OsStr;
 use std::fs;
@@ -44,6 +45,20 @@ pub(crate) struct Convert {
     face: Option<String>,
 }
 
+/// What no folder of drawings says of a font.
+fn unsaid(font: &Font) -> impl Iterator<Item = String> {
+    let em = font.info.units_per_em;
+    let em = (em != 1000).then(|| format!("{em} units an em (drawings are read as 1000 units)"));
+    let several = font.glyphs().iter().filter(|g| g.codepoints.len() > 1);
+    let several = match several.count() {
+        0 => None,
+        n => Some(format!(
+            "second characters (glyphs that have some: {n}; a drawing's name says one)"
+        )),
+    };
+    em.into_iter().chain(several)
+}
+
 impl Convert {
     pub(crate) fn run(&self, common: &Common) -> Outcome {
         let options = self.options();
@@ -56,6 +71,9 @@ impl Convert {
                 .map(|t| String::from_utf8_lossy(t).trim().to_owned())
                 .collect();
             lost.push(format!("compiled tables ({})", tags.join(", ")));
+        }
+        if target.name == "svg" {
+            lost.extend(unsaid(&font));
         }
         let files = convert(&font, target, &options)
             .map_err(|e| Failure::at(files::name(&self.input), &e))?;
