@@ -4,7 +4,7 @@
 //! ```text
 //! bytes ─ scan ─► Cell ─ trace ─► Contour ─ corner ─► Spans ─ fit ─► Fitted ─ refine ─► Fitted
 //!                                                                                  │
-//! Files ◄─ write ─ Font ◄─ assemble ─ Outline ◄─ quadratic (TrueType only) ─ Outline ◄─ finish
+//! Files ◄─ write ─ Font ◄─ quadratic (TrueType only) ─ Font ◄─ assemble ─ Outline ◄─ finish
 //! ```
 //!
 //! Each arrow is a folder of that name; the nouns are [`types`]; [`pipeline`] alone knows the order.

@@ -1,4 +1,4 @@
-//! Mathematics without pictures; imports nothing of ours.
+//! Mathematics, and what it does with samples and rings alone; imports nothing of ours.
 
 pub mod assignment;
 pub mod banded;
