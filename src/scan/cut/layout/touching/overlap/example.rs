@@ -35,6 +35,8 @@ const SEEN: f64 = 0.4;
 const ASTRAY: f64 = 0.03;
 /// And so many more of them than where it would lie best a stroke or more away.
 const SURE: f64 = 0.05;
+/// No point is near.
+const NONE: u32 = u32::MAX;
 /// Steps of the search for the last parts of a px.
 const STEPS: usize = 8;
 /// So much of its edge runs across each way, in squares of sines: else it could be moved along it.
@@ -157,8 +159,10 @@ pub(super) struct Ground<'a> {
     half: f64,
     /// Which way each ring goes at each of its points.
     ways: Vec<Vec<Vec2>>,
-    /// The point of the rings that is nearest to each pixel, within a step.
-    nearest: Vec<Option<(usize, usize)>>,
+    /// All points: which ring, and which of its points.
+    places: Vec<(usize, usize)>,
+    /// The one of them that is nearest to each pixel, within a step, or [`NONE`].
+    nearest: Vec<u32>,
     step: f64,
 }
 
@@ -168,18 +172,19 @@ impl<'a> Ground<'a> {
         let least = LEAST_STEP.0.max(LEAST_STEP.1 * half);
         let step = (STEP * stroke).max(least);
         let size = ink.size;
-        let mut nearest: Vec<Option<(usize, usize)>> = vec![None; size.0 * size.1];
-        let mut far = vec![f64::INFINITY; nearest.len()];
+        let places = (0..rings.len()).flat_map(|r| (0..rings[r].len()).map(move |k| (r, k)));
+        let places: Vec<(usize, usize)> = places.collect();
+        let mut nearest = vec![NONE; size.0 * size.1];
         let reach = index(step.ceil());
-        for (r, ring) in rings.iter().enumerate() {
-            for (k, p) in ring.iter().enumerate() {
-                for i in around(pixel(*p, size.1), reach, size) {
-                    let middle = (i % size.0, size.1 - 1 - i / size.0);
-                    let middle = Point::new(middle.0 as f64 + 0.5, middle.1 as f64 + 0.5);
-                    let d = middle.distance(*p);
-                    if d < far[i] {
-                        (far[i], nearest[i]) = (d, Some((r, k)));
-                    }
+        for (n, &(r, k)) in (0..NONE).zip(&places) {
+            let p = rings[r][k];
+            for i in around(pixel(p, size.1), reach, size) {
+                let middle = (i % size.0, size.1 - 1 - i / size.0);
+                let middle = Point::new(middle.0 as f64 + 0.5, middle.1 as f64 + 0.5);
+                let other = places.get(nearest[i] as usize);
+                let far = other.map_or(f64::INFINITY, |&(r, k)| middle.distance(rings[r][k]));
+                if middle.distance(p) < far {
+                    nearest[i] = n;
                 }
             }
         }
@@ -195,6 +200,7 @@ impl<'a> Ground<'a> {
             stroke,
             half,
             ways: rings.iter().map(closed).collect(),
+            places,
             nearest,
             step,
         }
@@ -207,11 +213,12 @@ impl<'a> Ground<'a> {
         if p.x < 0.0 || p.y < 0.0 || x >= size.0 || y >= size.1 {
             return Lies::Beyond;
         }
-        let along = self.nearest[y * size.0 + x].filter(|&(r, k)| {
+        let nearest = self.places.get(self.nearest[y * size.0 + x] as usize);
+        let along = nearest.filter(|&&(r, k)| {
             self.ways[r][k].dot(way) > PARALLEL && self.rings[r][k].distance(p) <= near
         });
         match along {
-            Some((r, k)) => Lies::Along(r, k),
+            Some(&(r, k)) => Lies::Along(r, k),
             None if self.ink.is_near(p) => Lies::Beneath,
             None => Lies::Beyond,
         }
