@@ -155,6 +155,7 @@ mod tests {
         Letter {
             plates: Vec::new(),
             sheet: "page".to_owned(),
+            table: 0,
             label: Label("l".to_owned()),
             index: 0,
             in_sheet: Rect::ZERO,

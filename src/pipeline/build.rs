@@ -44,6 +44,14 @@ pub struct Built {
     pub gaps: Vec<Gap>,
 }
 
+impl Built {
+    /// The page that a letter was drawn on.
+    pub(super) fn page_of(&self, letter: &Letter) -> Option<&Page> {
+        let mut pages = self.pages.iter();
+        pages.find(|p| p.table == letter.table && p.name == letter.sheet)
+    }
+}
+
 /// Builds a font.
 ///
 /// # Errors
@@ -58,10 +66,11 @@ pub fn build(project: &Project, world: World<'_>) -> Result<Built, Vec<Problem>>
     } = drawings(project, world)?;
     doubts.extend(matching::doubts(project, &letters, world)?);
     let corrections = Corrections::of(project)?;
-    let draw = |sheet: &str, cell: Cell| {
+    let draw = |like: &Letter, cell: Cell| {
+        let page = (like.sheet.as_str(), like.table);
         let options = corrections.trace(&cell.label, &project.trace);
         // what is drawn anew has no streaks
-        Letter::new(sheet, cell, InkStreaks::Keep, options, world.watch)
+        Letter::new(page, cell, InkStreaks::Keep, options, world.watch)
     };
     let Settled {
         mut letters,
@@ -185,7 +194,7 @@ fn trace(
     world: World<'_>,
 ) -> Result<Traced, Vec<Problem>> {
     let cells = mem::take(&mut page.cut.cells);
-    let sheet = page.name.as_str();
+    let sheet = (page.name.as_str(), page.table);
     world.watch.expect(cells.len());
     let letter = |cell: Cell| {
         let options = source.trace(&cell.label, &project.trace);

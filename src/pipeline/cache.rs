@@ -25,7 +25,10 @@ pub(super) fn recall(
     let mut batch = world.store.get(&key).and_then(|b| record::read(&b))?;
     // the table may have stood in another place
     let pages = batch.made.iter_mut();
-    pages.for_each(|(_, (_, page))| page.table = source.number);
+    for (_, (letters, page)) in pages {
+        page.table = source.number;
+        letters.iter_mut().for_each(|l| l.table = source.number);
+    }
     Some(batch)
 }
 

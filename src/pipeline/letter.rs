@@ -18,6 +18,8 @@ use serde::{Deserialize, Serialize};
 pub struct Letter {
     /// The page, as messages name it.
     pub sheet: String,
+    /// The page's table in the project file, from 0.
+    pub table: usize,
     /// What it is said to be.
     pub label: Label,
     /// Position of its cell in the page's reading order, from 0.
@@ -39,12 +41,12 @@ pub struct Letter {
 }
 
 impl Letter {
-    /// Traces a cell.
+    /// Traces a cell of a page and its table.
     ///
     /// # Errors
     /// An option is outside its range, or there is nothing in the cell.
     pub(super) fn new(
-        sheet: &str,
+        (sheet, table): (&str, usize),
         cell: Cell,
         streaks: InkStreaks,
         options: &picture::Options,
@@ -65,6 +67,7 @@ impl Letter {
             Ok((paths, ..)) if paths.is_empty() => Err(Problem::Empty(Place::of(sheet, &cell))),
             Ok((paths, plates, filled)) => Ok(Self {
                 sheet: sheet.to_owned(),
+                table,
                 edge: trace::trace(&cell.gray, &trace::Options::default()),
                 picture: Png::of(&cell.gray),
                 label: cell.label,

@@ -50,8 +50,40 @@ pub(super) fn set(
 fn rows(letters: &[Letter]) -> Vec<usize> {
     let mut first = BTreeMap::new();
     let own = letters.iter().enumerate().map(|(i, letter)| {
-        let row = letter.guides.row.map(|row| (&letter.sheet, row));
+        let row = letter
+            .guides
+            .row
+            .map(|row| (letter.table, &letter.sheet, row));
         row.map_or(i, |row| *first.entry(row).or_insert(i))
     });
     own.collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::types::{Gray, Guides, Label, Png};
+    use kurbo::Rect;
+
+    #[test]
+    fn rows_of_two_tables_of_one_page_are_two() {
+        let letter = |table: usize| Letter {
+            sheet: "page.png".to_owned(),
+            table,
+            label: Label("l".to_owned()),
+            index: 0,
+            picture: Png::of(&Gray::from_fn(1, 1, |_, _| 1.0)),
+            in_sheet: Rect::ZERO,
+            guides: Guides {
+                baseline_px: 1.0,
+                px_per_em: 1.0,
+                row: Some(0),
+            },
+            edge: Vec::new(),
+            paths: Vec::new(),
+            plates: Vec::new(),
+            filled: false,
+        };
+        assert_eq!(rows(&[0, 0, 1, 1].map(letter)), [0, 0, 2, 2]);
+    }
 }

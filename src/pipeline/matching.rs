@@ -33,7 +33,7 @@ pub fn match_letters(
 ) -> Result<(Vec<Matched>, Vec<Doubt>), Vec<Problem>> {
     let alphabet = alphabet(project, world)?;
     let (mut matched, mut remarks) = (Vec::new(), Vec::new());
-    for sheet in of_letters(project) {
+    for (_, sheet) in of_letters(project) {
         let labels = sheet_labels(sheet, world)?;
         let cells = source::cells(sheet, &labels, project, world)?;
         let guesses = guesses(&cells, seen(project), &alphabet);
@@ -133,24 +133,23 @@ pub(super) fn doubts(
     }
     let alphabet = alphabet(project, world)?;
     let mut remarks = Vec::new();
-    for sheet in of_letters(project) {
-        let name = sheet.name();
-        let drawn = letters.iter().filter(|l| sheet.shows(&l.sheet));
+    for (table, sheet) in of_letters(project) {
+        let drawn = letters.iter().filter(|l| l.table == table);
         let drawn: Vec<&Letter> = drawn.collect();
         let labels = sheet_labels(sheet, world)?;
         let method = project.matching.method;
         let look = |l: &&Letter| Look::new(&l.picture.gray(), Some(l.guides), method);
         let guesses = guesses(&drawn, look, &alphabet);
         let indices = drawn.iter().map(|l| l.index);
-        remarks.extend(findings(&name, &labels, indices.zip(&guesses)));
+        remarks.extend(findings(&sheet.name(), &labels, indices.zip(&guesses)));
     }
     Ok(remarks)
 }
 
-/// The pages whose cells hold letters.
-fn of_letters(project: &Project) -> impl Iterator<Item = &SheetTable> {
-    let sheets = project.sheets.iter();
-    sheets.filter(|s| s.content == Content::Letters)
+/// The tables whose cells hold letters, each with its place in the project file, from 0.
+fn of_letters(project: &Project) -> impl Iterator<Item = (usize, &SheetTable)> {
+    let sheets = project.sheets.iter().enumerate();
+    sheets.filter(|s| s.1.content == Content::Letters)
 }
 
 /// The labels as written; as many that say nothing as there are cells where they are to be found.
@@ -218,7 +217,7 @@ fn alphabet(project: &Project, world: World<'_>) -> Result<Alphabet, Problem> {
         return Err(Problem::NoReference);
     }
     let mut labels: Vec<Label> = Vec::new();
-    for sheet in of_letters(project).filter(|s| !s.glyphs.is_auto()) {
+    for (_, sheet) in of_letters(project).filter(|s| !s.1.glyphs.is_auto()) {
         labels.extend(labels::of_sheet(sheet, world)?);
     }
     let auto = project.sheets.iter().any(|s| s.glyphs.is_auto());

@@ -168,8 +168,8 @@ fn entry(built: &Built, letter: &Letter, measured: Measured) -> Option<Entry> {
 
 /// What was said of a letter's cell and of its glyph.
 fn remarks(built: &Built, letter: &Letter, name: &str) -> Vec<String> {
-    let pages = built.pages.iter().filter(|p| p.name == letter.sheet);
-    let warnings = pages.flat_map(|p| &p.cut.warnings);
+    let warnings = built.page_of(letter).into_iter();
+    let warnings = warnings.flat_map(|p| &p.cut.warnings);
     let own = warnings.filter(|w| w.index == Some(letter.index));
     let label = letter.label.0.as_str();
     let notes = built

@@ -47,7 +47,7 @@ pub(super) struct Settled {
 pub(super) fn settle(
     mut letters: Vec<Letter>,
     repeated: Repeated,
-    draw: impl Fn(&str, Cell) -> Result<Letter, Problem>,
+    draw: impl Fn(&Letter, Cell) -> Result<Letter, Problem>,
 ) -> Result<Settled, Problem> {
     let mut drawings: BTreeMap<Name, Vec<usize>> = BTreeMap::new();
     for (i, letter) in letters.iter().enumerate() {
@@ -84,7 +84,7 @@ pub(super) fn settle(
             .then(|| average::middle(&all.iter().map(|&i| &letters[i]).collect::<Vec<_>>()));
         if let Some(cell) = cell.flatten() {
             let first = all[0];
-            letters[first] = draw(&letters[first].sheet, cell)?;
+            letters[first] = draw(&letters[first], cell)?;
             out.extend(all.iter().skip(1).copied());
             notes.push(note("the one in the middle of them is taken".to_owned()));
             continue;

@@ -242,7 +242,7 @@ fn row(built: &Built, letter: &Letter, measured: &Measured) -> Option<Row> {
 
 /// Millimetres of paper that a font unit measured where a letter was drawn, where that is known.
 pub(super) fn mm_per_unit(built: &Built, letter: &Letter) -> Option<f64> {
-    let page = built.pages.iter().find(|p| p.name == letter.sheet)?;
+    let page = built.page_of(letter)?;
     let px_per_unit = letter.guides.px_per_em / f64::from(built.font.info.units_per_em);
     Some(px_per_unit / page.px_per_mm?)
 }

@@ -139,16 +139,6 @@ impl SheetTable {
         }
     }
 
-    /// Whether a page that messages call `name` is one of this table's.
-    #[must_use]
-    pub fn shows(&self, name: &str) -> bool {
-        let page_of = |image: &PathBuf| {
-            let rest = name.strip_prefix(&image.display().to_string());
-            rest.is_some_and(|r| r.is_empty() || r.starts_with(", page "))
-        };
-        name == self.name() || (self.layout == Layout::Template && self.image.iter().any(page_of))
-    }
-
     /// What becomes of ink that is not one even tone.
     #[must_use]
     pub const fn texture(&self) -> Texture {
