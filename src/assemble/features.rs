@@ -4,8 +4,8 @@
 //! ligature replaces its parts in the forms that they take inside it; a glyph with a feature's tag as
 //! suffix (`a.ss01`) replaces the one without.
 
-use super::names::Form;
 use super::{Draft, Note};
+use crate::types::Form;
 use std::collections::BTreeMap;
 use unicode_joining_type::{JoiningType, get_joining_type};
 use unicode_normalization::UnicodeNormalization;

@@ -24,9 +24,9 @@ pub mod words;
 
 pub use stroke::Side;
 
-use crate::types::{Anchor, Component, Font, FontError, Glyph, Info, Label, Name, Outline};
+use crate::types::{Anchor, Component, Font, FontError, Form, Glyph, Info, Label, Name, Outline};
 use kurbo::{Affine, Vec2};
-use names::{Form, Identity, LabelError};
+use names::{Identity, LabelError};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;

@@ -2,16 +2,15 @@
 //!
 //! A label is one of: a character (`ب`), several characters that one glyph draws (`لا`), a name of
 //! the Adobe Glyph List (`eacute`, `f_i`), a hexadecimal name (`uni0628`, `uni06440627`, `u1F600`),
-//! or a friendly name as Glyphs writes it (`beh-ar`, `lam_alef-ar`). Names take suffixes (`.init`,
-//! `.ss01`). The font keeps a name as it was given; the characters follow from it. Arabic presentation forms (`ﺑ`,
-//! `uniFE91`) are the letter in that joining form.
+//! or a friendly name as Glyphs writes it (`beh-ar`, `lam_alef-ar`). All take suffixes (`.init`, `.ss01`). The font
+//! keeps a name as it was given; the characters follow from it. Arabic presentation forms (`ﺑ`, `uniFE91`) are the
+//! letter in that joining form.
 
 use super::nearest;
-use crate::types::{Label, Name, characters};
+use crate::types::characters::{self, Spelled};
+use crate::types::{Form, Label, Name};
 use read_fonts::ps::agl;
-use std::ops::RangeInclusive;
 use thiserror::Error;
-use unicode_normalization::UnicodeNormalization;
 
 /// Why a label names no glyph.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
@@ -33,47 +32,6 @@ pub enum LabelError {
     Illegal(String),
 }
 
-/// The shape that a letter takes beside its neighbours.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Form {
-    /// Joined on neither side.
-    Isol,
-    /// Joined to the letter before it.
-    Fina,
-    /// Joined to the letter after it.
-    Init,
-    /// Joined on both sides.
-    Medi,
-}
-
-impl Form {
-    /// All four, in the order in which one of them stands in for a missing isolated form.
-    pub const ALL: [Self; 4] = [Self::Isol, Self::Fina, Self::Init, Self::Medi];
-
-    /// The OpenType feature and the suffix of that form.
-    #[must_use]
-    pub const fn tag(self) -> &'static str {
-        match self {
-            Self::Isol => "isol",
-            Self::Fina => "fina",
-            Self::Init => "init",
-            Self::Medi => "medi",
-        }
-    }
-
-    /// Whether this form joins the letter before it, to its right in Arabic.
-    #[must_use]
-    pub const fn joins_before(self) -> bool {
-        matches!(self, Self::Fina | Self::Medi)
-    }
-
-    /// Whether this form joins the letter after it, to its left in Arabic.
-    #[must_use]
-    pub const fn joins_after(self) -> bool {
-        matches!(self, Self::Init | Self::Medi)
-    }
-}
-
 /// A label understood.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Identity {
@@ -90,8 +48,7 @@ impl Identity {
     /// The joining form that a suffix names.
     #[must_use]
     pub fn form(&self) -> Option<Form> {
-        let is = |f: &Form| self.suffixes.iter().any(|s| s == f.tag());
-        Form::ALL.into_iter().find(is)
+        Form::of(&self.suffixes)
     }
 
     /// The suffixes that name no joining form: which alternate it is.
@@ -114,71 +71,41 @@ pub fn identify(label: &Label) -> Result<Identity, LabelError> {
         return Err(LabelError::Empty);
     }
     if text == ".notdef" {
-        return identity(text, Vec::new(), Vec::new());
+        return identity(text, Spelled::default());
     }
-    if let Some(chars) = literal(text) {
-        let (chars, suffixes) = joined(chars, Vec::new());
-        let name = [vec![name_of(&chars)], suffixes.clone()].concat().join(".");
-        return identity(&name, chars, suffixes);
-    }
-    let mut parts = text.split('.');
-    let base = parts.next().unwrap_or_default();
-    let suffixes: Vec<String> = parts.map(str::to_owned).collect();
-    match characters::of(base) {
-        Some(chars) if suffixes.iter().all(|s| !s.is_empty()) => {
-            let (chars, suffixes) = joined(chars, suffixes);
-            identity(text, chars, suffixes)
+    let (base, rest) = text
+        .split_once('.')
+        .map_or((text, None), |(b, r)| (b, Some(r)));
+    let with_rest = |name: String| {
+        [Some(&*name), rest]
+            .into_iter()
+            .flatten()
+            .collect::<Vec<_>>()
+            .join(".")
+    };
+    let is_text = [text, base]
+        .into_iter()
+        .any(|t| characters::literal(t).is_some());
+    match characters::spelled(text) {
+        Some(said) if is_text => {
+            let name = [vec![name_of(&said.chars)], said.suffixes.clone()].concat();
+            identity(&name.join("."), said)
         }
-        _ => Err(LabelError::Unknown {
+        Some(said) => identity(text, said),
+        None => Err(LabelError::Unknown {
             label: text.to_owned(),
-            nearest: nearest::name(base).map(|n| [vec![n], suffixes].concat().join(".")),
+            nearest: nearest::name(base).map(with_rest),
         }),
     }
 }
 
-/// Blocks of single letters' joining forms in Unicode, and of lam with alef: those of one letter stand in the order
-/// isolated, final, initial, medial.
-const PRESENTED: [RangeInclusive<char>; 3] = [
-    '\u{FE80}'..='\u{FEFC}',
-    '\u{FB50}'..='\u{FBE9}',
-    '\u{FBFC}'..='\u{FBFF}',
-];
-
-/// A presentation form as its letters and the suffix of its joining form; all else as it is.
-fn joined(chars: Vec<char>, mut suffixes: Vec<String>) -> (Vec<char>, Vec<String>) {
-    let [c] = chars[..] else {
-        return (chars, suffixes);
-    };
-    let letters = |c: char| -> Vec<char> { std::iter::once(c).nfkc().collect() };
-    let own = letters(c);
-    if own == chars || !PRESENTED.iter().any(|range| range.contains(&c)) {
-        return (chars, suffixes);
-    }
-    let alike = PRESENTED
-        .into_iter()
-        .flatten()
-        .filter(|&f| letters(f) == own);
-    let form = alike.zip(Form::ALL).find(|(f, _)| *f == c);
-    suffixes.extend(
-        form.filter(|f| f.1 != Form::Isol)
-            .map(|f| f.1.tag().to_owned()),
-    );
-    (own, suffixes)
-}
-
-fn identity(name: &str, chars: Vec<char>, suffixes: Vec<String>) -> Result<Identity, LabelError> {
+fn identity(name: &str, said: Spelled) -> Result<Identity, LabelError> {
     let name = Name::new(name).map_err(|e| LabelError::Illegal(e.0))?;
     Ok(Identity {
         name,
-        chars,
-        suffixes,
+        chars: said.chars,
+        suffixes: said.suffixes,
     })
-}
-
-/// The label itself where it is text and no name: one character, or several none of which a name could hold.
-fn literal(text: &str) -> Option<Vec<char>> {
-    let chars: Vec<char> = text.chars().collect();
-    (chars.len() == 1 || chars.iter().all(|c| !c.is_ascii())).then_some(chars)
 }
 
 /// A name for these characters: the glyph list's for one that has a plain name there, else `uniXXXX`.
@@ -267,6 +194,10 @@ mod tests {
             ("/", "slash", "/", None),
             ("keheh-ar", "keheh-ar", "ک", None),
             ("kashida-ar", "kashida-ar", "ـ", None),
+            ("ب.init", "uni0628.init", "ب", Some(Form::Init)),
+            ("é.ss01", "eacute.ss01", "é", None),
+            ("1.ss01", "one.ss01", "1", None),
+            (".", "period", ".", None),
             ("ﺏ", "uni0628", "ب", None),
             ("ﺑ", "uni0628.init", "ب", Some(Form::Init)),
             ("ﺄ", "uni0623.fina", "أ", Some(Form::Fina)),

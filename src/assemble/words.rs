@@ -12,10 +12,9 @@
 //! A gap that is off by more than three times the median of all is left to itself: a slip, or a pair that was kerned.
 
 use super::features::is_arabic;
-use super::names::Form;
 use super::{Draft, Note, Side, compose};
 use crate::numeric::median::median;
-use crate::types::Outline;
+use crate::types::{Form, Outline};
 use kurbo::{Rect, Shape, Vec2};
 use nalgebra::{DMatrix, DVector};
 use schemars::JsonSchema;

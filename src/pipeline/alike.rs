@@ -1,10 +1,10 @@
 //! Letters that came out the same: one drawing in two cells, or one page cut twice.
 
 use super::letter::Letter;
-use crate::assemble::names::{self, Form};
+use crate::assemble::names;
 use crate::assemble::{Drawn, Note};
 use crate::numeric::distance::Polyline;
-use crate::types::{Label, Outline};
+use crate::types::{Form, Label, Outline};
 use kurbo::{Affine, BezPath, Point, Rect, Vec2, flatten};
 use rayon::prelude::*;
 

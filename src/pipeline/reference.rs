@@ -1,10 +1,10 @@
 //! Letters of a reference font as pictures: shaped, drawn, labelled as a project labels its cells.
 
-use crate::assemble::names::{self, Form, Identity};
+use crate::assemble::names::{self, Identity};
 use crate::numeric::cast::single;
 use crate::read::Pen;
 use crate::recognise::Sample;
-use crate::types::{Gray, Guides, Label};
+use crate::types::{Form, Gray, Guides, Label};
 use harfrust::{ShapeOptions, Shaper, ShaperData, UnicodeBuffer};
 use kurbo::{Affine, BezPath, PathEl, Point, Rect, Shape, Vec2};
 use resvg::tiny_skia::{Color, FillRule, Paint, PathBuilder, Pixmap, Transform};

@@ -1,7 +1,7 @@
 //! What a label tells about where its letter stands and how high it is.
 
-use crate::types::Label;
-use glyphs_reader::glyphdata::GlyphData;
+use crate::types::characters::spelled;
+use crate::types::{Form, Label};
 use unicode_normalization::UnicodeNormalization;
 
 /// Letters with a flat foot on the baseline, and the figures that never hang.
@@ -27,7 +27,7 @@ const ARABIC_HANGING: &str = "جحخچم";
 const ONE_PIECE: &str = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghklmnopqrstuvwxyz0123456789\
     &ÆØŒÞĐĦŁŦßæðøœþđħıłŧ\
     ΑΒΓΔΕΗΙΚΛΜΝΟΠΡΤΥΦΧΨΩАБВГДЕЖЗИКЛМНОПРСТУФХЦЧШЭЮЯабвгдежзиклмнопрстуфхцчшэюя\
-    ءاحدرسصطعلمهوىٮٯڡںھہےﻻﻼ";
+    ءاحدرسصطعلمهوىٮٯڡںھہے";
 /// Letters with a dot above, dots, or another small sign.
 const DOT_ABOVE: &str = "ijةتثخذزشضظغفقنٹٺٿڈڌڎڏڐڑڒڗژڙڞڟڠڤڦڧڨڬڭڴڱڵڷڻڽۆۇۈۉۋ";
 /// Letters and signs with a dot below or dots.
@@ -39,8 +39,8 @@ const SIGNS: &str = "ڜێ";
 /// Letters with one dot, two and three, and no other sign.
 const DOTS: [&str; 3] = ["ij!?؟بجخذزضظغفن", "تةقي", "ثشپچژڤ"];
 
-/// Names of lam-alef, the ligature without a sign.
-const LAM_ALEF: [&str; 3] = ["uni06440627", "lam_alef-ar", "لا"];
+/// Lam-alef, the ligature without a sign.
+const LAM_ALEF: [char; 2] = ['ل', 'ا'];
 
 /// Letters that differ by their signs alone, and so stand alike.
 const BODIES: [&str; 17] = [
@@ -62,9 +62,6 @@ const BODIES: [&str; 17] = [
     "وؤۆۇۈۋ",
     "يىئی",
 ];
-
-/// Endings of the names of an Arabic letter's forms.
-const FORMS: [&str; 4] = ["", "fina", "init", "medi"];
 
 /// Marks below, as Unicode parts them from their letters.
 const MARKS_BELOW: &str = "\u{655}";
@@ -161,16 +158,17 @@ pub(super) struct Shape {
 }
 
 impl Shape {
-    pub(super) fn of(label: &Label, names: &GlyphData) -> Self {
-        let (base, form) = label.0.split_once('.').unwrap_or((&label.0, ""));
-        let letter = character(base, names).or_else(|| character(&label.0, names));
-        let ligature = LAM_ALEF.contains(&base);
+    pub(super) fn of(label: &Label) -> Self {
+        let said = spelled(label.0.trim()).unwrap_or_default();
+        let form = said.form().unwrap_or(Form::Isol);
+        let letter = Some(&said.chars).filter(|c| c.len() == 1).map(|c| c[0]);
+        let ligature = said.chars == LAM_ALEF;
         let base = letter.and_then(|c| c.nfd().next());
         let any = |c: Option<char>, set: &str| c.is_some_and(|c| set.contains(c));
         let plain = base == letter;
         let pieces = match () {
             () if letter.is_some() && !plain || any(base, SIGNS) => Pieces::Marked,
-            () if any(base, SIGN_WITHIN) && matches!(form, "init" | "medi") => Pieces::Bare,
+            () if any(base, SIGN_WITHIN) && form.joins_after() => Pieces::Bare,
             () if any(base, SIGN_WITHIN) => Pieces::Within,
             () if ligature || any(base, ONE_PIECE) => Pieces::One,
             () if any(base, DOT_ABOVE) => Pieces::DotAbove,
@@ -186,11 +184,11 @@ impl Shape {
             i8::from(plain && any(base, more)) - i8::from(plain && any(base, less))
         };
         let heavy = [side(LEFT, RIGHT), side(TOP, BOTTOM)];
-        let forms = [["init", "medi"], ["medi", "fina"]];
         let arabic = letter.is_some_and(|c| ('\u{600}'..'\u{700}').contains(&c));
-        let joined = forms.map(|f| (arabic || ligature) && f.contains(&form));
+        let sides = [form.joins_after(), form.joins_before()];
+        let joined = sides.map(|side| (arabic || ligature) && side);
         let body = BODIES.iter().position(|set| arabic && any(letter, set));
-        let place = FORMS.iter().position(|f| *f == form);
+        let place = Form::ALL.iter().position(|f| *f == form);
         let foot = match () {
             () if arabic && joined[0] && any(letter, ARABIC_HANGING) => Foot::None,
             () if arabic && (joined[0] || any(letter, ARABIC_STANDING)) => Foot::Flat,
@@ -211,7 +209,7 @@ impl Shape {
         let head = heads.iter().find(|(set, _)| plain && any(base, set));
         Self {
             below,
-            body: body.zip(place).map(|(b, f)| b * FORMS.len() + f),
+            body: body.zip(place).map(|(b, f)| b * Form::ALL.len() + f),
             foot,
             head: head.map_or(Head::None, |h| h.1),
             kind: match letter {
@@ -241,20 +239,8 @@ impl Shape {
 
     /// The same number for Arabic letters that differ by their signs and forms alone.
     pub(super) fn skeleton(&self) -> Option<usize> {
-        self.body.map(|b| b / FORMS.len())
+        self.body.map(|b| b / Form::ALL.len())
     }
-}
-
-/// The character of a label without its suffix: itself, `uniXXXX`, or the name's.
-fn character(base: &str, names: &GlyphData) -> Option<char> {
-    let mut chars = base.chars();
-    if let (Some(c), None) = (chars.next(), chars.next()) {
-        return Some(c);
-    }
-    let hex = base.strip_prefix("uni").filter(|h| h.len() == 4);
-    let code = hex.and_then(|h| u32::from_str_radix(h, 16).ok());
-    let named = || names.query(base, None).and_then(|r| r.codepoint);
-    code.or_else(named).and_then(char::from_u32)
 }
 
 #[cfg(test)]
@@ -263,8 +249,7 @@ mod tests {
 
     #[test]
     fn labels_tell_how_letters_stand() {
-        let names = GlyphData::default();
-        let of = |s: &str| Shape::of(&Label(s.to_owned()), &names);
+        let of = |s: &str| Shape::of(&Label(s.to_owned()));
         for (label, foot, head) in [
             ("H", Foot::Flat, Head::Cap),
             ("É", Foot::Flat, Head::None),
@@ -277,6 +262,10 @@ mod tests {
             ("uni062C.medi", Foot::None, Head::None),
             ("uni0628.fina", Foot::Round, Head::None),
             ("alef-ar", Foot::Flat, Head::Alef),
+            ("ب.fina", Foot::Round, Head::None),
+            ("beh-ar.init.ss01", Foot::Flat, Head::None),
+            ("ﺝ", Foot::None, Head::None),
+            ("uniFE91", Foot::Flat, Head::None),
             (".notdef", Foot::None, Head::None),
         ] {
             let shape = of(label);
@@ -290,11 +279,27 @@ mod tests {
         let dots = ["uni0646.fina", "uni062A", "ñ"].map(|s| of(s).dots);
         assert_eq!(dots, [1, 2, 0]);
         assert_eq!(of("uni06440627.fina").pieces, Pieces::One);
-        let joined = ["beh-ar.init", "uni0628.medi", "uni06440627.fina", "a.fina"];
+        let joined = [
+            "beh-ar.init",
+            "uni0628.medi",
+            "uni06440627.fina",
+            "a.fina",
+            "uniFE92",
+            "beh-ar.init.ss01",
+            "ﻼ",
+        ];
         let sides = joined.map(|s| of(s).joined);
         assert_eq!(
             sides,
-            [[true, false], [true, true], [false, true], [false, false]]
+            [
+                [true, false],
+                [true, true],
+                [false, true],
+                [false, false],
+                [true, true],
+                [true, false],
+                [false, true],
+            ]
         );
     }
 }

@@ -2,7 +2,7 @@
 
 use super::layout::{Code, Layout, Place};
 use super::{TemplateError, lettering};
-use crate::types::Direction;
+use crate::types::{Direction, Form, characters};
 use kurbo::{Affine, BezPath, Circle, Line, Point, Rect, Shape, Size, Stroke, StrokeOpts, Vec2};
 use qrcode::{EcLevel, QrCode};
 
@@ -256,11 +256,10 @@ pub(super) struct Joins {
 
 /// The sides on which a joining form meets its neighbours: Arabic runs from the right.
 pub(super) fn joining(label: &str) -> Joins {
-    let is = |form| label.split('.').skip(1).any(|s| s == form);
-    let medial = is("medi");
+    let form = characters::spelled(label).and_then(|said| said.form());
     Joins {
-        left: medial || is("init"),
-        right: medial || is("fina"),
+        left: form.is_some_and(Form::joins_after),
+        right: form.is_some_and(Form::joins_before),
     }
 }
 

@@ -1,7 +1,75 @@
-//! The characters that a glyph's name stands for.
+//! The characters that a glyph's name or a label stands for.
 
+use super::Form;
 use glyphs_reader::glyphdata::GlyphData;
 use read_fonts::ps::agl;
+use std::ops::RangeInclusive;
+use unicode_normalization::UnicodeNormalization;
+
+/// Blocks of single letters' joining forms in Unicode, and of lam with alef: those of one letter stand in the order
+/// isolated, final, initial, medial.
+const PRESENTED: [RangeInclusive<char>; 3] = [
+    '\u{FE80}'..='\u{FEFC}',
+    '\u{FB50}'..='\u{FBE9}',
+    '\u{FBFC}'..='\u{FBFF}',
+];
+
+/// What a label says.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Spelled {
+    /// What its glyph draws: one character, or the parts of a ligature in reading order.
+    pub(crate) chars: Vec<char>,
+    /// The dotted parts after the first, and a presentation form's own: `["init", "ss01"]`.
+    pub(crate) suffixes: Vec<String>,
+}
+
+impl Spelled {
+    /// The joining form that a suffix names.
+    pub(crate) fn form(&self) -> Option<Form> {
+        Form::of(&self.suffixes)
+    }
+}
+
+/// A label's text without spaces around it: text or a name, with suffixes or without. `None` when no list knows it.
+pub(crate) fn spelled(label: &str) -> Option<Spelled> {
+    if let Some(chars) = literal(label) {
+        return Some(joined(chars, Vec::new()));
+    }
+    let mut parts = label.split('.');
+    let base = parts.next().unwrap_or_default();
+    let suffixes: Vec<String> = parts.map(str::to_owned).collect();
+    let chars = literal(base).or_else(|| of(base))?;
+    let is_whole = suffixes.iter().all(|s| !s.is_empty());
+    is_whole.then(|| joined(chars, suffixes))
+}
+
+/// Text that is no name as its characters: one, or several none of which a name could hold.
+pub(crate) fn literal(text: &str) -> Option<Vec<char>> {
+    let chars: Vec<char> = text.chars().collect();
+    let is_text = chars.len() == 1 || !chars.is_empty() && chars.iter().all(|c| !c.is_ascii());
+    is_text.then_some(chars)
+}
+
+/// A presentation form as its letters and the suffix of its joining form; all else as it is.
+fn joined(chars: Vec<char>, mut suffixes: Vec<String>) -> Spelled {
+    let letters = |c: char| -> Vec<char> { std::iter::once(c).nfkc().collect() };
+    let presented = match chars[..] {
+        [c] if PRESENTED.iter().any(|range| range.contains(&c)) => Some((c, letters(c))),
+        _ => None,
+    };
+    let Some((c, own)) = presented.filter(|p| p.1 != chars) else {
+        return Spelled { chars, suffixes };
+    };
+    let alike = PRESENTED.into_iter().flatten();
+    let mut forms = alike.filter(|&f| letters(f) == own).zip(Form::ALL);
+    let form = forms.find(|(f, _)| *f == c).map(|f| f.1);
+    let tag = form.filter(|f| *f != Form::Isol).map(Form::tag);
+    suffixes.extend(tag.map(str::to_owned));
+    Spelled {
+        chars: own,
+        suffixes,
+    }
+}
 
 /// The characters of a name without suffix; `None` when no list knows it.
 pub(crate) fn of(base: &str) -> Option<Vec<char>> {

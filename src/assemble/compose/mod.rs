@@ -10,10 +10,10 @@ mod place;
 mod recipes;
 
 use super::marks::{self, Place};
-use super::names::{self, Form};
+use super::names;
 use super::profile::Profile;
 use super::{Anchors, Draft, Note, Part};
-use crate::types::{Anchor, Label, Outline};
+use crate::types::{Anchor, Form, Label, Outline};
 use kurbo::{Affine, Point, Rect, Vec2};
 use recipes::{Dots, Recipe};
 use serde::{Deserialize, Serialize};

@@ -4,7 +4,7 @@
 //! Dots go by the characters that Unicode has for them in primers, U+FBB2…U+FBC1.
 
 use crate::assemble::marks::Place;
-use crate::assemble::names::Form;
+use crate::types::Form;
 use unicode_joining_type::{JoiningType, get_joining_type};
 use unicode_normalization::char::{decompose_canonical, is_combining_mark};
 

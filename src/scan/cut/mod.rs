@@ -32,6 +32,7 @@ use super::clean::Page;
 use super::components::{Component, gap};
 use super::deskew::{self, Edges};
 use super::error::{Fault, ScanError};
+use super::letters::Shape;
 use super::options::Options;
 use super::perspective::{Rows, Scene, Told};
 use super::separation::{Colour, Separation};
@@ -188,6 +189,8 @@ impl Warning {
 #[derive(Debug, Clone)]
 struct Slot {
     label: Label,
+    /// What its label tells of its letter.
+    shape: Shape,
     /// Position in reading order.
     index: usize,
     /// Row of letters that share a baseline.

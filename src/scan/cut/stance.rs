@@ -9,7 +9,6 @@ use crate::numeric::median::median;
 use crate::scan::components::Component;
 use crate::scan::letters::{Foot, Head, Kind, Pieces, Shape};
 use crate::types::Label;
-use glyphs_reader::glyphdata::GlyphData;
 use kurbo::{Point, Rect};
 
 /// A height is as wrong as can be when it is off by this share.
@@ -38,12 +37,12 @@ struct Drawn {
 }
 
 impl Drawn {
-    fn of(slot: &Slot, all: &[Component], drop: &[f64], names: &GlyphData) -> Option<Self> {
+    fn of(slot: &Slot, all: &[Component], drop: &[f64]) -> Option<Self> {
         let part = |&i: &usize| (all[i].upright, all[i].centre, all[i].area);
         let parts: Vec<_> = slot.parts.iter().map(part).collect();
         Some(Self {
             index: slot.index,
-            shape: Shape::of(&slot.label, names),
+            shape: slot.shape,
             whole: parts.iter().map(|p| p.0).reduce(|a, b| a.union(b))?,
             parts,
             baseline: slot.level + drop[slot.row],
@@ -79,11 +78,8 @@ pub(super) struct Stance {
 impl Stance {
     /// `drop` is how far each row's baseline lies below the slots' levels.
     pub(super) fn of(layer: &Layer, all: &[Component], drop: &[f64]) -> Self {
-        let names = GlyphData::default();
         let slots = layer.slots.iter();
-        let drawn: Vec<Drawn> = slots
-            .filter_map(|s| Drawn::of(s, all, drop, &names))
-            .collect();
+        let drawn: Vec<Drawn> = slots.filter_map(|s| Drawn::of(s, all, drop)).collect();
         let height = |wanted: [Head; 2]| {
             let such = drawn.iter().filter(|d| wanted.contains(&d.shape.head));
             median(such.map(|d| d.baseline - d.whole.y0))
@@ -113,8 +109,7 @@ impl Stance {
     /// A remark where a stretch of cells stands far better for the names one place before or after their own, in
     /// `labels`.
     pub(super) fn shifted(&self, labels: &[Label]) -> Option<Warning> {
-        let names = GlyphData::default();
-        let shapes: Vec<Shape> = labels.iter().map(|l| Shape::of(l, &names)).collect();
+        let shapes: Vec<Shape> = labels.iter().map(Shape::of).collect();
         let before = self.stretch(|i| shapes.get(i.checked_sub(1)?));
         let after = self.stretch(|i| shapes.get(i + 1));
         let (gain, first, last) = if before.0 > after.0 { before } else { after };

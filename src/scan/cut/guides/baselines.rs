@@ -235,7 +235,6 @@ fn pairs(points: &[(usize, f64)]) -> Vec<f64> {
 mod tests {
     use super::*;
     use crate::types::Label;
-    use glyphs_reader::glyphdata::GlyphData;
 
     impl Letter {
         /// A letter of a row that is 100 px high and ends at `foot`, px from the level.
@@ -244,7 +243,7 @@ mod tests {
             Self {
                 row,
                 level: 0.0,
-                shape: Shape::of(&Label(label.to_owned()), &GlyphData::default()),
+                shape: Shape::of(&Label(label.to_owned())),
                 body,
                 whole: body,
                 joins: Vec::new(),

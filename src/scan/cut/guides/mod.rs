@@ -15,11 +15,10 @@ use crate::scan::clean::Page;
 use crate::scan::components::Component;
 use crate::scan::cut::largest;
 use crate::scan::error::Fault;
-use crate::scan::letters::{Head, Kind, Shape};
+use crate::scan::letters::{Head, Kind};
 use crate::scan::options::{Options, Scale};
 use baselines::{Letter, OVERSHOOT, near, ruled};
 use ends::ends;
-use glyphs_reader::glyphdata::GlyphData;
 use joins::joins;
 use kurbo::Rect;
 use slopes::slopes;
@@ -51,7 +50,6 @@ pub(super) fn measure(
     options: &Options,
     upright: impl Fn(&Slot) -> View,
 ) -> Result<Guides, Fault> {
-    let names = GlyphData::default();
     let letter = |s: &Slot| {
         let (view, gray) = (upright(s), &page.sheet.gray);
         let exact = |i: &usize| {
@@ -59,7 +57,7 @@ pub(super) fn measure(
             let rough = all[*i].upright;
             (all[*i].area, Rect::new(rough.x0, top, rough.x1, bottom))
         };
-        let mut letter = letter(s, &s.parts.iter().map(exact).collect::<Vec<_>>(), &names)?;
+        let mut letter = letter(s, &s.parts.iter().map(exact).collect::<Vec<_>>())?;
         let body = &all[largest(all, &s.parts)?];
         letter.joins = joins(body, letter.shape.joined, &view);
         Some(letter)
@@ -110,8 +108,8 @@ fn slope(layer: &mut Layer, slopes: &[f64], all: &[Component]) {
 }
 
 /// A slot's letter of its parts' areas and boxes.
-fn letter(slot: &Slot, parts: &[(usize, Rect)], names: &GlyphData) -> Option<Letter> {
-    let shape = Shape::of(&slot.label, names);
+fn letter(slot: &Slot, parts: &[(usize, Rect)]) -> Option<Letter> {
+    let shape = slot.shape;
     let whole = parts.iter().map(|p| p.1).reduce(|a, b| a.union(b))?;
     let largest = parts.iter().max_by_key(|p| p.0)?.1;
     let body = match shape.kind {

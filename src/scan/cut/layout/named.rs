@@ -4,6 +4,7 @@ use crate::numeric::median::middle;
 use crate::scan::components::Component;
 use crate::scan::cut::{Reason, Slot};
 use crate::scan::error::Fault;
+use crate::scan::letters::Shape;
 use crate::types::Label;
 
 /// Ink in a place without a name counts from this share of a usual place's ink.
@@ -47,6 +48,7 @@ pub(super) fn named(
             }
             Some(label) => slots.push(Slot {
                 label: label.clone(),
+                shape: Shape::of(label),
                 index: place.index,
                 row: place.row,
                 level: place.level,

@@ -5,7 +5,6 @@ use crate::numeric::median::median;
 use crate::scan::components::Component;
 use crate::scan::cut::{Layer, gap, largest};
 use crate::scan::letters::{Pieces, Shape};
-use glyphs_reader::glyphdata::GlyphData;
 use kurbo::Rect;
 
 /// Dots are all that a letter has from this share of their usual area on: some are drawn smaller, or as one stroke.
@@ -104,9 +103,9 @@ pub(super) fn opposite(c: &Component, shape: &Shape, parts: &[usize], all: &[Com
 }
 
 /// The usual area of a dot, px²: the median of those letters of one dot that have one piece where it may be.
-pub(super) fn usual_dot(layer: &Layer, all: &[Component], names: &GlyphData) -> Option<f64> {
+pub(super) fn usual_dot(layer: &Layer, all: &[Component]) -> Option<f64> {
     let areas = layer.slots.iter().filter_map(|slot| {
-        let shape = Shape::of(&slot.label, names);
+        let shape = slot.shape;
         let (_, dots) = dots(&shape, &slot.parts, all).filter(|_| shape.dots == 1)?;
         let [dot] = dots.as_slice() else {
             return None;

@@ -5,7 +5,6 @@ use super::{REACH, is_dot};
 use crate::scan::components::Component;
 use crate::scan::cut::{Layer, Reason, Slot, gap, largest};
 use crate::scan::letters::{Pieces, Shape};
-use glyphs_reader::glyphdata::GlyphData;
 use kurbo::Rect;
 
 /// Letters without their dots, of all that have some, from which on names may have slipped.
@@ -14,9 +13,8 @@ const MANY: f64 = 0.25;
 /// Gives letters that have none of the signs which their names say what lies beside the grid, close over or under
 /// them.
 pub(in crate::scan::cut) fn reclaim(layer: &mut Layer, all: &[Component]) {
-    let names = GlyphData::default();
     for slot in &mut layer.slots {
-        let pieces = Shape::of(&slot.label, &names).pieces;
+        let pieces = slot.shape.pieces;
         let &[body] = slot.parts.as_slice() else {
             continue;
         };
@@ -45,9 +43,8 @@ pub(in crate::scan::cut) fn restore(
     all: &[Component],
     claims: &[(usize, Vec<usize>)],
 ) {
-    let names = GlyphData::default();
-    let usual = usual_dot(layer, all, &names).unwrap_or(f64::INFINITY);
-    let shape = |s: &Slot| Shape::of(&s.label, &names);
+    let usual = usual_dot(layer, all).unwrap_or(f64::INFINITY);
+    let shape = |s: &Slot| s.shape;
     let shapes: Vec<Shape> = layer.slots.iter().map(shape).collect();
     let claimed = |s: &Slot| claims.iter().any(|c| c.0 == s.index);
     let found = layer.slots.iter().zip(&shapes).enumerate();

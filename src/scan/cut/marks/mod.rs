@@ -17,9 +17,8 @@ pub(super) use small::{SMALL, groups};
 use super::{Layer, Reason, Slot, bounds, gap, largest};
 use crate::numeric::median::median;
 use crate::scan::components::Component;
-use crate::scan::letters::{Kind, Pieces, Shape};
+use crate::scan::letters::{Kind, Pieces};
 use dots::{Dots, opposite, surplus, usual_dot};
-use glyphs_reader::glyphdata::GlyphData;
 use kurbo::{Rect, Vec2};
 use pieces::{is_scattered, one_of_many, strayed};
 use std::collections::BTreeMap;
@@ -68,26 +67,25 @@ const REACH: f64 = 0.75;
 /// Takes ink smaller than a dot out of the letters that have none, and what lies where no dot does out of those that
 /// have; what a user gave to a letter stays, and so does what letters of one body have in common.
 pub(super) fn dust(layer: &mut Layer, all: &[Component], claims: &[(usize, Vec<usize>)], dot: f64) {
-    let names = GlyphData::default();
     let drawn = layer.slots.iter().map(|s| (&s.label, s.parts.as_slice()));
-    let in_pieces = in_pieces(drawn, all, &names);
+    let in_pieces = in_pieces(drawn, all);
     let stray = Stray::on(layer, all);
     let page = Usual {
         in_pieces,
-        with_specks: in_pieces || with_specks(layer, (all, &stray), &names),
+        with_specks: in_pieces || with_specks(layer, (all, &stray)),
         side: usual_side(layer, all),
-        a_dot: usual_dot(layer, all, &names),
+        a_dot: usual_dot(layer, all),
         stray,
         least: dot,
     };
     let unclaimed = |s: &Slot| claims.iter().all(|c| c.0 != s.index);
     let found = layer.slots.iter().map(|slot| {
         let asked = unclaimed(slot).then_some(slot);
-        asked.map_or_else(Vec::new, |slot| beside_letter(slot, all, &names, &page))
+        asked.map_or_else(Vec::new, |slot| beside_letter(slot, all, &page))
     });
     let found: Vec<Vec<usize>> = found.collect();
-    let mut drawn = drawn_alike(&layer.slots, &found, all, &names);
-    drawn.extend(drawn_again(&layer.slots, &found, all, &names));
+    let mut drawn = drawn_alike(&layer.slots, &found, all);
+    drawn.extend(drawn_again(&layer.slots, &found, all));
     for (slot, mut small) in layer.slots.iter_mut().zip(found) {
         small.retain(|i| !drawn.contains(i));
         slot.parts.retain(|i| !small.contains(i));
@@ -131,9 +129,9 @@ impl Stray {
 }
 
 /// What seems to be dust in a letter's cell.
-fn beside_letter(slot: &Slot, all: &[Component], names: &GlyphData, usual: &Usual) -> Vec<usize> {
+fn beside_letter(slot: &Slot, all: &[Component], usual: &Usual) -> Vec<usize> {
     let in_pieces = usual.in_pieces;
-    let (shape, parts) = (Shape::of(&slot.label, names), &slot.parts);
+    let (shape, parts) = (slot.shape, &slot.parts);
     let Some(body) = largest(all, parts) else {
         return Vec::new();
     };
@@ -187,15 +185,10 @@ fn beside_letter(slot: &Slot, all: &[Component], names: &GlyphData, usual: &Usua
 }
 
 /// What is no dust, since all letters of one body and its forms have about as much of it.
-fn drawn_alike(
-    slots: &[Slot],
-    found: &[Vec<usize>],
-    all: &[Component],
-    names: &GlyphData,
-) -> Vec<usize> {
+fn drawn_alike(slots: &[Slot], found: &[Vec<usize>], all: &[Component]) -> Vec<usize> {
     let mut bodies: BTreeMap<usize, Vec<&[usize]>> = BTreeMap::new();
     for (slot, small) in slots.iter().zip(found) {
-        if let Some(body) = Shape::of(&slot.label, names).skeleton() {
+        if let Some(body) = slot.shape.skeleton() {
             bodies.entry(body).or_default().push(small);
         }
     }
@@ -210,18 +203,13 @@ fn drawn_alike(
 }
 
 /// What is no dust, since another letter of the same body and form has as much at the same place, where it is none.
-fn drawn_again(
-    slots: &[Slot],
-    found: &[Vec<usize>],
-    all: &[Component],
-    names: &GlyphData,
-) -> Vec<usize> {
+fn drawn_again(slots: &[Slot], found: &[Vec<usize>], all: &[Component]) -> Vec<usize> {
     // each piece beside a letter's body: which it is, how far from the body's middle in heights, and whether it seems
     // to be dust
     let mut bodies: BTreeMap<usize, Vec<(usize, Vec2, bool)>> = BTreeMap::new();
     for (slot, small) in slots.iter().zip(found) {
         let main = largest(all, &slot.parts);
-        let alike = Shape::of(&slot.label, names).body;
+        let alike = slot.shape.body;
         let Some((alike, main)) = alike.zip(main) else {
             continue;
         };
@@ -247,8 +235,8 @@ fn drawn_again(
 
 /// Whether many letters of one piece have specks unlike the page's dust: then the style has them, or these are other
 /// letters than their names say.
-fn with_specks(layer: &Layer, (all, stray): (&[Component], &Stray), names: &GlyphData) -> bool {
-    let one = |s: &&Slot| Shape::of(&s.label, names).pieces == Pieces::One;
+fn with_specks(layer: &Layer, (all, stray): (&[Component], &Stray)) -> bool {
+    let one = |s: &&Slot| s.shape.pieces == Pieces::One;
     let asked = layer.slots.iter().filter(one).filter_map(|s| {
         let body = largest(all, &s.parts)?;
         let (others, main) = (s.parts.iter().filter(|&&i| i != body), &all[body]);
@@ -376,8 +364,7 @@ pub(super) fn give(
 
 /// Whether most letters of a body and dots are bodies alone.
 fn lack_dots(layer: &Layer) -> bool {
-    let names = GlyphData::default();
-    let dotted = |s: &&Slot| !s.parts.is_empty() && Shape::of(&s.label, &names).dots > 0;
+    let dotted = |s: &&Slot| !s.parts.is_empty() && s.shape.dots > 0;
     let dotted = layer.slots.iter().filter(dotted);
     let bare: Vec<bool> = dotted.map(|s| s.parts.len() == 1).collect();
     let most = bare.iter().filter(|b| **b).count();
@@ -386,7 +373,6 @@ fn lack_dots(layer: &Layer) -> bool {
 
 /// Gives pieces of ink to the letters beside which they lie and that want them.
 fn share_out(layer: &mut Layer, all: &mut Vec<Component>, small: &[Component]) {
-    let names = GlyphData::default();
     let bodies = layer.slots.iter().map(|s| largest(all, &s.parts));
     let bodies = bodies.map(|body| body.map(|i| all[i].upright));
     let bodies: Vec<Option<Rect>> = bodies.collect();
@@ -405,7 +391,7 @@ fn share_out(layer: &mut Layer, all: &mut Vec<Component>, small: &[Component]) {
         }
     }
     for (slot, pieces) in layer.slots.iter_mut().zip(wanted) {
-        let shape = Shape::of(&slot.label, &names).pieces;
+        let shape = slot.shape.pieces;
         let Some(body) = largest(all, &slot.parts) else {
             continue;
         };

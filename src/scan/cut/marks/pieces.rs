@@ -7,7 +7,6 @@ use crate::scan::components::Component;
 use crate::scan::cut::largest;
 use crate::scan::letters::{Pieces, Shape};
 use crate::types::Label;
-use glyphs_reader::glyphdata::GlyphData;
 
 /// Of a letter of many dots, which a pen draws in one piece, what lies so many times as far from the next dot as is
 /// usual is none: dots on a slope are 1.4 times as far apart as those along a line.
@@ -18,9 +17,8 @@ const STRAYED: f64 = 3.0;
 pub(in crate::scan::cut) fn in_pieces<'a>(
     letters: impl Iterator<Item = (&'a Label, &'a [usize])>,
     all: &[Component],
-    names: &GlyphData,
 ) -> bool {
-    let asked = letters.filter(|l| Shape::of(l.0, names).pieces == Pieces::One);
+    let asked = letters.filter(|l| Shape::of(l.0).pieces == Pieces::One);
     let parted = asked.filter_map(|(_, parts)| {
         let body = largest(all, parts)?;
         let mut others = parts.iter().filter(|&&i| i != body);

@@ -8,10 +8,8 @@ use super::{Layer, Slot, Warning, bounds};
 use crate::numeric::median::{median, middle};
 use crate::scan::clean::Page;
 use crate::scan::components::Component;
-use crate::scan::letters::Shape;
 use crate::scan::options::Options;
 use crate::types::Gray;
-use glyphs_reader::glyphdata::GlyphData;
 use std::ops::Range;
 
 /// A letter larger than this many usual letters may be two, or hold a line.
@@ -65,8 +63,7 @@ fn odd(
 ) -> Vec<Warning> {
     let size = |s: &Slot| bounds(all, &s.parts).map_or(0.0, |b| b.size().max_side());
     let usual = middle(slots.iter().map(|s| size(s)), f64::total_cmp).unwrap_or(0.0);
-    let names = GlyphData::default();
-    let letters = slots.iter().filter(|s| Shape::of(&s.label, &names).full);
+    let letters = slots.iter().filter(|s| s.shape.full);
     let full = middle(letters.map(|s| size(s)), f64::total_cmp).unwrap_or(0.0);
     let mut out = Vec::new();
     for slot in slots {
@@ -82,7 +79,7 @@ fn odd(
                 "its ink touches a printed line: what lies along it is left out",
             ));
         }
-        if size(slot) < SMALL * full && Shape::of(&slot.label, &names).full {
+        if size(slot) < SMALL * full && slot.shape.full {
             out.push(Warning::of(slot, SMALL_LETTER));
         }
         if size(slot) > LARGE * usual {

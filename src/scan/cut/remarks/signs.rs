@@ -8,7 +8,6 @@ use crate::numeric::median::{median, middle};
 use crate::scan::components::Component;
 use crate::scan::cut::{Slot, Warning};
 use crate::scan::letters::{Kind, Pieces, Shape};
-use glyphs_reader::glyphdata::GlyphData;
 
 /// So many letters of as many dots tell what a hand's dots are like, where this share of them have as many pieces
 /// beside their bodies.
@@ -52,8 +51,8 @@ impl Signs {
 }
 
 impl<'a> Signed<'a> {
-    fn new(slot: &'a Slot, all: &[Component], names: &GlyphData) -> Option<Self> {
-        let wanted = Signs::of(&Shape::of(&slot.label, names))?;
+    fn new(slot: &'a Slot, all: &[Component]) -> Option<Self> {
+        let wanted = Signs::of(&slot.shape)?;
         let mut drawn: Vec<f64> = slot.parts.iter().map(|&i| all[i].area as f64).collect();
         drawn.sort_by(|a, b| b.total_cmp(a));
         drawn.drain(..drawn.len().min(1));
@@ -116,8 +115,7 @@ impl Usual {
 
 /// Warns of letters with fewer or more signs than most letters whose names have as many.
 pub(super) fn warnings(slots: &[&Slot], all: &[Component]) -> Vec<Warning> {
-    let names = GlyphData::default();
-    let letters = slots.iter().filter_map(|s| Signed::new(s, all, &names));
+    let letters = slots.iter().filter_map(|s| Signed::new(s, all));
     let mut letters: Vec<Signed<'_>> = letters.collect();
     letters.sort_by_key(|l| l.wanted);
     let alike = letters.chunk_by(|a, b| a.wanted == b.wanted);

@@ -22,7 +22,6 @@ use crate::scan::error::Fault;
 use crate::scan::letters::{Pieces, Shape};
 use crate::types::{Direction, Label};
 use doubts::Unread;
-use glyphs_reader::glyphdata::GlyphData;
 use kurbo::Rect;
 use lines::Lines;
 use nearest::{Gathered, gather};
@@ -76,9 +75,8 @@ pub(super) fn place(
     let freed = freed.flat_map(|i| ruling::freed(&all[i], &task.upright));
     let freed: Vec<Component> = freed.collect();
     all.extend(freed);
-    let data = GlyphData::default();
     let known = |l: &&Label| l.0 != "_";
-    let shape = |&i: &usize| Some(&labels[i]).filter(known).map(|l| Shape::of(l, &data));
+    let shape = |&i: &usize| Some(&labels[i]).filter(known).map(Shape::of);
     let shapes: Vec<Option<Shape>> = names.iter().map(shape).collect();
     let label = |k: usize| {
         let index = names.get(k).copied().unwrap_or_default();
@@ -202,6 +200,7 @@ fn layer(rows: Vec<Row>, labels: &[Label]) -> Layer {
             match labels.get(index) {
                 Some(label) if label.0 != "_" => slots.push(Slot {
                     label: label.clone(),
+                    shape: Shape::of(label),
                     index,
                     row,
                     level: 0.0,

@@ -13,7 +13,6 @@ use crate::scan::cut::layout::named::least;
 use crate::scan::cut::layout::touching::{Along, End, Example, Meeting, Side, Touch};
 use crate::scan::letters::Shape;
 use crate::types::Label;
-use glyphs_reader::glyphdata::GlyphData;
 use kurbo::Point;
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -75,13 +74,12 @@ struct Page<'a> {
 
 impl<'a> Page<'a> {
     fn of(labels: &'a [Label], plan: &'a Plan<'a>) -> Self {
-        let data = GlyphData::default();
         let cells = plan.rows * plan.columns;
         let (mut shapes, mut open) = (vec![None; cells], vec![false; cells]);
         for (index, label) in labels.iter().enumerate().filter(|(_, l)| l.0 != "_") {
             let (row, column) = plan.place(index);
             let cell = row * plan.columns + column;
-            shapes[cell] = Some(Shape::of(label, &data));
+            shapes[cell] = Some(Shape::of(label));
             open[cell] = plan.task.claims.iter().all(|(k, _)| *k != index);
         }
         Self {

@@ -20,7 +20,6 @@ use crate::scan::error::Fault;
 use crate::scan::letters::{Pieces, Shape};
 use crate::types::Label;
 use axis::Axis;
-use glyphs_reader::glyphdata::GlyphData;
 use kurbo::{Point, Rect};
 use shared::{NEAR, Shared, neighbours, share};
 use std::slice;
@@ -56,12 +55,11 @@ pub(super) fn place(
         ..plan.clone()
     };
     let mut shared = share(all, &letters, labels, plan).ok_or(Fault::Blank)?;
-    let names = GlyphData::default();
     let label = |cell: usize| labels.get(plan.index((cell / plan.columns, cell % plan.columns))?);
-    let one_piece = |l: &Label| Shape::of(l, &names).pieces == Pieces::One;
+    let one_piece = |l: &Label| Shape::of(l).pieces == Pieces::One;
     let drawn = shared.cells.iter().enumerate();
     let drawn = drawn.filter_map(|(cell, parts)| Some((label(cell)?, parts.as_slice())));
-    let asked: Vec<usize> = if marks::in_pieces(drawn, all, &names) {
+    let asked: Vec<usize> = if marks::in_pieces(drawn, all) {
         Vec::new()
     } else {
         let cells = 0..shared.cells.len();

@@ -3,11 +3,9 @@
 use super::costs::{WITHIN, misfit};
 use super::*;
 use crate::types::Label;
-use glyphs_reader::glyphdata::GlyphData;
 
 fn shapes(names: &str) -> Vec<Option<Shape>> {
-    let data = GlyphData::default();
-    let shape = |n: &str| (n != "_").then(|| Shape::of(&Label(n.to_owned()), &data));
+    let shape = |n: &str| (n != "_").then(|| Shape::of(&Label(n.to_owned())));
     names.split(' ').map(shape).collect()
 }
 
