@@ -2,6 +2,7 @@
 
 use super::{Names, ReadError, Reading, cff::Charstrings, instance::Place, pen::Pen};
 use super::{collection, names, whole};
+use crate::types::formats::EPOCH_1904;
 use crate::types::{Component, Font, Glyph, Info, Metrics, Outline};
 use kurbo::{Affine, BezPath};
 use skrifa::instance::{Location, Size};
@@ -16,9 +17,6 @@ use skrifa::string::StringId;
 use skrifa::{FontRef, GlyphId, MetadataProvider, OutlineGlyphCollection};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
-
-/// Seconds from the epoch of font files, 1904, to that of Unix, 1970.
-const EPOCH_1904: i64 = 2_082_844_800;
 
 /// Outlines and what is rebuilt with them.
 const REBUILT: [&[u8; 4]; 7] = [

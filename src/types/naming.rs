@@ -2,9 +2,6 @@
 
 use super::Info;
 
-/// How a UFO writes a date.
-pub(crate) const UFO_DATE: &str = "%Y/%m/%d %H:%M:%S";
-
 impl Info {
     /// The version as fonts write it, `1.000`.
     pub(crate) fn version_text(&self) -> String {

@@ -9,7 +9,7 @@ use write_fonts::types::GlyphId16;
 
 /// The palette entry that stands for the text's colour ([OpenType,
 /// COLR](https://learn.microsoft.com/typography/opentype/spec/colr)).
-const FOREGROUND: u16 = 0xFFFF;
+pub(super) const FOREGROUND: u16 = 0xFFFF;
 
 /// Both tables, of a font with layers.
 pub(super) fn tables(font: &Font) -> Result<Option<(Colr, Cpal)>, WriteError> {

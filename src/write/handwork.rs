@@ -8,12 +8,13 @@
 
 use super::WriteError;
 use super::ufo::files::{bytes, failed, load};
+use super::ufo::has_layers;
 use super::ufo::states::{
     ANCHOR, CHARACTERS, FEATURES, GROUP, INFORMATION, KERNING, OUTLINE, States, font_states,
     glyph_states, information, pairs, signed,
 };
-use super::ufo::{COLOUR_KEYS, has_layers};
 use crate::types::Files;
+use crate::types::formats::{COLOUR_KEYS, GLYPH_ORDER};
 use norad::{Anchor, Font, Glyph};
 use plist::Value;
 use std::collections::BTreeSet;
@@ -128,7 +129,7 @@ impl Merge {
             }
         }
         let order = |font: &Font| -> Vec<String> {
-            let list = font.lib.get("public.glyphOrder").and_then(Value::as_array);
+            let list = font.lib.get(GLYPH_ORDER).and_then(Value::as_array);
             let names = list.into_iter().flatten().filter_map(Value::as_string);
             names.map(str::to_owned).collect()
         };
@@ -145,8 +146,7 @@ impl Merge {
                 out.lib.remove(key);
             }
         }
-        out.lib
-            .insert("public.glyphOrder".to_owned(), Value::Array(names));
+        out.lib.insert(GLYPH_ORDER.to_owned(), Value::Array(names));
         Ok(())
     }
 

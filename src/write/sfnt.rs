@@ -2,6 +2,7 @@
 
 use super::numbers::{around, count, to_i16, to_u16};
 use super::{WriteError, colour, layout, names, os2};
+use crate::types::formats::EPOCH_1904;
 use crate::types::{Font, Glyph, Info};
 use kurbo::Rect;
 use std::collections::BTreeMap;
@@ -19,9 +20,6 @@ use write_fonts::tables::post::Post;
 use write_fonts::types::{FWord, Fixed, GlyphId, LongDateTime, Tag, UfWord, Version16Dot16};
 use write_fonts::validate::Validate;
 use write_fonts::{FontBuilder, FontWrite, dump_table};
-
-/// Seconds from the epoch of font files, 1904, to that of Unix, 1970.
-const EPOCH_1904: i64 = 2_082_844_800;
 
 /// Depth and thickness of the underline, parts of the em: what most text fonts have.
 const UNDERLINE: (f64, f64) = (-0.1, 0.05);

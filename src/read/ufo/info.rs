@@ -1,7 +1,8 @@
 //! What a UFO says about itself.
 
 use crate::read::whole;
-use crate::types::{Info, Metrics, UFO_DATE};
+use crate::types::formats::{UFO_DATE, USE_TYPO_METRICS};
+use crate::types::{Info, Metrics};
 use chrono::NaiveDateTime;
 use plist::Value;
 
@@ -22,9 +23,6 @@ const READ: [&str; 14] = [
     "xHeight",
     "capHeight",
 ];
-
-/// The bit of OS/2 fsSelection that every font of ours has.
-const USE_TYPO_METRICS: u8 = 7;
 
 /// Heights of OpenType are whole: another that differs by less is the same.
 const WHOLE: f64 = 1.0;

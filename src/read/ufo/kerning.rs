@@ -2,11 +2,9 @@
 
 use super::{Named, held};
 use crate::read::{ReadError, listed};
+use crate::types::formats::KERNING_GROUPS;
 use crate::types::{Kerning, Name, label};
 use std::collections::BTreeMap;
-
-/// What the names of kerning groups begin with, for the first and the second of a pair.
-const SIDES: [&str; 2] = ["public.kern1.", "public.kern2."];
 
 /// Groups and pairs of the glyphs that are there; the prefixes of kerning groups become an `@` in a pair.
 pub(super) fn kerning(
@@ -21,7 +19,7 @@ pub(super) fn kerning(
     let mut groups = [BTreeMap::new(), BTreeMap::new()];
     let (mut others, mut absent, mut dangling) = (Vec::new(), Vec::new(), Vec::new());
     for (group, members) in &source.groups {
-        let Some(side) = SIDES.iter().position(|s| group.starts_with(s)) else {
+        let Some(side) = KERNING_GROUPS.iter().position(|s| group.starts_with(s)) else {
             others.push(group.to_string());
             continue;
         };
@@ -32,11 +30,11 @@ pub(super) fn kerning(
         let there: Vec<Name> = there.collect();
         if !there.is_empty() {
             let is_free = |name: &str| {
-                let own = format!("{}{name}", SIDES[side]);
+                let own = format!("{}{name}", KERNING_GROUPS[side]);
                 own == group.as_str()
                     || !groups[side].contains_key(name) && !source.groups.contains_key(own.as_str())
             };
-            let legal = label(&group[SIDES[side].len()..], is_free);
+            let legal = label(&group[KERNING_GROUPS[side].len()..], is_free);
             sides[side].insert(group, format!("@{legal}"));
             groups[side].insert(legal, there);
         }

@@ -5,6 +5,7 @@ mod info;
 mod kerning;
 
 use super::{Names, ReadError, Reading, begin_with_notdef, listed};
+use crate::types::formats::{BUILT, CATEGORIES, COLOUR_KEYS, GLYPH_ORDER};
 use crate::types::{Anchor, Component, Font, Glyph, Name, Outline};
 use damage::damage;
 use info::{info, unread};
@@ -14,9 +15,6 @@ use norad::{ContourPoint, PointType};
 use plist::Value;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
-
-/// Key of the lib that says which glyphs are layers of which colour.
-const COLOURS: &str = "com.github.googlei18n.ufo2ft.colorLayers";
 
 /// A glyph's name in the UFO → its name in the font.
 type Named<'a> = BTreeMap<&'a str, Name>;
@@ -47,7 +45,7 @@ pub fn ufo(folder: &Path) -> Result<Reading, ReadError> {
     lost.extend(beside(&source, &all));
     let layers = source.iter_layers().count();
     lost.extend((layers > 1).then(|| format!("{} layers beside the default one", layers - 1)));
-    let coloured = source.lib.contains_key(COLOURS);
+    let coloured = source.lib.contains_key(COLOUR_KEYS[0]);
     lost.extend(
         coloured.then(|| "colours of layers; fontmake builds them from the UFO".to_owned()),
     );
@@ -56,21 +54,13 @@ pub fn ufo(folder: &Path) -> Result<Reading, ReadError> {
 }
 
 /// Keys of libs that are read, or follow from what is.
-const ANSWERED: [&str; 4] = [
-    "public.glyphOrder",
-    COLOURS,
-    "com.github.googlei18n.ufo2ft.colorPalettes",
-    BUILT,
-];
-/// By this a build of khatt knows what it made.
-const BUILT: &str = "khatt.built";
-/// Classes of glyphs: they follow from anchors in a UFO that khatt made.
-const CLASSES: &str = "public.openTypeCategories";
+const ANSWERED: [&str; 4] = [GLYPH_ORDER, COLOUR_KEYS[0], COLOUR_KEYS[1], BUILT];
 
 /// What a UFO has beside the font, a line a kind.
 fn beside(source: &norad::Font, all: &[&norad::Glyph]) -> Vec<String> {
     let ours = source.lib.contains_key(BUILT);
-    let answered = |key: &str| ANSWERED.contains(&key) || ours && key == CLASSES;
+    // categories follow from anchors in a UFO that khatt made
+    let answered = |key: &str| ANSWERED.contains(&key) || ours && key == CATEGORIES;
     let other = |key: &&String| !answered(key);
     let keys: Vec<String> = source.lib.keys().filter(other).cloned().collect();
     let files =
@@ -102,7 +92,7 @@ fn beside(source: &norad::Font, all: &[&norad::Glyph]) -> Vec<String> {
 
 /// Glyph names in the order the UFO gives, then the others by name.
 fn order(source: &norad::Font) -> Vec<String> {
-    let given = source.lib.get("public.glyphOrder");
+    let given = source.lib.get(GLYPH_ORDER);
     let given = given.and_then(Value::as_array).into_iter().flatten();
     let given = given.filter_map(|v| v.as_string().map(str::to_owned));
     let all: BTreeSet<String> = source.iter_names().map(|n| n.to_string()).collect();

@@ -8,8 +8,12 @@ pub(super) mod files;
 pub(super) mod states;
 
 use super::WriteError;
+use super::colour::FOREGROUND;
 use super::layout;
-use crate::types::{Files, Font, Glyph, Info, Layer, UFO_DATE};
+use crate::types::formats::{
+    CATEGORIES, COLOUR_KEYS, GLYPH_ORDER, KERNING_GROUPS, UFO_DATE, USE_TYPO_METRICS,
+};
+use crate::types::{Files, Font, Glyph, Info, Layer};
 use chrono::DateTime;
 use files::{bytes, failed};
 use kurbo::{BezPath, PathEl, Point, Vec2};
@@ -19,17 +23,6 @@ use plist::{Dictionary, Value};
 
 /// Tangents that turn less than this at a point, radians, make it a smooth one: a quarter of a degree.
 const SMOOTH: f64 = 0.0044;
-
-/// Keys of the lib that hold layers and palettes.
-pub(super) const COLOUR_KEYS: [&str; 2] = [
-    "com.github.googlei18n.ufo2ft.colorLayers",
-    "com.github.googlei18n.ufo2ft.colorPalettes",
-];
-/// The palette entry that stands for the text's colour.
-const FOREGROUND: u64 = 0xFFFF;
-
-/// Bit of OS/2 fsSelection that asks programs to use the typo metrics.
-const USE_TYPO_METRICS: u8 = 7;
 
 /// The files of a UFO.
 pub(super) fn files(font: &Font) -> Result<Files, WriteError> {
@@ -55,8 +48,7 @@ fn convert(font: &Font) -> Result<norad::Font, WriteError> {
         .iter()
         .map(|g| Value::from(g.name.as_str()))
         .collect();
-    ufo.lib
-        .insert("public.glyphOrder".to_owned(), Value::Array(order));
+    ufo.lib.insert(GLYPH_ORDER.to_owned(), Value::Array(order));
     ufo.lib.extend(colours(font));
     let categories = font
         .glyphs()
@@ -65,12 +57,11 @@ fn convert(font: &Font) -> Result<norad::Font, WriteError> {
         .collect::<Dictionary>();
     if !categories.is_empty() {
         let categories = Value::Dictionary(categories);
-        ufo.lib
-            .insert("public.openTypeCategories".to_owned(), categories);
+        ufo.lib.insert(CATEGORIES.to_owned(), categories);
     }
     for (prefix, groups) in [
-        ("public.kern1.", &font.kerning.first),
-        ("public.kern2.", &font.kerning.second),
+        (KERNING_GROUPS[0], &font.kerning.first),
+        (KERNING_GROUPS[1], &font.kerning.second),
     ] {
         for (group, members) in groups {
             let members = members
@@ -86,8 +77,8 @@ fn convert(font: &Font) -> Result<norad::Font, WriteError> {
         None => name(side),
     };
     for ((first, second), &value) in &font.kerning.pairs {
-        let first = side(first, "public.kern1.")?;
-        let second = side(second, "public.kern2.")?;
+        let first = side(first, KERNING_GROUPS[0])?;
+        let second = side(second, KERNING_GROUPS[1])?;
         ufo.kerning.entry(first).or_default().insert(second, value);
     }
     Ok(ufo)
@@ -98,7 +89,7 @@ fn colours(font: &Font) -> Dictionary {
     let mut lib = Dictionary::new();
     let layered = font.glyphs().iter().filter(|g| !g.layers.is_empty());
     let layer = |layer: &Layer| {
-        let colour = layer.colour.map_or(FOREGROUND, |c| c as u64);
+        let colour = layer.colour.map_or(FOREGROUND.into(), |c| c as u64);
         Value::Array(vec![layer.glyph.as_str().into(), colour.into()])
     };
     let layers = layered.map(|g| {

@@ -1,13 +1,11 @@
 //! What the last build wrote, noted in the libs of a UFO: so the next one knows what hands have changed.
 
 use super::files::failed;
+use crate::types::formats::BUILT;
 use crate::write::WriteError;
 use norad::{Contour, Font, Glyph, Name};
 use plist::{Dictionary, Value};
 use std::collections::BTreeMap;
-
-/// Lib key of what the last build wrote.
-const BUILT: &str = "khatt.built";
 
 /// Names of things and their states as text.
 pub(in crate::write) type States = BTreeMap<String, String>;
