@@ -1,7 +1,7 @@
 //! Pieces in reading order, and the letters that they make.
 
 use super::pieces::{Piece, Tie, Usual};
-use super::reading::{Body, Reading, Role, Seen, align, unwanted};
+use super::reading::{Body, Reading, Role, Seen, Side, align, unwanted};
 use crate::scan::cut::layout::rows::beside;
 use crate::scan::cut::layout::touching::Touch;
 use crate::scan::letters::Shape;
@@ -167,10 +167,11 @@ impl<'a> Lines<'a> {
         let mut seen: Vec<Seen> = self.pieces.iter().enumerate().map(seen).collect();
         for i in 0..seen.len() {
             if let Some(to) = bodies[i].filter(|_| seen[i].full < 1.0).map(|b| b.to) {
-                let (above, within) = (self.is_above(i, to), seen[i].within);
-                seen[to].above |= above && !within;
-                seen[to].below |= !above && !within;
-                seen[to].inside |= within;
+                match (seen[i].within, self.side(i, to)) {
+                    (true, _) => seen[to].inside = true,
+                    (false, Side::Over) => seen[to].above = true,
+                    (false, Side::Under) => seen[to].below = true,
+                }
             }
         }
         seen
@@ -180,7 +181,7 @@ impl<'a> Lines<'a> {
         Body {
             off: body.off,
             before: body.to < i,
-            above: self.is_above(i, body.to),
+            sign: self.side(i, body.to),
         }
     }
 
@@ -197,9 +198,14 @@ impl<'a> Lines<'a> {
         ties.min_by(|a, b| order(a, b)).copied()
     }
 
-    /// Whether the middle of a piece lies over another's.
-    fn is_above(&self, i: usize, other: usize) -> bool {
-        self.pieces[i].bounds.center().y < self.pieces[other].bounds.center().y
+    /// On which side of another piece one lies.
+    fn side(&self, i: usize, other: usize) -> Side {
+        let middle = |i: usize| self.pieces[i].bounds.center().y;
+        if middle(i) < middle(other) {
+            Side::Over
+        } else {
+            Side::Under
+        }
     }
 
     /// The name of whose letter each piece is: parts go to the letter that lies best for them and whose name wants
@@ -214,7 +220,7 @@ impl<'a> Lines<'a> {
         left.retain(|&i| roles[i] == Role::Part);
         let cost = &|i: usize, tie: &Tie, k: usize| {
             let wish = names.get(k).copied().flatten();
-            tie.off + wish.map_or(0.0, |s| unwanted(&s, self.is_above(i, tie.to)))
+            tie.off + wish.map_or(0.0, |s| unwanted(&s, self.side(i, tie.to)))
         };
         loop {
             let owners_now = &owners;

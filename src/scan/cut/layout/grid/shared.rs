@@ -94,19 +94,15 @@ fn axes(
 ) -> Option<(Axis, Axis)> {
     let named = labels.iter().enumerate().filter(|(_, l)| l.0 != "_");
     let places: Vec<(usize, usize)> = named.map(|(i, _)| plan.place(i)).collect();
-    let fit = |pieces: &[usize], whole: bool| {
+    let range = |of: fn(&(usize, usize)) -> usize| -> Option<Range<usize>> {
+        let all = || places.iter().map(of);
+        Some(all().min()?..all().max()? + 1)
+    };
+    let extent = (range(|p| p.1)?, range(|p| p.0)?);
+    let fit = |pieces: &[usize], (columns, rows): (Range<usize>, Range<usize>)| {
         let boxes = || pieces.iter().map(|&i| all[i].upright);
         let across: Vec<_> = boxes().map(|b| (b.x0, b.x1)).collect();
         let down: Vec<_> = boxes().map(|b| (b.y0, b.y1)).collect();
-        let range = |of: fn(&(usize, usize)) -> usize| -> Option<Range<usize>> {
-            let all = || places.iter().map(of);
-            Some(all().min()?..all().max()? + 1)
-        };
-        let (columns, rows) = if whole {
-            (0..plan.columns, 0..plan.rows)
-        } else {
-            (range(|p| p.1)?, range(|p| p.0)?)
-        };
         let x = Axis::fit(&across, plan.columns, columns)?;
         let y = Axis::fit(&down, plan.rows, rows)?;
         Some((x, y))
@@ -129,12 +125,12 @@ fn axes(
         let named = places.iter().filter(|p| cells.contains(p)).count();
         (named, cells.len() - named)
     };
-    let mut ours = fit(letters, false)?;
+    let mut ours = fit(letters, extent.clone())?;
     for clean in [COUNTS, LARGE].map(above) {
-        let clean = fit(&clean, false).filter(|axes| held(axes).0 > held(&ours).0);
+        let clean = fit(&clean, extent.clone()).filter(|axes| held(axes).0 > held(&ours).0);
         ours = clean.unwrap_or(ours);
     }
-    let whole = fit(letters, true).filter(|axes| {
+    let whole = fit(letters, (0..plan.columns, 0..plan.rows)).filter(|axes| {
         let (named, others) = held(axes);
         named >= held(&ours).0 && others >= NAMELESS.max(named / 2)
     });

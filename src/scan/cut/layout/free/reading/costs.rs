@@ -1,6 +1,6 @@
 //! What it costs to take a piece for something: how badly a letter stands for its name.
 
-use super::{Role, Seen};
+use super::{Role, Seen, Side};
 use crate::scan::letters::{Foot, Pieces, Shape};
 
 /// Cost of a piece as small as a dot for the name of a letter or a figure, and for any other name: commas are small.
@@ -63,7 +63,7 @@ fn nameless(piece: &Seen, names: &[Option<Shape>], j: usize) -> impl Iterator<It
             Some(j)
         };
         let name = name.and_then(|k| names.get(k)).and_then(Option::as_ref);
-        let wish = name.map_or(0.0, |shape| unwanted(shape, body.above));
+        let wish = name.map_or(0.0, |shape| unwanted(shape, body.sign));
         let sign = (1.0 - piece.full) * wish;
         let large = if piece.within { 0.0 } else { piece.full };
         (Role::Part, OFF * body.off + PART * large + sign)
@@ -115,15 +115,10 @@ pub(super) fn misfit(piece: &Seen, shape: &Shape) -> f64 {
 }
 
 /// Cost of one more sign over or under a letter: less where its name has one there.
-#[expect(
-    clippy::fn_params_excessive_bools,
-    reason = "the side of a sign, as seen"
-)]
-pub(in crate::scan::cut::layout) fn unwanted(shape: &Shape, above: bool) -> f64 {
-    match shape.pieces {
-        Pieces::One | Pieces::Bare => SIGNS.1,
-        Pieces::DotAbove if !above => SIGNS.1,
-        Pieces::DotBelow if above => SIGNS.1,
+pub(in crate::scan::cut::layout) fn unwanted(shape: &Shape, sign: Side) -> f64 {
+    match (shape.pieces, sign) {
+        (Pieces::One | Pieces::Bare, _) => SIGNS.1,
+        (Pieces::DotAbove, Side::Under) | (Pieces::DotBelow, Side::Over) => SIGNS.1,
         _ => 0.0,
     }
 }

@@ -61,8 +61,15 @@ pub(super) struct Body {
     pub(super) off: f64,
     /// Whether it is read before its part.
     pub(super) before: bool,
-    /// Whether its part lies over its middle.
-    pub(super) above: bool,
+    /// Where its part lies.
+    pub(super) sign: Side,
+}
+
+/// Where the middle of a sign lies, by that of its letter.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in crate::scan::cut::layout) enum Side {
+    Over,
+    Under,
 }
 
 /// What a piece is.

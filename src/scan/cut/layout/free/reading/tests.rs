@@ -23,19 +23,27 @@ fn letter() -> Seen {
     }
 }
 
-/// A sign over the letter that is read before it, or after it.
-#[expect(clippy::fn_params_excessive_bools, reason = "as in `Body`")]
-fn sign(full: f64, before: bool) -> Seen {
+/// A sign over the letter that is read before it.
+fn sign(full: f64) -> Seen {
     let body = Body {
         off: 0.2,
-        before,
-        above: true,
+        before: true,
+        sign: Side::Over,
     };
     Seen {
         full,
         body: Some(body),
         ..letter()
     }
+}
+
+/// The same over the letter that is read after it.
+fn read_first(sign: Seen) -> Seen {
+    let body = sign.body.map(|body| Body {
+        before: false,
+        ..body
+    });
+    Seen { body, ..sign }
 }
 
 fn under_signs() -> Seen {
@@ -50,15 +58,15 @@ fn a_sign_is_a_part_and_a_small_letter_a_letter() {
     // alef with hamza, hamza, theh with three dots, one of them read first
     let pieces = [
         under_signs(),
-        sign(0.4, true),
+        sign(0.4),
         Seen {
             full: 0.4,
             ..letter()
         },
-        sign(0.0, false),
+        read_first(sign(0.0)),
         under_signs(),
-        sign(0.0, true),
-        sign(0.0, true),
+        sign(0.0),
+        sign(0.0),
     ];
     let reading = align(&pieces, &shapes("uni0623 uni0621 uni062B"));
     let part = Role::Part;
@@ -101,10 +109,10 @@ fn dots_say_where_a_name_was_forgotten() {
     let pieces = [
         letter(),
         noon,
-        sign(0.0, true),
+        sign(0.0),
         letter(),
         noon,
-        sign(0.0, true),
+        sign(0.0),
         letter(),
     ];
     let reading = align(&pieces, &shapes("uni062F uni0646 uni0646 uni062F"));
@@ -124,7 +132,7 @@ fn a_sign_within_its_letter_takes_no_name() {
     // kaf with its sign, as large as a letter, and qaf; the names have a letter more
     let within = Seen {
         within: true,
-        ..sign(1.0, true)
+        ..sign(1.0)
     };
     let pieces = [letter(), within, letter()];
     let reading = align(&pieces, &shapes("uni0643 uni0642"));
@@ -150,11 +158,11 @@ fn a_wide_piece_has_the_names_of_letters_that_touch() {
 #[test]
 fn names_that_fit_two_letters_alike_are_in_doubt() {
     // one of the last two is a part of the other, and nothing tells which
-    let part = |before| Seen {
+    let part = Seen {
         above: true,
-        ..sign(1.0, before)
+        ..sign(1.0)
     };
-    let pieces = [letter(), part(false), part(true)];
+    let pieces = [letter(), read_first(part), part];
     let reading = align(&pieces, &shapes("uni062F uni0646"));
     assert!(reading.agrees());
     assert_eq!(reading.doubtful(), [1]);
@@ -181,7 +189,7 @@ fn a_dot_beside_a_letter_has_no_letters_name() {
     // noon and its dot, dal; the names have a letter more
     let dot = Seen {
         slight: true,
-        ..sign(0.0, true)
+        ..sign(0.0)
     };
     let pieces = [under_signs(), dot, letter()];
     let reading = align(&pieces, &shapes("uni0646 uni0645 uni062F"));
@@ -200,9 +208,9 @@ fn a_name_without_which_the_page_is_likelier_is_spare() {
         body: Some(Body {
             off: 0.0,
             before: true,
-            above: true,
+            sign: Side::Over,
         }),
-        ..sign(0.0, true)
+        ..sign(0.0)
     };
     let pieces = [under_signs(), dot, letter()];
     let reading = align(&pieces, &shapes("uni062B uni0645 uni062F"));
