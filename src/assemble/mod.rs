@@ -180,12 +180,6 @@ impl Draft {
         }
     }
 
-    #[cfg(test)]
-    fn drawn(label: &str, contours: Vec<kurbo::BezPath>) -> Self {
-        let id = names::identify(&Label(label.to_owned())).unwrap();
-        Self::new(id, Outline::new(contours).unwrap())
-    }
-
     /// Whether it is an Arabic letter, or a ligature that begins with one.
     fn is_arabic_letter(&self) -> bool {
         let is_letter = |c: &char| features::is_arabic(*c) && c.is_alphabetic();

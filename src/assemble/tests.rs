@@ -1,6 +1,14 @@
 use super::*;
 use kurbo::BezPath;
 
+impl Draft {
+    /// Contours under a name.
+    pub(super) fn drawn(label: &str, contours: Vec<BezPath>) -> Self {
+        let id = names::identify(&Label(label.to_owned())).unwrap();
+        Self::new(id, Outline::new(contours).unwrap())
+    }
+}
+
 fn drawn(label: &str) -> Drawn {
     // a stem on a stroke that leaves it to both sides
     let shape = "M0 0L500 0L500 60L300 60L300 500L200 500L200 60L0 60Z";

@@ -184,6 +184,4 @@ fn contour(path: &BezPath, keep: Keep, effort: Effort) -> Option<Vec<Stored>> {
 }
 
 #[cfg(test)]
-mod exact;
-#[cfg(test)]
 mod tests;

@@ -345,8 +345,4 @@ fn lies_on_nothing(pixels: &[(f32, f32)], width: usize) -> bool {
 }
 
 #[cfg(test)]
-mod carriers;
-#[cfg(test)]
-mod shades;
-#[cfg(test)]
 mod tests;

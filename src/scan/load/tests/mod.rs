@@ -1,3 +1,8 @@
+//! Pictures of every kind of file.
+
+mod carriers;
+mod shades;
+
 use super::*;
 use image::imageops::invert;
 use image::{

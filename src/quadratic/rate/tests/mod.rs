@@ -1,3 +1,7 @@
+//! Bytes, places and extrema of converted outlines.
+
+mod exact;
+
 use super::{
     Rate, Strictness,
     curve::{Course, Span},

@@ -240,11 +240,7 @@ fn with_exif(jpeg: &[u8], space: u8) -> Vec<u8> {
 /// A scan in a PDF with a colour space; object 5 is a profile.
 fn pdf(image: &DynamicImage, space: &str, profile: &[u8]) -> Vec<u8> {
     let entries = format!("/ColorSpace {space} /BitsPerComponent 8");
-    tests::pdf_file(
-        &entries,
-        image.as_bytes(),
-        &[tests::pdf_stream("/N 1", profile)],
-    )
+    pdf_file(&entries, image.as_bytes(), &[pdf_stream("/N 1", profile)])
 }
 
 /// The file's own description puts the edge where it is, and its numbers as they stand do not.
@@ -395,7 +391,7 @@ fn colours_count_by_their_luminance() {
 fn files_that_do_not_say_are_refused_with_what_to_do() {
     let grey = grey(srgb);
     let mut bmp = Cursor::new(Vec::new());
-    grey.write_to(&mut bmp, image::ImageFormat::Bmp).unwrap();
+    grey.write_to(&mut bmp, ImageFormat::Bmp).unwrap();
     let table = icc(b"RGB ", b"Lab ", &[]);
     let of_ink = icc(b"CMYK", b"Lab ", &[]);
     let cases = [

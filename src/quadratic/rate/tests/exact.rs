@@ -1,9 +1,9 @@
 //! How far from the optimum: every run of points on the grid, by Dijkstra, on contours small enough.
 
-use super::curve::{Course, Curve, Keep, Node, Span};
-use super::glyf::{Pen, Stored};
-use super::search::{Effort, Otherwise, smooth};
-use super::{Strictness, least, solve};
+use crate::quadratic::rate::curve::{Course, Curve, Keep, Node, Span};
+use crate::quadratic::rate::glyf::{Pen, Stored};
+use crate::quadratic::rate::search::{Effort, Otherwise, smooth};
+use crate::quadratic::rate::{Strictness, least, solve};
 use kurbo::{BezPath, Point, Rect, Vec2};
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BinaryHeap};
