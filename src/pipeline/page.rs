@@ -6,7 +6,7 @@ use super::problem::Problem;
 use super::project::{Project, SheetTable};
 use super::watch::Stage;
 use super::world::World;
-use crate::scan::{self, Cut, Grain, Options, Pin, Reading, Turn, Warning};
+use crate::scan::{self, ColourDetail, Cut, Options, Pin, Reading, Turn, Warning};
 use crate::template::{self, Gain};
 use crate::types::{Label, Sheet};
 use std::collections::BTreeSet;
@@ -149,16 +149,16 @@ fn load(
     let _time = world.watch.enter(Stage::Load);
     let bytes = world.file(image)?;
     let name = image.display().to_string();
-    let grain = if table.ink.layers().is_empty() {
-        Grain::Blocks
+    let colours = if table.ink.layers().is_empty() {
+        ColourDetail::Blocks
     } else {
-        Grain::Pixels
+        ColourDetail::Pixels
     };
     let reading = Reading {
         polarity: table.polarity,
         tones: table.tones,
         turn,
-        grain,
+        colours,
     };
     let mut pages = scan::load(&bytes, &name, reading)?;
     let count = pages.len();

@@ -264,7 +264,9 @@ fn warnings(drawings: &[Drawing]) -> Vec<Warning> {
         }
     }
     let usual = middle(sizes.iter().map(|s| s.0), f64::total_cmp).unwrap_or(0.0);
-    let small = sizes.into_iter().filter(|s| s.0 < scan::SMALL * usual);
+    let small = sizes
+        .into_iter()
+        .filter(|s| s.0 < scan::SMALL_SHARE * usual);
     out.extend(small.map(|s| s.1));
     out.sort_by_key(|w| w.index);
     out

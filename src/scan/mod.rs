@@ -32,11 +32,11 @@ mod streaks;
 
 pub use clean::{Page, Texture, clean, clean_otherwise, grey};
 pub use cut::{Cut, Pin, Reason, Region, Rejected, Warning, cut};
-pub use cut::{SMALL, SMALL_LETTER, is_full};
+pub(crate) use cut::{SMALL_LETTER, SMALL_SHARE, is_full};
 pub use error::{Fault, ScanError};
 pub use grain::{InkGrain, grained};
 pub use ink::{Ink, Inks};
-pub use load::{Grain, Polarity, Reading, Tones, Turn, describes_light, load};
+pub use load::{ColourDetail, Polarity, Reading, Tones, Turn, describes_light, load};
 pub use options::{Layout, Options, Order, Scale};
 pub use range::{full_range, is_all_dark};
 pub use separation::Colour;

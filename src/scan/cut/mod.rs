@@ -26,7 +26,7 @@ mod stance;
 mod window;
 
 pub use pins::{Pin, Region};
-pub use remarks::{SMALL, SMALL_LETTER, is_full};
+pub(crate) use remarks::{SMALL_LETTER, SMALL_SHARE, is_full};
 
 use super::clean::Page;
 use super::components::{Component, gap};
@@ -41,7 +41,7 @@ use crate::types::{Cell, Label};
 use kurbo::{Affine, Point, Rect};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
-use sieve::{Inks, sort, speck_limit, stroke_width, telling};
+use sieve::{Sieved, sort, speck_limit, stroke_width, telling};
 use stance::Stance;
 use std::fmt;
 
@@ -259,7 +259,7 @@ fn cut_page(
 ) -> Result<(Cut, Option<Told>), Fault> {
     let gray = &page.sheet.gray;
     let (low, ink) = level::pieces(gray, page.noise);
-    let Inks {
+    let Sieved {
         letters: mut all,
         rejected: beside,
         mut small,

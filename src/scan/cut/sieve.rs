@@ -31,7 +31,7 @@ const LONG: f64 = 0.25;
 const ON_RIM: f64 = 0.8;
 
 /// A page's ink.
-pub(super) struct Inks {
+pub(super) struct Sieved {
     /// What may be letters.
     pub(super) letters: Vec<Component>,
     /// What cannot.
@@ -43,7 +43,7 @@ pub(super) struct Inks {
 }
 
 /// Parts the letters' ink from dust, from what lies beside the paper or runs along its edge, and from other inks.
-pub(super) fn sort(all: Vec<Component>, page: &Page, options: &Options) -> Result<Inks, Fault> {
+pub(super) fn sort(all: Vec<Component>, page: &Page, options: &Options) -> Result<Sieved, Fault> {
     let gray = &page.sheet.gray;
     let (found, mut beyond): (Vec<_>, Vec<_>) = all.into_iter().partition(|c| on_paper(c, page));
     let found = take_rims(found, page, &mut beyond);
@@ -66,7 +66,7 @@ pub(super) fn sort(all: Vec<Component>, page: &Page, options: &Options) -> Resul
     let borders = borders.iter().map(|c| Rejected::of(c, Reason::Border));
     let other = other.iter().map(|c| Rejected::of(c, Reason::OtherInk));
     let beyond = beyond.iter().map(|c| Rejected::of(c, Reason::OffPage));
-    Ok(Inks {
+    Ok(Sieved {
         rejected: borders.chain(other).chain(beyond).collect(),
         letters,
         small,

@@ -1,6 +1,6 @@
 //! Which light a picture swallows, block by block.
 
-use super::Grain;
+use super::ColourDetail;
 use crate::types::Colours;
 use image::DynamicImage;
 use rayon::prelude::*;
@@ -9,10 +9,10 @@ use rayon::prelude::*;
 const BLOCK: usize = 8;
 
 /// The colours of a picture that has any.
-pub(super) fn colours(image: &DynamicImage, grain: Grain) -> Option<Colours> {
-    let side = match grain {
-        Grain::Blocks => BLOCK,
-        Grain::Pixels => 1,
+pub(super) fn colours(image: &DynamicImage, detail: ColourDetail) -> Option<Colours> {
+    let side = match detail {
+        ColourDetail::Blocks => BLOCK,
+        ColourDetail::Pixels => 1,
     };
     let size = (image.width() as usize, side);
     match image {

@@ -34,7 +34,7 @@ const FLAT: f32 = 0.02;
 
 /// How closely a picture's colours are looked at.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub enum Grain {
+pub enum ColourDetail {
     /// In blocks: enough to tell pieces of ink apart. Ink is what luma says.
     #[default]
     Blocks,
@@ -67,7 +67,7 @@ pub struct Reading {
     /// How it must be turned.
     pub turn: Turn,
     /// How closely its colours are looked at.
-    pub grain: Grain,
+    pub colours: ColourDetail,
 }
 
 impl From<Polarity> for Reading {
@@ -156,7 +156,7 @@ pub fn load(bytes: &[u8], source: &str, reading: Reading) -> Result<Vec<Sheet>, 
 }
 
 /// The pictures of a file in order.
-fn pictures(bytes: &[u8], tones: Tones) -> Result<Vec<Picture>, Fault> {
+fn pictures(bytes: &[u8], tones: Tones) -> Result<Vec<Decoded>, Fault> {
     if pdf::is_pdf(bytes) {
         return pdf::pages(bytes, tones);
     }
@@ -174,7 +174,7 @@ fn pictures(bytes: &[u8], tones: Tones) -> Result<Vec<Picture>, Fault> {
 }
 
 /// A page as its file has it, upright.
-struct Picture {
+struct Decoded {
     image: DynamicImage,
     /// of the image's numbers
     light: Light,
@@ -182,12 +182,12 @@ struct Picture {
     dpi: Option<f64>,
 }
 
-fn sheet(picture: Picture, source: String, reading: Reading) -> Result<Sheet, ScanError> {
-    let Picture { image, light, dpi } = picture;
+fn sheet(page: Decoded, source: String, reading: Reading) -> Result<Sheet, ScanError> {
+    let Decoded { image, light, dpi } = page;
     let image = reading.turn.apply(image);
     let (width, height) = (image.width() as usize, image.height() as usize);
-    let mut colours = colour::colours(&image, reading.grain);
-    let mut samples = ink(image, &light, reading.grain);
+    let mut colours = colour::colours(&image, reading.colours);
+    let mut samples = ink(image, &light, reading.colours);
     let told = |shade| Guess {
         shade,
         certainty: Certainty::Sure,
@@ -228,7 +228,7 @@ pub fn describes_light(bytes: &[u8]) -> bool {
 }
 
 /// The picture as the file has it, turned upright as its orientation tag says.
-fn decode(bytes: &[u8], tones: Tones) -> Result<Picture, Fault> {
+fn decode(bytes: &[u8], tones: Tones) -> Result<Decoded, Fault> {
     let mut decoder = opened(bytes)?;
     if bytes.starts_with(b"\xff\xd8") && !header::jpeg_is_whole(bytes) {
         return Err(Fault::Truncated);
@@ -239,7 +239,7 @@ fn decode(bytes: &[u8], tones: Tones) -> Result<Picture, Fault> {
     let mut image = image.map_err(unreadable)?;
     image.apply_orientation(orientation);
     let dpi = header::dpi(bytes);
-    Ok(Picture { image, light, dpi })
+    Ok(Decoded { image, light, dpi })
 }
 
 /// What decodes a picture file that is no PDF, held to what a page may take.
@@ -280,17 +280,17 @@ fn unreadable(wrong: ImageError) -> Fault {
 }
 
 /// Ink of every pixel over white.
-fn ink(image: DynamicImage, light: &Light, grain: Grain) -> Vec<f32> {
+fn ink(image: DynamicImage, light: &Light, detail: ColourDetail) -> Vec<f32> {
     let width = image.width() as usize;
     match image {
         DynamicImage::ImageLuma8(i) => grey(i.as_raw(), light),
         DynamicImage::ImageLumaA8(i) => grey_alpha((i.as_raw(), width), light),
-        DynamicImage::ImageRgb8(i) => rgb(i.as_raw(), light, grain),
-        DynamicImage::ImageRgba8(i) => rgba((i.as_raw(), width), light, grain),
+        DynamicImage::ImageRgb8(i) => rgb(i.as_raw(), light, detail),
+        DynamicImage::ImageRgba8(i) => rgba((i.as_raw(), width), light, detail),
         DynamicImage::ImageLuma16(i) => grey(i.as_raw(), light),
         DynamicImage::ImageLumaA16(i) => grey_alpha((i.as_raw(), width), light),
-        DynamicImage::ImageRgb16(i) => rgb(i.as_raw(), light, grain),
-        other => rgba((other.into_rgba16().as_raw(), width), light, grain),
+        DynamicImage::ImageRgb16(i) => rgb(i.as_raw(), light, detail),
+        other => rgba((other.into_rgba16().as_raw(), width), light, detail),
     }
 }
 
@@ -298,9 +298,9 @@ fn grey<S: Sample>(raw: &[S], light: &Light) -> Vec<f32> {
     raw.par_iter().map(|s| 1.0 - light.grey(*s)).collect()
 }
 
-fn rgb<S: Sample>(raw: &[S], light: &Light, grain: Grain) -> Vec<f32> {
+fn rgb<S: Sample>(raw: &[S], light: &Light, detail: ColourDetail) -> Vec<f32> {
     let pixels = raw.par_chunks_exact(3);
-    pixels.map(|p| 1.0 - light.colour(p, grain)).collect()
+    pixels.map(|p| 1.0 - light.colour(p, detail)).collect()
 }
 
 fn grey_alpha<S: Sample>((raw, width): (&[S], usize), light: &Light) -> Vec<f32> {
@@ -309,9 +309,9 @@ fn grey_alpha<S: Sample>((raw, width): (&[S], usize), light: &Light) -> Vec<f32>
     over_white(pixels.collect(), width)
 }
 
-fn rgba<S: Sample>((raw, width): (&[S], usize), light: &Light, grain: Grain) -> Vec<f32> {
+fn rgba<S: Sample>((raw, width): (&[S], usize), light: &Light, detail: ColourDetail) -> Vec<f32> {
     let pixels = raw.par_chunks_exact(4);
-    let pixels = pixels.map(|p| (light.colour(&p[..3], grain), p[3].unit()));
+    let pixels = pixels.map(|p| (light.colour(&p[..3], detail), p[3].unit()));
     over_white(pixels.collect(), width)
 }
 

@@ -1,6 +1,6 @@
 //! The scans that a PDF file holds: the largest picture of each page, at its own resolution.
 
-use super::{Picture, Tones, light, profile};
+use super::{Decoded, Tones, light, profile};
 use crate::scan::error::{Fault, MAX_PIXELS};
 use hayro_syntax::Pdf;
 use hayro_syntax::object::stream::{FilterResult, ImageDecodeParams};
@@ -19,10 +19,10 @@ pub(super) fn is_pdf(bytes: &[u8]) -> bool {
 }
 
 /// The picture of each page, upright, with its resolution where it covers the page.
-pub(super) fn pages(bytes: &[u8], tones: Tones) -> Result<Vec<Picture>, Fault> {
+pub(super) fn pages(bytes: &[u8], tones: Tones) -> Result<Vec<Decoded>, Fault> {
     let pdf = Pdf::new(bytes.to_vec()).map_err(|_| fail("the PDF file cannot be read"))?;
     let pages = pdf.pages().iter().map(|p| page(p, tones));
-    let found: Vec<Picture> = pages.collect::<Result<_, _>>()?;
+    let found: Vec<Decoded> = pages.collect::<Result<_, _>>()?;
     if found.is_empty() {
         return Err(fail("the PDF file has no page"));
     }
@@ -33,7 +33,7 @@ fn fail(why: &str) -> Fault {
     Fault::Decode(why.to_owned())
 }
 
-fn page(page: &Page<'_>, tones: Tones) -> Result<Picture, Fault> {
+fn page(page: &Page<'_>, tones: Tones) -> Result<Decoded, Fault> {
     let objects = &page.resources().x_objects;
     let pictures = objects.keys().filter_map(|key| {
         let stream = objects.get::<Stream<'_>>(&key)?;
@@ -71,7 +71,7 @@ fn page(page: &Page<'_>, tones: Tones) -> Result<Picture, Fault> {
         Rotation::Flipped => image.rotate180(),
         Rotation::FlippedHorizontal => image.rotate270(),
     };
-    Ok(Picture { image, light, dpi })
+    Ok(Decoded { image, light, dpi })
 }
 
 /// Whether the parameters of its coding claim rows or columns far beyond its longer side, by which a decoder would

@@ -59,7 +59,7 @@ pub(super) fn guess(ink: &[f32], width: usize) -> Guess {
             certainty: Certainty::Sure,
         };
     }
-    let picture = Picture::new(ink, width);
+    let picture = Thresholded::new(ink, width);
     let share = |places: &[(usize, usize)]| {
         let dark = places.iter().filter(|p| picture.is_dark(**p)).count();
         dark as f32 / places.len().max(1) as f32
@@ -80,8 +80,9 @@ pub(super) fn guess(ink: &[f32], width: usize) -> Guess {
     Guess { shade, certainty }
 }
 
-/// The darkness of a picture's pixels, of which every `step`-th of every `step`-th row says enough.
-struct Picture<'a> {
+/// The darkness of a picture's pixels, of which every `step`-th of every `step`-th row says enough, and what is dark
+/// in each part.
+struct Thresholded<'a> {
     ink: &'a [f32],
     width: usize,
     height: usize,
@@ -92,7 +93,7 @@ struct Picture<'a> {
     middles: Vec<f32>,
 }
 
-impl<'a> Picture<'a> {
+impl<'a> Thresholded<'a> {
     fn new(ink: &'a [f32], width: usize) -> Self {
         let height = ink.len() / width.max(1);
         let mut new = Self {

@@ -1,6 +1,6 @@
 //! How a picture's numbers tell light.
 
-use super::{Grain, LUMA};
+use super::{ColourDetail, LUMA};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
@@ -119,12 +119,12 @@ impl Light {
     }
 
     /// What counts of red, green and blue: luminance, or the darkest of them.
-    pub(super) fn colour<S: Sample>(&self, pixel: &[S], grain: Grain) -> f32 {
+    pub(super) fn colour<S: Sample>(&self, pixel: &[S], detail: ColourDetail) -> f32 {
         let tables = pixel.iter().zip(&self.colours);
         let light = tables.map(|(s, table)| table[usize::from(s.level())]);
-        match grain {
-            Grain::Blocks => light.zip(self.weights).map(|(v, w)| v * w).sum(),
-            Grain::Pixels => light.fold(1.0, f32::min),
+        match detail {
+            ColourDetail::Blocks => light.zip(self.weights).map(|(v, w)| v * w).sum(),
+            ColourDetail::Pixels => light.fold(1.0, f32::min),
         }
     }
 }

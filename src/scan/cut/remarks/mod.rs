@@ -16,9 +16,9 @@ use std::ops::Range;
 const LARGE: f64 = 2.5;
 
 /// A letter smaller than this share of the usual one may be a blot, or a part of one.
-pub const SMALL: f64 = 0.3;
+pub(crate) const SMALL_SHARE: f64 = 0.3;
 /// What is said of it.
-pub const SMALL_LETTER: &str =
+pub(crate) const SMALL_LETTER: &str =
     "it is far smaller than the usual letter: is the rest of it missing, or is this a blot?";
 
 /// Ink that comes so near to the baseline of the row below, as a share of the rows' distance, reaches it: letters
@@ -26,8 +26,7 @@ pub const SMALL_LETTER: &str =
 const REACH: f64 = 0.15;
 
 /// Whether a character is as large as most are: letters and figures; no marks, no hamza, no punctuation.
-#[must_use]
-pub fn is_full(c: char) -> bool {
+pub(crate) fn is_full(c: char) -> bool {
     c.is_alphanumeric() && c != 'ء'
 }
 
@@ -79,7 +78,7 @@ fn odd(
                 "its ink touches a printed line: what lies along it is left out",
             ));
         }
-        if size(slot) < SMALL * full && slot.shape.full {
+        if size(slot) < SMALL_SHARE * full && slot.shape.full {
             out.push(Warning::of(slot, SMALL_LETTER));
         }
         if size(slot) > LARGE * usual {

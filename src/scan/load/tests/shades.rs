@@ -56,7 +56,7 @@ fn picture([paper, ink]: [[f64; 3]; 2], light: Light, table: Option<(f64, f64)>)
 /// The sheet of a picture.
 fn read(picture: RgbImage, polarity: Polarity) -> Sheet {
     sheet(
-        Picture {
+        Decoded {
             image: DynamicImage::ImageRgb8(picture),
             light: Tones::Linear.light().unwrap(),
             dpi: None,
