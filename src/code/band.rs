@@ -3,6 +3,7 @@
 use super::places::{extent, place};
 use super::tube::Tube;
 use super::{Bounds, Kind, Width};
+use crate::numeric::turns::angle;
 use crate::numeric::{cast, qbc::Pull};
 use kurbo::Point;
 use std::collections::BTreeMap;
@@ -210,7 +211,7 @@ fn admissible(boundary: &[Point], bounds: Bounds) -> Vec<f64> {
             boundary[(i + REACH) % n],
         );
         let (u, v) = (b - a, c - b);
-        u.cross(v).atan2(u.dot(v)).abs()
+        angle(u, v).abs()
     };
     let part = |i: usize| (turn(i) / std::f64::consts::FRAC_PI_2).min(1.0);
     (0..n)

@@ -18,6 +18,7 @@ use super::{
     beside::{Corners, clearance_px},
     calm::calm,
 };
+use crate::numeric::turns::angle;
 use crate::{numeric::side::Meeting, types::Contour};
 use kurbo::{Line, ParamCurveNearest, Point};
 use serde::{Deserialize, Serialize};
@@ -100,7 +101,7 @@ impl Sides {
                     p[i] - along(p, i, n - 1, reach),
                     along(p, i, 1, reach) - p[i],
                 );
-                a.cross(b).atan2(a.dot(b)).abs().to_degrees()
+                angle(a, b).abs().to_degrees()
             })
             .collect();
         let peak = |i: usize| {

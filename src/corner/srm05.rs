@@ -18,6 +18,7 @@
 //! measure how much.
 
 use super::Detector;
+use crate::numeric::turns::angle;
 use crate::types::Contour;
 use kurbo::{Point, Vec2};
 use serde::{Deserialize, Serialize};
@@ -180,7 +181,7 @@ fn opening(points: &[Point], i: usize, reach: f64) -> f64 {
 
 /// Eq. 2.5: the angle between two vectors, 0…π.
 fn between(a: Vec2, b: Vec2) -> f64 {
-    a.cross(b).atan2(a.dot(b)).abs()
+    angle(a, b).abs()
 }
 
 #[cfg(test)]

@@ -3,6 +3,7 @@
 //! Rounded one by one, handles of 20 units turn against each other by up to 4°. Of the grid points around both the
 //! pair is taken that is nearest to where they were and to being collinear; beside a line there is one to choose.
 
+use crate::numeric::turns::angle;
 use kurbo::{PathEl, Point, Vec2};
 
 /// Directions that differ by less are one, radians: what outlines call a smooth join.
@@ -24,7 +25,7 @@ struct Side {
 pub(super) fn keep(path: &[PathEl], rounded: &mut [PathEl]) {
     for (node, [before, after]) in joins(path) {
         let (u, v) = (node - before.at, after.at - node);
-        let bent = u.cross(v).atan2(u.dot(v)).abs();
+        let bent = angle(u, v).abs();
         let on_grid = [node, before.at, after.at].iter().all(|p| p.round() == *p);
         if bent > SMOOTH || on_grid || u.hypot() * v.hypot() < 1e-9 {
             continue;
@@ -80,7 +81,7 @@ fn cost(u: Vec2, v: Vec2) -> f64 {
     if u.hypot2() < 0.5 || v.hypot2() < 0.5 {
         return f64::INFINITY;
     }
-    (u.cross(v).atan2(u.dot(v)) / TURN).powi(2)
+    (angle(u, v) / TURN).powi(2)
 }
 
 /// What it costs that a handle is not where it was.
@@ -150,6 +151,7 @@ fn joins(path: &[PathEl]) -> Vec<(Point, [Side; 2])> {
 #[cfg(test)]
 mod tests {
     use super::super::round::outline;
+    use super::angle;
     use crate::types::Outline;
     use kurbo::{BezPath, PathEl, Point, Vec2};
     use proptest::prelude::{prop_assert, proptest};
@@ -190,7 +192,7 @@ mod tests {
         let turns = (0..4).map(|k| {
             let (b, n, a) = (is[3 * k + 1], is[3 * k + 2], is[(3 * k + 3) % 12]);
             let (u, v) = (n - b, a - n);
-            u.cross(v).atan2(u.dot(v)).abs().to_degrees()
+            angle(u, v).abs().to_degrees()
         });
         (turns.fold(0.0, f64::max), moved)
     }

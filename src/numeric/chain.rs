@@ -6,6 +6,7 @@
 //! handles stay collinear and extrema upright.
 
 use super::curves::{arriving, leaving};
+use super::turns::angle;
 use kurbo::{BezPath, CubicBez, PathEl, Point, Vec2};
 use std::ops::Range;
 
@@ -323,7 +324,7 @@ fn node_between(
     let level = if line { turn.min(LEVEL_LINE) } else { turn };
     let join = if before.is_none() || after.is_none() {
         Join::End
-    } else if !curved || arrive.cross(leave).atan2(arrive.dot(leave)).abs() >= turn {
+    } else if !curved || angle(arrive, leave).abs() >= turn {
         Join::Corner
     } else if leave.y.abs() < level && arrive.y.abs() < level {
         Join::Horizontal

@@ -2,6 +2,7 @@
 //! smooth nodes that turn at once.
 
 use super::chain::{Chain, Join, Kind, Node};
+use super::turns::angle;
 use kurbo::common::solve_quadratic;
 use kurbo::{CubicBez, ParamCurve, ParamCurveDeriv, Vec2};
 
@@ -176,9 +177,7 @@ pub fn is_soft(chain: &Chain, i: usize) -> bool {
     let (before, after) = (chain.before(i), chain.after(i));
     let node = &chain.nodes[i];
     let (u, v) = (direction(before, node.arrive), direction(after, node.leave));
-    node.join == Join::Corner
-        && (curved(before) || curved(after))
-        && u.cross(v).atan2(u.dot(v)).abs() < SOFT
+    node.join == Join::Corner && (curved(before) || curved(after)) && angle(u, v).abs() < SOFT
 }
 
 /// Makes a corner smooth, level or upright if it is so already but for a little.
@@ -209,7 +208,7 @@ pub fn aim(chain: &mut Chain, i: usize, hidden_px: f64) {
     let (before, after) = (curve(chain.before(i)), curve(chain.after(i)));
     let node = chain.nodes[i];
     let turns = |along: Vec2, handle: f64, on: Vec2| {
-        let turn = along.cross(on).atan2(along.dot(on)).abs();
+        let turn = angle(along, on).abs();
         (handle < hidden_px && turn > AT_ONCE.1).then(|| on / on.hypot())
     };
     let (p, third) = (node.point, |c: CubicBez| c.p0.distance(c.p3) / 3.0);

@@ -1,5 +1,6 @@
 //! The two sides of a corner: lines or parabolas through the points beside it, and where they meet.
 
+use super::turns::angle;
 use kurbo::{Point, Vec2};
 use nalgebra::{Matrix3, Vector3};
 
@@ -165,7 +166,7 @@ impl Side {
         }
         let apex = self.point(a).midpoint(after.point(b));
         let (u, v) = (self.tangent(a), after.tangent(b));
-        let turn = u.cross(v).atan2(u.dot(v));
+        let turn = angle(u, v);
         let noise = self.noise(a).hypot(after.noise(b)) / 2.0 / (turn / 2.0).cos().max(0.1);
         let met = self.point(a).distance(after.point(b)) < 1e-3 && apex.distance(near) <= reach;
         met.then_some(Meeting { apex, turn, noise })

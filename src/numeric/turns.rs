@@ -34,6 +34,12 @@ pub struct Straight {
     pub flat: f64,
 }
 
+/// The angle from one direction to another, −π…π radians, left positive; 0 where one of them is none.
+#[must_use]
+pub fn angle(from: Vec2, to: Vec2) -> f64 {
+    from.cross(to).atan2(from.dot(to))
+}
+
 /// Points of a run that are looked at when a broken line is put together: all of them would make the work
 /// grow with the square of the breaks. The whole line is looked at once, at the end.
 const SAMPLES: usize = 32;
@@ -126,7 +132,7 @@ impl<'a> Walk<'a> {
     pub fn turns(&self, reach: f64) -> Vec<f64> {
         let turn = |i: usize| {
             let (a, b) = self.chords(i, reach);
-            a.cross(b).atan2(a.dot(b))
+            angle(a, b)
         };
         (0..self.points.len()).map(turn).collect()
     }

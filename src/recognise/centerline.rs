@@ -14,6 +14,7 @@
 use super::skeleton::{Pruning, Skeleton, Stroke};
 use super::spline::{Data, Knots, Spline};
 use crate::numeric::cast::index;
+use crate::numeric::turns::angle;
 use crate::types::{Bitmap, Centerline, Gray, PenLine, Span};
 use kurbo::{BezPath, CubicBez, Point, Vec2};
 
@@ -300,7 +301,7 @@ impl Way {
                 return 0.0;
             };
             let (v, w) = (self.middles[i].0 - a, b - self.middles[i].0);
-            v.cross(w).atan2(v.dot(w)).abs()
+            angle(v, w).abs()
         };
         let turns: Vec<f64> = (0..n).map(turn).collect();
         let highest = |&i: &usize| {

@@ -10,6 +10,7 @@
 //! arc length and turning evenly, where its conclusion speaks of inverse chord lengths
 //! Cost     O(N k² + n k²) a curve      Fails  `None` with fewer points than control points
 
+use crate::numeric::turns::angle;
 use crate::numeric::{bspline::Basis, skyline::Skyline};
 use kurbo::{CubicBez, Point, Vec2};
 
@@ -218,5 +219,5 @@ fn turn(Data { points, closed, .. }: Data<'_>, i: usize) -> f64 {
         return 0.0;
     };
     let (v, w): (Vec2, Vec2) = (b - a, c - b);
-    v.cross(w).atan2(v.dot(w)).abs() / WINDOW as f64
+    angle(v, w).abs() / WINDOW as f64
 }

@@ -8,6 +8,7 @@ use super::{
     curves::{arriving, leaving},
     residual::{Blot, Residual},
 };
+use crate::numeric::turns::angle;
 use crate::types::{Contour, Gray};
 use kurbo::{CubicBez, Point, Vec2};
 
@@ -59,7 +60,7 @@ pub(super) fn undrawn(residual: &Residual<'_>, path: &[CubicBez]) -> Vec<Point> 
     let corners = path.iter().zip(before).filter_map(|(after, before)| {
         let (u, v) = (arriving(before), leaving(after));
         let (long, more) = LONG_PX;
-        let tip = 1.0 / (u.cross(v).atan2(u.dot(v)) / 2.0).cos() - 1.0;
+        let tip = 1.0 / (angle(u, v) / 2.0).cos() - 1.0;
         let limit = limit.min((long + more * residual.lens_px()) / tip);
         let part = round(residual, after.p0, (u, v), limit)?;
         (part > 1.0).then_some(after.p0)
@@ -76,7 +77,7 @@ fn limit(residual: &Residual<'_>) -> f64 {
 /// How much of the ink that an arc of `radius` px would leave out of a corner is lacking, as a part; negative where
 /// there is too much. Nothing where the turn is too small to tell.
 fn round(residual: &Residual<'_>, at: Point, (u, v): (Vec2, Vec2), radius: f64) -> Option<f64> {
-    let turn = u.cross(v).atan2(u.dot(v));
+    let turn = angle(u, v);
     let inwards = v.normalize() - u.normalize();
     (turn.abs() >= TELLING && inwards.hypot() > 1e-9).then(|| {
         let inwards = inwards.normalize();

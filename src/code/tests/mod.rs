@@ -3,6 +3,7 @@ mod words;
 
 use super::{Bounds, Closing, Code, CodeError, Kind, Steps, Width, distortion, encode};
 use crate::numeric::qbc::Pull;
+use crate::numeric::turns::angle;
 use kurbo::Point;
 
 /// The boundary pixels of a three-lobed shape, 8-connected.
@@ -145,7 +146,7 @@ fn rings_need_fewer_bits_and_have_no_corner() {
         );
         let n = ring.curve.len();
         let [before, after] = [[n - 2, n - 1], [0, 1]].map(|[i, j]| ring.curve[j] - ring.curve[i]);
-        let turn = before.cross(after).atan2(before.dot(after)).abs();
+        let turn = angle(before, after).abs();
         assert!(
             kind == Kind::Polygon || turn < 0.1,
             "{kind:?}: a turn of {turn} where it begins"

@@ -2,6 +2,7 @@
 
 use super::candidate::Candidate;
 use super::samples::Samples;
+use crate::numeric::turns::angle;
 use crate::numeric::{
     chain::Join,
     powers::{LANES, Powers},
@@ -99,8 +100,7 @@ impl Lines {
                 if c.join == Join::End {
                     return 0.0;
                 }
-                let off = direction.cross(c.heading).atan2(direction.dot(c.heading))
-                    / slack(c.join).max(0.5 * TURN);
+                let off = angle(direction, c.heading) / slack(c.join).max(0.5 * TURN);
                 0.5 * off * off
             })
             .sum();

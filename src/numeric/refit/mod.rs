@@ -15,6 +15,7 @@ mod tests;
 use super::chain::{Chain, Join, Kind};
 use super::powers::{LANES, Powers};
 use super::skyline::Skyline;
+use super::turns::angle;
 use kurbo::{Point, Vec2};
 use moments::{Moments, Term};
 use std::{
@@ -534,7 +535,7 @@ fn unhook(chain: &mut Chain) {
         let (a, b) = chain.ends(i);
         let chord = chain.direction(i);
         let within = |d: Vec2| {
-            let turn = chord.cross(d).atan2(chord.dot(d));
+            let turn = angle(chord, d);
             if turn.abs() <= HOOK {
                 return d;
             }

@@ -1,6 +1,7 @@
 //! A contour as spans between the nodes that must stay, each sampled evenly by arc length.
 
 use super::glyf::Stored;
+use crate::numeric::turns::angle;
 use crate::numeric::{cast::index, curves};
 use kurbo::{BezPath, ParamCurve, ParamCurveDeriv, PathSeg, Point, Vec2};
 
@@ -111,7 +112,7 @@ impl Course {
                 direction(&segs[(i + n - 1) % n], 1.0),
                 direction(&segs[i], 0.0),
             );
-            a.cross(b).atan2(a.dot(b)).abs()
+            angle(a, b).abs()
         };
         let corner: Vec<bool> = (0..n).map(|i| turn(i) > keep.corner_rad).collect();
         let line = |i: usize| is_line(&segs[i % n]) && control_length(&segs[i % n]) > keep.line;
@@ -249,10 +250,7 @@ impl Curve {
 
     fn bend(&mut self) {
         let n = self.dots.len();
-        let turn = |curve: &Self, i: usize, j: usize| {
-            let (t, u) = (curve.dots[i].t, curve.dots[j].t);
-            t.cross(u).atan2(t.dot(u))
-        };
+        let turn = |curve: &Self, i: usize, j: usize| angle(curve.dots[i].t, curve.dots[j].t);
         for i in 0..n {
             let (a, b) = (i.saturating_sub(1), (i + 1).min(n - 1));
             self.dots[i].k = turn(self, a, b) / (self.step * (b - a) as f64);

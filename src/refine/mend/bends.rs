@@ -1,6 +1,7 @@
 //! Bends too tight for a lens to tell from corners, and the corners in their place.
 
 use super::side::{HOOKED, behind, reversed, unit};
+use crate::numeric::turns::angle;
 use crate::{
     numeric::chain::{Chain, Join, Node},
     refine::curves::arriving,
@@ -42,7 +43,7 @@ pub(super) fn tight_bends(chain: &Chain, chords: &[Point]) -> Vec<Point> {
         let (u, v) = (b - a, d - c);
         // one of less than an eighth of a round, as nearly all are, is told without an arctangent
         let little = u.cross(v).abs() < u.dot(v);
-        if !little && u.cross(v).atan2(u.dot(v)).abs() > TURN {
+        if !little && angle(u, v).abs() > TURN {
             // the nearer its two sides come, the nearer is the middle of a bend
             found.push((b.distance(c), way.at(gone)));
         }
@@ -148,7 +149,7 @@ pub(super) fn is_sharp(chain: &Chain, i: usize) -> bool {
     let (u, v) = (arriving(&before), arriving(&after));
     let leads = |c: &CubicBez, end: Vec2| {
         let last = c.p3 - c.eval(1.0 - behind(c, SIDE_PX));
-        last.cross(end).atan2(last.dot(end)).abs() < HOOKED
+        angle(last, end).abs() < HOOKED
     };
     (-u.cross(v)).atan2(-u.dot(v)).abs() > SHARP && leads(&before, u) && leads(&after, v)
 }

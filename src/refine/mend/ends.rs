@@ -1,6 +1,7 @@
 //! Corners whose ends are cut off by a short line, as some designers draw them, and those that are rounds.
 
 use super::side::unit;
+use crate::numeric::turns::angle;
 use crate::{
     numeric::chain::{Chain, Join},
     refine::{
@@ -8,7 +9,7 @@ use crate::{
         residual::{Blot, Residual},
     },
 };
-use kurbo::{Point, Vec2};
+use kurbo::Point;
 use std::ops::Range;
 
 /// What of a corner's end the pixels are asked about, px along each side.
@@ -46,8 +47,8 @@ pub(super) fn is_blunt(chain: &Chain, i: usize) -> bool {
         return false;
     };
     let line = b.point - a.point;
-    let first = turn(arriving(&chain.cubic(before)), line);
-    let last = turn(line, leaving(&chain.cubic(after)));
+    let first = angle(arriving(&chain.cubic(before)), line);
+    let last = angle(line, leaving(&chain.cubic(after)));
     LINE_PX.contains(&line.hypot()) && first * last > 0.0 && first.abs().min(last.abs()) > TURN
 }
 
@@ -74,8 +75,4 @@ pub(super) fn square(chain: &mut Chain, i: usize) -> Option<()> {
 pub(super) fn is_round(chain: &Chain, at: Point) -> bool {
     let mut corners = chain.nodes.iter().filter(|n| n.join == Join::Corner);
     corners.all(|n| n.point.distance(at) > ROUND_PX)
-}
-
-fn turn(u: Vec2, v: Vec2) -> f64 {
-    u.cross(v).atan2(u.dot(v))
 }

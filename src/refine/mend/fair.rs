@@ -2,6 +2,7 @@
 
 use super::tips::is_needle;
 use crate::numeric::chain::Chain;
+use crate::numeric::turns::angle;
 use kurbo::{ParamCurve, Vec2};
 
 /// A smooth node does not turn by more than this, radians, in such a part of both its curves.
@@ -35,14 +36,14 @@ fn turn(chain: &Chain, i: usize) -> f64 {
     let (before, after) = (chain.cubic(before), chain.cubic(after));
     let p = chain.nodes[i].point;
     let (u, v) = (p - before.eval(1.0 - BESIDE), after.eval(BESIDE) - p);
-    u.cross(v).atan2(u.dot(v)).abs()
+    angle(u, v).abs()
 }
 
 /// Whether a segment goes from its start to its end without hooks.
 fn runs_on(chain: &Chain, i: usize) -> bool {
     let c = chain.cubic(i);
     let chord = c.p3 - c.p0;
-    let off = |v: Vec2| v.cross(chord).atan2(v.dot(chord)).abs();
+    let off = |v: Vec2| angle(v, chord).abs();
     let (start, end) = (c.p1 - c.p0, c.p3 - c.p2);
     let within = |v: Vec2| off(v) < HOOK && v.dot(chord) <= PAST * chord.hypot2();
     chord.hypot() >= SHORT_PX

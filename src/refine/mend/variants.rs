@@ -3,6 +3,7 @@
 use super::bends::meeting;
 use super::side::{HOOKED, behind, reversed, unit};
 use super::tips::tip;
+use crate::numeric::turns::angle;
 use crate::{
     numeric::{
         chain::{Chain, Join, Kind, Node},
@@ -101,8 +102,8 @@ fn sharp(chain: &Chain, i: usize) -> Chain {
 
 /// By how much the directions of a node differ from another's, radians.
 fn turning(a: &Node, b: &Node) -> f64 {
-    let turn = |u: Vec2, v: Vec2| u.cross(v).atan2(u.dot(v)).abs();
-    turn(a.arrive, b.arrive).max(turn(a.leave, b.leave))
+    let [before, after] = [angle(a.arrive, b.arrive), angle(a.leave, b.leave)];
+    before.abs().max(after.abs())
 }
 
 /// With a curve in place of a line, or a line in place of a curve.

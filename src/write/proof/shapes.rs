@@ -1,6 +1,7 @@
 //! What shows the quality of an outline: curvature comb, extrema, corners, deviation from the scan.
 
 use super::draw::{dot, stroke};
+use crate::numeric::turns::angle;
 use crate::types::{Info, Outline};
 use kurbo::{CubicBez, ParamCurve, ParamCurveCurvature, ParamCurveDeriv, PathSeg, Point, Vec2};
 
@@ -76,7 +77,7 @@ fn joints(outline: &Outline) -> Vec<(Point, Vec2, Vec2)> {
 }
 
 fn turn_deg(a: Vec2, b: Vec2) -> f64 {
-    a.cross(b).atan2(a.dot(b)).abs().to_degrees()
+    angle(a, b).abs().to_degrees()
 }
 
 /// A dot at each joint that is of a kind.

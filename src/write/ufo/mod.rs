@@ -10,6 +10,7 @@ pub(super) mod states;
 use super::WriteError;
 use super::colour::FOREGROUND;
 use super::layout;
+use crate::numeric::turns::angle;
 use crate::types::formats::{
     CATEGORIES, COLOUR_KEYS, GLYPH_ORDER, KERNING_GROUPS, UFO_DATE, USE_TYPO_METRICS,
 };
@@ -256,7 +257,7 @@ fn mark_smooth(points: &mut [ContourPoint]) {
                 return false;
             };
             let (into, out) = (here - before, after - here);
-            let turn = into.cross(out).atan2(into.dot(out)).abs();
+            let turn = angle(into, out).abs();
             !off && (a || b) && into.hypot() > 0.0 && out.hypot() > 0.0 && turn < SMOOTH
         })
         .collect();

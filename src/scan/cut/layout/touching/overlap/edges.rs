@@ -7,6 +7,7 @@ use super::parabola::Parabola;
 use super::shape::{Ink, filled};
 use super::{Field, SPACING};
 use crate::numeric::cast::index;
+use crate::numeric::turns::angle;
 use crate::scan::cut::layout::touching::{Border, Meeting};
 use kurbo::{Point, Vec2};
 
@@ -413,9 +414,4 @@ impl Lie {
             extent: [all.extent[0].min(v), all.extent[1].max(v)],
         })
     }
-}
-
-/// The angle from one way to another, to the left, radians.
-pub(super) fn angle(a: Vec2, b: Vec2) -> f64 {
-    a.cross(b).atan2(a.dot(b))
 }

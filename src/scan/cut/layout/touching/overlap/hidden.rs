@@ -1,6 +1,7 @@
 //! Two ends of edges → how one letter's edge may go on from the first to the second beneath another one's ink.
 
-use super::edges::{End, angle};
+use super::edges::End;
+use crate::numeric::turns::angle;
 use kurbo::{CubicBez, ParamCurve, Point, Vec2};
 use std::f64::consts::FRAC_PI_2;
 
