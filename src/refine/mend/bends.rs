@@ -115,15 +115,10 @@ pub(super) fn cornered(chain: &Chain, p: Point, px: f64) -> Option<Chain> {
     let after = chain.cubic(b).subsegment(tb..1.0);
     let u = unit(before.deriv().eval(1.0).to_vec2());
     let v = unit(after.deriv().eval(0.0).to_vec2());
-    let (point, on, back) = meeting((before.p3, u), (after.p0, v));
-    let corner = Node {
-        point,
-        join: Join::Corner,
-        arrive: u,
-        leave: v,
-        back: before.p2.distance(before.p3) + on,
-        ahead: after.p0.distance(after.p1) + back,
-    };
+    let corner = corner(
+        (before.p3, u, before.p2.distance(before.p3)),
+        (after.p0, v, after.p0.distance(after.p1)),
+    );
     let mut out = chain.clone();
     out.nodes[a].ahead = before.p0.distance(before.p1);
     out.nodes[b + 1].back = after.p2.distance(after.p3);
@@ -154,17 +149,25 @@ pub(super) fn is_sharp(chain: &Chain, i: usize) -> bool {
     (-u.cross(v)).atan2(-u.dot(v)).abs() > SHARP && leads(&before, u) && leads(&after, v)
 }
 
-/// Where two rays meet, the second one backwards, and how far along each; halfway between their starts where they do
-/// not.
-pub(super) fn meeting((p, u): (Point, Vec2), (q, v): (Point, Vec2)) -> (Point, f64, f64) {
+/// The corner where two sides meet, each carried on from a place, in a direction, with a handle so long; halfway
+/// between the places where they do not.
+pub(super) fn corner((p, u, back): (Point, Vec2, f64), (q, v, ahead): (Point, Vec2, f64)) -> Node {
     let gap = q - p;
     let cross = u.cross(v);
-    let (on, back) = (gap.cross(v) / cross, -gap.cross(u) / cross);
+    let (on, off) = (gap.cross(v) / cross, -gap.cross(u) / cross);
     let far = AHEAD * gap.hypot();
-    if (0.0..far).contains(&on) && (0.0..far).contains(&back) {
-        (p + on * u, on, back)
+    let (point, on, off) = if (0.0..far).contains(&on) && (0.0..far).contains(&off) {
+        (p + on * u, on, off)
     } else {
         (p.midpoint(q), 0.0, 0.0)
+    };
+    Node {
+        point,
+        join: Join::Corner,
+        arrive: u,
+        leave: v,
+        back: back + on,
+        ahead: ahead + off,
     }
 }
 

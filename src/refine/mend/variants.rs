@@ -1,6 +1,6 @@
 //! Other structures of a few nodes: what a drawing may have where another was fit.
 
-use super::bends::meeting;
+use super::bends::corner;
 use super::side::{HOOKED, behind, reversed, unit};
 use super::tips::tip;
 use crate::numeric::turns::angle;
@@ -232,15 +232,7 @@ fn met(chain: &Chain, i: usize, j: usize) -> Chain {
         Kind::Cubic => own,
     };
     let (u, v) = (along(i - 1, a.arrive), along(j, b.leave));
-    let (point, on, back) = meeting((a.point, u), (b.point, v));
-    let corner = Node {
-        point,
-        join: Join::Corner,
-        arrive: u,
-        leave: v,
-        back: a.back + on,
-        ahead: b.ahead + back,
-    };
+    let corner = corner((a.point, u, a.back), (b.point, v, b.ahead));
     out.nodes.splice(i..=j, [corner]);
     out.kinds.drain(i..j);
     out
