@@ -33,17 +33,14 @@ pub struct Pin {
 
 /// The pieces of ink that regions take, by the cell's index. Pieces that a polygon's edge cuts become two.
 pub(super) fn claim(all: &mut Vec<Component>, pins: &[Pin]) -> Vec<(usize, Vec<usize>)> {
-    for pin in pins {
-        if let Some(path) = pin.region.as_ref().and_then(Region::path) {
-            split(all, &path);
-        }
-    }
-    let regions = pins
+    let areas = pins
         .iter()
-        .filter_map(|p| Some((p.index, p.region.as_ref()?)));
-    let mut claims: Vec<(usize, Vec<usize>)> = regions.clone().map(|(i, _)| (i, vec![])).collect();
+        .filter_map(|p| Some((p.index, p.region.as_ref()?.area())));
+    let areas: Vec<(usize, Area)> = areas.collect();
+    areas.iter().for_each(|(_, area)| area.split(all));
+    let mut claims: Vec<(usize, Vec<usize>)> = areas.iter().map(|a| (a.0, vec![])).collect();
     for (i, c) in all.iter().enumerate() {
-        let shares = regions.clone().map(|(_, r)| r.share(c)).enumerate();
+        let shares = areas.iter().map(|(_, area)| area.share(c)).enumerate();
         let best = shares.max_by(|a, b| a.1.total_cmp(&b.1));
         if let Some((k, _)) = best.filter(|b| b.1 > MOST) {
             claims[k].1.push(i);
@@ -53,19 +50,32 @@ pub(super) fn claim(all: &mut Vec<Component>, pins: &[Pin]) -> Vec<(usize, Vec<u
 }
 
 impl Region {
-    /// The edge that cuts ink.
-    fn path(&self) -> Option<BezPath> {
+    fn area(&self) -> Area {
         let points = match self {
-            Self::Box(_) => return None,
+            Self::Box(r) => return Area::Box(*r),
             Self::Polygon(points) => points.as_slice(),
             Self::Quad(points) => points,
         };
         let start = points.first().map(|&p| PathEl::MoveTo(p));
         let lines = points.iter().skip(1).map(|&p| PathEl::LineTo(p));
         let end = start.map(|_| PathEl::ClosePath);
-        Some(start.into_iter().chain(lines).chain(end).collect())
+        let path: BezPath = start.into_iter().chain(lines).chain(end).collect();
+        Area::Polygon {
+            around: path.bounding_box(),
+            path,
+        }
     }
+}
 
+/// A region as ink is measured by it.
+enum Area {
+    /// It takes ink whole.
+    Box(Rect),
+    /// Its edge cuts ink; ink that is not `around` it is outside.
+    Polygon { path: BezPath, around: Rect },
+}
+
+impl Area {
     /// Share of a piece of ink inside it.
     fn share(&self, c: &Component) -> f64 {
         let inside = match self {
@@ -78,27 +88,29 @@ impl Region {
                 };
                 c.runs.iter().filter(|r| middle(r)).map(across).sum::<f64>()
             }
-            Self::Polygon(_) | Self::Quad(_) => {
-                let path = self.path().unwrap_or_default();
-                c.pixels().filter(|&(x, y)| holds(&path, x, y)).count() as f64
+            Self::Polygon { around, .. } if !c.bounds.overlaps(*around) => 0.0,
+            Self::Polygon { path, .. } => {
+                c.pixels().filter(|&(x, y)| holds(path, x, y)).count() as f64
             }
         };
         inside / c.area.max(1) as f64
     }
-}
 
-/// Cuts the pieces of ink that lie across the edge of a polygon.
-fn split(all: &mut Vec<Component>, path: &BezPath) {
-    let around = path.bounding_box();
-    let mut out = Vec::with_capacity(all.len());
-    for c in all.drain(..) {
-        if c.bounds.overlaps(around) {
-            out.extend(c.parted(|x, y| holds(path, x, y)));
-        } else {
-            out.push(c);
+    /// Cuts the pieces of ink that lie across its edge.
+    fn split(&self, all: &mut Vec<Component>) {
+        let Self::Polygon { path, around } = self else {
+            return;
+        };
+        let mut out = Vec::with_capacity(all.len());
+        for c in all.drain(..) {
+            if c.bounds.overlaps(*around) {
+                out.extend(c.parted(|x, y| holds(path, x, y)));
+            } else {
+                out.push(c);
+            }
         }
+        *all = out;
     }
-    *all = out;
 }
 
 fn holds(path: &BezPath, x: usize, y: usize) -> bool {
