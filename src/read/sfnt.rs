@@ -92,14 +92,19 @@ fn glyphs(font: &FontRef<'_>, at: &Location, names: &mut Names) -> Result<Vec<Gl
         font.outline_glyphs(),
         font.glyph_metrics(Size::unscaled(), at),
     );
+    // asking for one name walks through all before it; in order they are walked through once, but a damaged one ends
+    // the walk
     let given = font.glyph_names();
+    let mut in_order = given.iter();
     let charstrings = match outlines.format() {
         Some(OutlineGlyphFormat::Cff | OutlineGlyphFormat::Cff2) => Some(Charstrings::of(font)?),
         _ => None,
     };
     let glyph = |n: u16| {
         let id = GlyphId::from(n);
-        let given = given.get(id);
+        let next = in_order.next().filter(|(at, _)| *at == id);
+        let next = next.map(|(_, name)| name).filter(|n| !n.is_synthesized());
+        let given = next.or_else(|| given.get(id));
         let wanted = match given.as_ref().map(|s| s.as_str()) {
             _ if n == 0 => ".notdef",
             None | Some(".notdef") => "",

@@ -54,6 +54,7 @@ fn extent(glyph: &Written) -> Option<Rect> {
 /// Every glyph as the file holds it, in glyph-id order.
 struct Glyphs<'a> {
     font: &'a Font,
+    ids: BTreeMap<&'a str, usize>,
     written: Vec<Written>,
 }
 
@@ -62,20 +63,20 @@ impl<'a> Glyphs<'a> {
         let ids = ids(font);
         let glyphs = || font.glyphs().iter();
         let alone = |g: &Glyph| {
-            if is_composite(font, g) {
+            if is_composite(font, &ids, g) {
                 return Ok(Written::Empty);
             }
             simple(font, g)
         };
         let simple: Vec<Written> = glyphs().map(alone).collect::<Result<_, _>>()?;
         let whole = |(g, s): (&Glyph, &Written)| {
-            if is_composite(font, g) {
+            if is_composite(font, &ids, g) {
                 return composite(g, &ids, &simple);
             }
             Ok(s.clone())
         };
         let written = glyphs().zip(&simple).map(whole).collect::<Result<_, _>>()?;
-        Ok(Self { font, written })
+        Ok(Self { font, ids, written })
     }
 
     /// Counts that a rasteriser reserves memory by.
@@ -96,10 +97,9 @@ impl<'a> Glyphs<'a> {
                     [points, contours, 0, 0, 0]
                 }
                 Written::Composite(c) => {
-                    let bases = glyph.components.iter().filter_map(|p| {
-                        let at = self.font.glyphs().iter().position(|g| g.name == p.base)?;
-                        self.written.get(at)
-                    });
+                    let parts = glyph.components.iter();
+                    let ids = parts.filter_map(|p| self.ids.get(p.base.as_str()));
+                    let bases = ids.filter_map(|&id| self.written.get(id));
                     let sizes = bases.map(size);
                     let (points, contours) = sizes.fold((0, 0), |a, b| (a.0 + b.0, a.1 + b.1));
                     [0, 0, points, contours, c.components().len()]
@@ -138,13 +138,12 @@ impl<'a> Glyphs<'a> {
 
 /// Whether a glyph can stand as references: only components, each of a glyph that has only contours,
 /// placed by numbers that a file can hold.
-fn is_composite(font: &Font, glyph: &Glyph) -> bool {
+fn is_composite(font: &Font, ids: &BTreeMap<&str, usize>, glyph: &Glyph) -> bool {
+    let base = |p: &Component| font.glyphs().get(*ids.get(p.base.as_str())?);
     let fits = |p: &Component| {
         let [a, b, c, d, ..] = p.place.as_coeffs();
         [a, b, c, d].iter().all(|v| (-2.0..2.0).contains(v))
-            && font
-                .glyph(p.base.as_str())
-                .is_some_and(|g| g.components.is_empty() && !g.outline.is_empty())
+            && base(p).is_some_and(|g| g.components.is_empty() && !g.outline.is_empty())
     };
     glyph.outline.is_empty() && !glyph.components.is_empty() && glyph.components.iter().all(fits)
 }
