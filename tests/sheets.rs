@@ -89,15 +89,10 @@ fn ink_of_a_pen_that_shades_is_as_good_as_even_ink() {
     assert_eq!(got, wanted, "segments of each letter: {told}");
 }
 
-#[test]
-fn letters_in_a_shadow_over_half_of_the_page_are_not_off_it() {
-    let shadow = |x: f64, y: f64| {
-        let beyond = x + 0.4 * (y - 300.0) - 340.0;
-        1.0 - 0.5 * (beyond / 30.0).clamp(0.0, 1.0)
-    };
-    // four rows of six cells of 150 × 150 px with H, o and l by turns
-    let picture = png(900, 600, |x, y| {
-        let light = shadow(f64::from(x), f64::from(y));
+/// Four rows of six cells of 150 × 150 px with H, o and l by turns, in a light between 0 and 1.
+fn lit_page(light: impl Fn(f64, f64) -> f64) -> Vec<u8> {
+    png(900, 600, |x, y| {
+        let light = light(f64::from(x), f64::from(y));
         let cell = y / 150 * 6 + x / 150;
         let (x, y) = (f64::from(x % 150) + 0.5, f64::from(y % 150) + 0.5);
         let bar = |x0: f64, y0: f64, x1: f64, y1: f64| {
@@ -112,10 +107,31 @@ fn letters_in_a_shadow_over_half_of_the_page_are_not_off_it() {
             _ => bar(69.0, 30.0, 81.0, 110.0),
         };
         edge(light * (0.9 - 0.8 * ink) - 0.5)
-    });
-    let desk = Desk::project(&"H o l ".repeat(8), &picture);
-    desk.edit(|text| text.replace("grid = [3, 3]", "grid = [4, 6]"));
-    desk.done(&["build", "font.toml", "--no-cache", "--quiet"]);
+    })
+}
+
+#[test]
+fn letters_in_a_shadow_over_half_of_the_page_are_not_off_it() {
+    let shadow = |x: f64, y: f64| {
+        let beyond = x + 0.4 * (y - 300.0) - 340.0;
+        1.0 - 0.5 * (beyond / 30.0).clamp(0.0, 1.0)
+    };
+    let cut = |picture: &[u8]| {
+        let desk = Desk::project(&"H o l ".repeat(8), picture);
+        desk.edit(|text| text.replace("grid = [3, 3]", "grid = [4, 6]"));
+        desk.done(&["build", "font.toml", "--no-cache", "--quiet"]);
+        desk.done(&["cut", "font.toml", "-o", "cells", "--quiet"]);
+        let page = desk.json("cells/cells.json")[0].clone();
+        assert_eq!(page["removed"], serde_json::json!([]), "{page}");
+        let cells = page["cells"].as_array().expect("cells").iter();
+        let boxes = cells.map(|c| serde_json::from_value(c["box_px"].clone()).expect("a box"));
+        boxes.collect::<Vec<[f64; 4]>>()
+    };
+    let [even, shaded] = [lit_page(|_, _| 1.0), lit_page(shadow)].map(|page| cut(&page));
+    assert_eq!((even.len(), shaded.len()), (24, 24));
+    for (even, shaded) in even.iter().flatten().zip(shaded.iter().flatten()) {
+        assert!((even - shaded).abs() <= 1.0, "{even} px, {shaded} px");
+    }
 }
 
 #[test]
