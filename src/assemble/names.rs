@@ -118,8 +118,7 @@ pub fn name_of(chars: &[char]) -> String {
 }
 
 /// The name of these characters in a form, which the isolated one is without a suffix.
-#[must_use]
-pub fn name_in(chars: &[char], form: Form) -> String {
+pub(crate) fn name_in(chars: &[char], form: Form) -> String {
     match form {
         Form::Isol => name_of(chars),
         form => format!("{}.{}", name_of(chars), form.tag()),

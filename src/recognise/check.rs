@@ -58,8 +58,7 @@ pub enum Finding {
 
 impl Finding {
     /// The same about cells and labels of other numbers.
-    #[must_use]
-    pub fn renumbered(mut self, to: impl Fn(usize) -> usize) -> Self {
+    pub(crate) fn renumbered(mut self, to: impl Fn(usize) -> usize) -> Self {
         match &mut self {
             Self::Disagrees { cell: i, .. }
             | Self::Unsure { cell: i, .. }

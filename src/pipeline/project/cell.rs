@@ -53,7 +53,7 @@ impl CellTable {
     ///
     /// # Errors
     /// More than one place is given, or one that holds nothing.
-    pub fn region(&self) -> Result<Option<Region>, String> {
+    pub(crate) fn region(&self) -> Result<Option<Region>, String> {
         let point = |&[x, y]: &[f64; 2]| Point::new(x, y);
         let polygon: Vec<Point> = self.polygon.iter().map(point).collect();
         let given = [

@@ -72,8 +72,7 @@ fn vendor() -> String {
 impl FontTable {
     /// What of it pages depend on: the units in which letters are placed, and the family, which printed pages name.
     /// All else is fixed.
-    #[must_use]
-    pub fn of_pages(&self) -> Self {
+    pub(crate) fn of_pages(&self) -> Self {
         Self {
             family: self.family.clone(),
             style: style(),

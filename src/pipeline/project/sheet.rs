@@ -121,8 +121,7 @@ pub enum Labels {
 
 impl Labels {
     /// Whether the letters are to be read from the cells: `"auto"`.
-    #[must_use]
-    pub fn is_auto(&self) -> bool {
+    pub(crate) fn is_auto(&self) -> bool {
         matches!(self, Self::Text(text) if text.trim() == "auto")
     }
 }
@@ -140,8 +139,7 @@ impl SheetTable {
     }
 
     /// What becomes of ink that is not one even tone.
-    #[must_use]
-    pub const fn texture(&self) -> Texture {
+    pub(crate) const fn texture(&self) -> Texture {
         Texture {
             grain: self.grain,
             streaks: self.streaks,
@@ -152,7 +150,7 @@ impl SheetTable {
     ///
     /// # Errors
     /// More than one key says how large the letters are, or the page is a template's, which says so itself.
-    pub fn cut_options(&self, units_per_em: u16) -> Result<Options, String> {
+    pub(crate) fn cut_options(&self, units_per_em: u16) -> Result<Options, String> {
         let em = f64::from(units_per_em);
         let all = [
             ("pixels_per_em", self.pixels_per_em.map(Scale::PixelsPerEm)),

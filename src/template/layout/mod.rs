@@ -258,8 +258,7 @@ impl Layout {
     }
 
     /// Size of the paper.
-    #[must_use]
-    pub const fn paper_mm(&self) -> Size {
+    pub(crate) const fn paper_mm(&self) -> Size {
         match self.paper {
             Paper::A4 => Size::new(210.0, 297.0),
             Paper::Letter => Size::new(215.9, 279.4),
@@ -268,8 +267,7 @@ impl Layout {
     }
 
     /// The part of the page that is divided into cells.
-    #[must_use]
-    pub fn body_mm(&self) -> Rect {
+    pub(crate) fn body_mm(&self) -> Rect {
         let paper = self.paper_mm();
         Rect::new(SIDE, HEAD, paper.width - SIDE, paper.height - FOOT)
     }
@@ -346,8 +344,7 @@ impl Layout {
     }
 
     /// The strip at the foot that holds the patterns from which ink gain is measured.
-    #[must_use]
-    pub fn gain_strip(&self) -> Rect {
+    pub(crate) fn gain_strip(&self) -> Rect {
         let s = self.paper_mm();
         Rect::new(
             MARK_INSET + 9.0,

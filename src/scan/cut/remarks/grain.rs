@@ -18,8 +18,7 @@ const MOST: f32 = 0.12;
 
 impl Warning {
     /// What is to be said of a page whose ink was averaged over so many px.
-    #[must_use]
-    pub fn of_averaged(px: f64) -> Self {
+    pub(crate) fn of_averaged(px: f64) -> Self {
         Self::of_page(format!(
             "the ink is grain, as of a pencil or a dry brush: it was averaged over {px:.1} px; grain = \"keep\" \
              under [[sheet]] has it followed instead, which takes long"

@@ -126,8 +126,7 @@ pub(super) fn of_picture(page: &Page, options: &Options) -> impl Iterator<Item =
 
 impl Warning {
     /// What is to be said of a page in whose ink pale streaks were filled.
-    #[must_use]
-    pub fn of_filled() -> Self {
+    pub(crate) fn of_filled() -> Self {
         Self::of_page(
             "the ink has pale streaks, as of a ballpoint: they were filled; streaks = \"keep\" under [[sheet]] \
              leaves them",
