@@ -1,6 +1,6 @@
 //! A project is built again while somebody works at it.
 
-use crate::common::desk::Desk;
+use crate::common::desk::{BUILD, Desk};
 use crate::common::pictures::page;
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::TcpStream;
@@ -61,6 +61,31 @@ fn a_watched_project_is_built_again_when_a_page_changes() {
     desk.write("page.png", page(&[8]));
     assert!(watched.shows("cell 9"), "the empty cell is named");
     assert!(fetch(&watched.address, "/other").starts_with("HTTP/1.1 404"));
+}
+
+#[test]
+fn a_watched_project_shows_the_proof_that_it_writes() {
+    let desk = Desk::letters();
+    desk.done(&BUILD);
+    // the proof shows how far letters have moved since
+    desk.edit(|text| format!("{text}[spacing.letters]\ntracking = 0.05\n"));
+    let watched = Watched::new(&desk);
+    assert!(watched.shows("Test Regular"), "the first build");
+    let written = desk.text("out/test.html");
+    let shown = fetch(&watched.address, "/");
+    assert!(shown.contains(&written), "another one");
+}
+
+#[test]
+fn a_watched_project_without_a_proof_shows_one() {
+    let desk = Desk::letters();
+    desk.edit(|text| text.replace("proof = ", "report = "));
+    // its outputs are made already, and then they are made anew
+    desk.done(&BUILD);
+    let watched = Watched::new(&desk);
+    assert!(watched.shows("Test Regular"), "nothing to do");
+    desk.edit(|text| text.replace("\"Test\"", "\"Other\""));
+    assert!(watched.shows("Other Regular"), "a build");
 }
 
 #[test]

@@ -8,7 +8,9 @@ use super::project::{Opened, created};
 use super::staged;
 use super::{Common, Outcome, cut, files, keep, sarif};
 use clap::Args;
-use khatt::pipeline::{self, Built, Outputs, Report, Stage, Store, digest};
+use khatt::pipeline::{
+    self, Built, Outputs, Problem, Project, Report, Stage, Store, World, digest,
+};
 use khatt::types::Files;
 use khatt::write::handwork;
 use serde_json::{Value, json};
@@ -48,6 +50,16 @@ struct ReportArgs {
     /// Also write into the report how long each stage took
     #[arg(long)]
     timings: bool,
+}
+
+/// What a build has made.
+#[derive(Debug)]
+struct Made<T> {
+    files: Vec<(PathBuf, Files)>,
+    /// What was to be remarked.
+    said: String,
+    /// What else was asked for.
+    more: T,
 }
 
 impl Build {
@@ -94,6 +106,45 @@ impl Build {
 
     /// Builds, where anything has changed since the last time.
     pub(crate) fn build(&self, opened: &Opened, common: &Common) -> Outcome {
+        self.build_and(opened, common, |_, _, _| Ok(())).map(drop)
+    }
+
+    /// Builds in the same way; the proof: what the project names, else one that shows what has changed since `last`.
+    pub(crate) fn proof(
+        &self,
+        opened: &Opened,
+        last: Option<&str>,
+        common: &Common,
+    ) -> Result<String, Failure> {
+        let page = |project: &Project, built: &Built, world: World<'_>| {
+            pipeline::proof(project, built, last, world)
+        };
+        let named = opened.output(|o| o.proof.as_ref());
+        let made = match &named {
+            Some(path) => {
+                self.build(opened, common)?;
+                files::last(path)
+            }
+            None => self.build_and(opened, common, page)?,
+        };
+        if let Some(page) = made {
+            return Ok(page);
+        }
+        // the outputs are as they should be, and no page is among them
+        let (page, ..) = opened.work_with(&self.cache.open(), common, |project, world| {
+            let built = pipeline::build(project, world)?;
+            page(project, &built, world)
+        })?;
+        Ok(page)
+    }
+
+    /// Builds, where anything has changed; what `more` makes of it, nothing where nothing was built.
+    fn build_and<T>(
+        &self,
+        opened: &Opened,
+        common: &Common,
+        more: impl FnOnce(&Project, &Built, World<'_>) -> Result<T, Vec<Problem>>,
+    ) -> Result<Option<T>, Failure> {
         let cache = self.cache.open();
         let key = self.key(opened)?;
         if self.keep.is_none()
@@ -103,36 +154,38 @@ impl Build {
                 eprint!("{said}");
                 eprintln!("nothing to do: inputs and outputs are as the last build left them");
             }
-            return Ok(());
+            return Ok(None);
         }
-        let (files, said) = self.make(&cache, opened, common)?;
-        if let Some(done) = Done::new(opened, &files, &said) {
+        let made = self.make(&cache, opened, common, more)?;
+        if let Some(done) = Done::new(opened, &made.files, &made.said) {
             done.keep(&cache, &key);
         }
         cache.trim();
-        Ok(())
+        Ok(Some(made.more))
     }
 
     /// Builds from what `store` has of the pages.
     pub(crate) fn run_with(&self, store: &dyn Store, opened: &Opened, common: &Common) -> Outcome {
-        self.make(store, opened, common).map(drop)
+        self.make(store, opened, common, |_, _, _| Ok(())).map(drop)
     }
 
-    /// Makes the outputs and tells of it; the outputs, and what was to be remarked.
-    fn make(
+    /// Makes the outputs and tells of it.
+    fn make<T>(
         &self,
         store: &dyn Store,
         opened: &Opened,
         common: &Common,
-    ) -> Result<(Vec<(PathBuf, Files)>, String), Failure> {
+        more: impl FnOnce(&Project, &Built, World<'_>) -> Result<T, Vec<Problem>>,
+    ) -> Result<Made<T>, Failure> {
         let last = opened
             .output(|o| o.proof.as_ref())
             .and_then(|path| files::last(&path));
-        let ((built, outputs), total, times) =
+        let ((built, outputs, more), total, times) =
             opened.work_with(store, common, |project, world| {
                 let built = pipeline::build(project, world)?;
                 let outputs = pipeline::outputs(project, &built, last.as_deref(), world)?;
-                Ok((built, outputs))
+                let more = more(project, &built, world)?;
+                Ok((built, outputs, more))
             })?;
         let mut files = self.files(opened, &outputs, (total, &times));
         let mut said = remarks(&built);
@@ -144,7 +197,7 @@ impl Build {
         }
         if self.locked {
             staged::same(&files)?;
-            return Ok((files, said));
+            return Ok(Made { files, said, more });
         }
         let folder = self.keep.as_ref();
         let kept = folder.map(|folder| (folder.clone(), keep::files(&built)));
@@ -156,7 +209,7 @@ impl Build {
                 .iter()
                 .for_each(|(path, _)| eprintln!("  {}", path.display()));
         }
-        Ok((files, said))
+        Ok(Made { files, said, more })
     }
 
     /// A digest of what this build is asked for.

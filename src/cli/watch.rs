@@ -8,7 +8,6 @@ use super::page_server::{Page, PageServer};
 use super::project::Opened;
 use super::{Common, Outcome};
 use clap::Args;
-use khatt::pipeline;
 use notify::{RecommendedWatcher, RecursiveMode, Watcher};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -53,8 +52,8 @@ impl Watch {
         }
     }
 
-    /// The outputs are made; the proof, which shows what has changed since `last`. What both follow from is noted in
-    /// `read`.
+    /// The outputs are made; the proof, which shows what has changed since the build before, and where the project
+    /// names none since `last`. What both follow from is noted in `read`.
     fn build(
         &self,
         read: &Arc<Digests>,
@@ -65,12 +64,7 @@ impl Watch {
         read.of(&self.project).unwrap_or_default();
         let opened = Opened::noted(&self.project, Arc::clone(read))?;
         let build = Build::of(self.project.clone()).cached(self.cache.clone());
-        build.build(&opened, common)?;
-        let (page, ..) = opened.work_with(&self.cache.open(), common, |project, world| {
-            let built = pipeline::build(project, world)?;
-            pipeline::proof(project, &built, last, world)
-        })?;
-        Ok(page)
+        build.proof(&opened, last, common)
     }
 }
 
