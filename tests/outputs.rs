@@ -247,3 +247,32 @@ fn locked_tells_all_that_a_build_would_change() {
         assert_eq!(desk.told(&[&locked, more].concat()).0, Some(2));
     }
 }
+
+#[test]
+fn outputs_older_than_an_input_that_has_not_changed_are_dated_anew() {
+    let desk = Desk::letters();
+    let dates = || {
+        let outputs = ["test.ttf", "test.ufo", "svg", "svg/o.svg", "test.html"];
+        outputs.map(|name| {
+            let output = fs::metadata(desk.path("out").join(name));
+            output.and_then(|m| m.modified()).expect("a date")
+        })
+    };
+    let locked = ["build", "font.toml", "--locked"];
+    desk.done(&BUILD);
+    desk.done(&locked);
+    let (built, files) = (dates(), desk.files("out"));
+    desk.done(&BUILD);
+    assert_eq!(dates(), built, "nothing is older than an input");
+
+    desk.write("page.png", desk.read("page.png"));
+    let touched = fs::metadata(desk.path("page.png")).and_then(|m| m.modified());
+    let touched = touched.expect("a date");
+    assert!(built.iter().all(|date| *date < touched), "{built:?}");
+    assert!(desk.done(&locked).contains("nothing to do"));
+    assert_eq!(dates(), built, "--locked writes nothing, and no date");
+    assert!(desk.done(&BUILD).contains("nothing to do"));
+    let dated = dates();
+    assert!(dated.iter().all(|date| *date >= touched), "{dated:?}");
+    assert!(desk.files("out") == files, "and nothing else");
+}

@@ -148,10 +148,13 @@ impl Build {
         let cache = self.cache.open();
         let key = self.key(opened)?;
         if self.keep.is_none()
-            && let Some(said) = Done::recall(&cache, &key, opened)
+            && let Some(done) = Done::recall(&cache, &key, opened)
         {
+            if !self.locked {
+                done.date();
+            }
             if !common.quiet {
-                eprint!("{said}");
+                eprint!("{}", done.said());
                 eprintln!("nothing to do: inputs and outputs are as the last build left them");
             }
             return Ok(None);

@@ -1,5 +1,5 @@
 //! Whether a build has nothing to do: the files that it read last time and the outputs that it wrote are still the
-//! same.
+//! same, whatever their dates.
 
 use super::cache::Cache;
 use super::project::Opened;
@@ -8,8 +8,10 @@ use khatt::pipeline::{Store, digest};
 use khatt::types::Files;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
-use std::fs;
+use std::fs::{self, OpenOptions};
+use std::io;
 use std::path::{Path, PathBuf};
+use std::time::SystemTime;
 
 /// What a build read, wrote and said.
 #[derive(Debug, Serialize, Deserialize)]
@@ -47,22 +49,68 @@ impl Done {
         }
     }
 
-    /// What the build of this key said, where all that it read and wrote is as it was.
-    pub(crate) fn recall(cache: &Cache, key: &str, opened: &Opened) -> Option<String> {
+    /// The build of this key, where all that it read and wrote is as it was.
+    pub(crate) fn recall(cache: &Cache, key: &str, opened: &Opened) -> Option<Self> {
         let done: Self = serde_json::from_slice(&cache.get(key)?).ok()?;
         let is = |path: &Path, wanted: &str| fs::read(path).is_ok_and(|b| digest(&b) == wanted);
         let same =
             |(path, wanted): &(PathBuf, String)| opened.digest_of(path).as_ref() == Some(wanted);
         let inputs: Vec<bool> = done.inputs.par_iter().map(same).collect();
         let output = |(path, files): &(PathBuf, Vec<(String, String)>)| {
-            let at = |name: &str| match name {
-                "" => path.clone(),
-                name => path.join(name),
-            };
             let part = |name: &str| files.iter().any(|(n, _)| n == name);
-            let whole = files.iter().all(|(name, wanted)| is(&at(name), wanted));
+            let whole = files
+                .iter()
+                .all(|(name, wanted)| is(&within(path, name), wanted));
             whole && strays(path, part).is_empty()
         };
-        (inputs.iter().all(|same| *same) && done.outputs.iter().all(output)).then_some(done.said)
+        (inputs.iter().all(|same| *same) && done.outputs.iter().all(output)).then_some(done)
     }
+
+    /// What it said to the user.
+    pub(crate) fn said(&self) -> &str {
+        &self.said
+    }
+
+    /// Dates the outputs anew where one is older than an input, for Make, which goes by dates alone and else would
+    /// never rest.
+    pub(crate) fn date(&self) {
+        let dated = |path: &Path| fs::metadata(path).and_then(|m| m.modified()).ok();
+        let newest = self.inputs.iter().filter_map(|(path, _)| dated(path)).max();
+        let old = |(path, _): &(PathBuf, _)| dated(path) < newest;
+        if !self.outputs.iter().any(old) {
+            return;
+        }
+        for (path, files) in &self.outputs {
+            let files = files.iter().map(|(name, _)| within(path, name));
+            for at in files.chain([path.clone()]) {
+                // a file that cannot be dated costs time in the next run, nothing else
+                touch(&at).unwrap_or_default();
+            }
+        }
+    }
+}
+
+/// Where a file of an output lies; the output itself has no name.
+fn within(output: &Path, name: &str) -> PathBuf {
+    match name {
+        "" => output.to_owned(),
+        name => output.join(name),
+    }
+}
+
+/// Dates a file or a folder now.
+fn touch(path: &Path) -> io::Result<()> {
+    let mut how = OpenOptions::new();
+    // folders cannot be opened otherwise
+    let how = if path.is_dir() {
+        how.read(true)
+    } else {
+        how.write(true)
+    };
+    #[expect(
+        clippy::disallowed_methods,
+        reason = "the date is that of the file, and in no file"
+    )]
+    let now = SystemTime::now();
+    how.open(path)?.set_modified(now)
 }
