@@ -288,6 +288,27 @@ fn completions_manual_and_schema_come_from_the_same_sources() {
 }
 
 #[test]
+fn every_command_has_a_manual_page_with_its_options() {
+    let desk = Desk::with("man1/other.1", "mine");
+    desk.done(&["man", "-o", "man1"]);
+    assert_eq!(desk.text("man1/other.1"), "mine");
+    assert_eq!(
+        desk.text("man1/khatt.1").as_bytes(),
+        desk.run(&["man"]).stdout
+    );
+    for (command, option) in [("build", r"\-\-depfile"), ("man", r"\-\-output")] {
+        let page = desk.text(&format!("man1/khatt-{command}.1"));
+        assert!(page.contains(option), "{command}: {page}");
+        assert!(page.contains("\"khatt 0"), "its program: {page}");
+    }
+    let commands = desk.text("man1/khatt.1").matches("khatt\\-").count();
+    assert!(commands >= 17, "only {commands} commands");
+    assert_eq!(desk.files("man1").len(), commands + 2);
+    // its own pages are replaced
+    desk.done(&["man", "-o", "man1"]);
+}
+
+#[test]
 fn features_are_plotted() {
     let desk = Desk::new();
     let bar = |x: u32, y: u32| {

@@ -77,8 +77,7 @@ enum Command {
     Methods(methods::Methods),
     Init(init::Init),
     Completions(shell::Completions),
-    /// Prints the manual page
-    Man,
+    Man(shell::Manual),
     /// Prints the JSON schema of the report
     Schema,
 }
@@ -129,7 +128,7 @@ fn run(args: &Khatt) -> Outcome {
         Command::Methods(methods) => methods.run(),
         Command::Init(init) => init.run(),
         Command::Completions(completions) => completions.run(),
-        Command::Man => shell::man(),
+        Command::Man(manual) => manual.run(),
         Command::Schema => shell::schema(),
     }
 }
