@@ -62,8 +62,10 @@ fn wrong_use_exits_2_with_a_usage_line() {
     let desk = Desk::new();
     let split = ["--quadratic", "split", "--keep", "corners"];
     let split = [&["convert", "a.otf", "-o", "a.ttf"], &split[..]].concat();
-    let cases: [&[&str]; 6] = [
+    let cases: [&[&str]; 8] = [
         &split,
+        &["page", "font.toml", "--sheet", "0", "-o", "one"],
+        &["sheet", "font.toml", "-o", "a.png", "--dpi", "0"],
         &[],
         &["trac"],
         &["trace", "a.png"],
@@ -407,18 +409,30 @@ fn no_more_threads_than_can_be_of_use() {
 #[test]
 fn names_that_promise_another_kind_are_refused() {
     let desk = with_disc();
-    let wrong: [&[&str]; 5] = [
+    let wrong: [&[&str]; 9] = [
         &["trace", "disc.png", "-o", "out.png"],
         &["trace", "disc.png", "-o", "out.ufo"],
         &["trace", "disc.png", "-o", "out.ttf", "--centerline"],
         &["features", "disc.png", "-o", "out.pdf"],
+        // whether or not there is such a file to read
         &["cut", "font.toml", "-o", "-"],
+        &["sheet", "font.toml", "-o", "page.txt"],
+        &["designspace", "a.ufo", "-o", "-"],
+        &["convert", "a.ttf", "-o", "a.txt"],
+        &["man", "-o", "-"],
     ];
     for args in wrong {
-        let stderr = desk.fails(args);
+        let (status, stderr) = desk.told(args);
+        assert_eq!(status, Some(2), "{args:?}: {stderr}");
         assert!(stderr.contains("  help: "), "{args:?}: {stderr}");
         assert_eq!(desk.files("").len(), 1, "{args:?} wrote something");
     }
+    let sheet = ["sheet", "font.toml", "-o", "page.txt"];
+    approved::check(
+        "cli",
+        "sheet-ending",
+        &transcript(&sheet, &desk.run(&sheet)),
+    );
     let right: [&[&str]; 4] = [
         &["trace", "disc.png", "-o", "out.SVG"],
         &["trace", "disc.png", "-o", "out"],
@@ -455,6 +469,6 @@ fn what_drawings_do_not_say_of_a_font_is_named() {
 fn a_dash_is_no_folder() {
     let desk = Desk::with("font.ttf", converted(&font(), "ttf"));
     let run = desk.run(&["convert", "font.ttf", "-o", "-"]);
-    assert_eq!(run.status.code(), Some(1), "{}", said(&run));
+    assert_eq!(run.status.code(), Some(2), "{}", said(&run));
     assert!(!desk.has("-"));
 }

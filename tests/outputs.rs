@@ -181,9 +181,11 @@ fn no_command_writes_over_what_it_reads() {
     desk.done(&BUILD);
     desk.edit(|text| format!("cells_file = \"cells.toml\"\n{text}"));
     desk.write("cells.toml", b"[o]\nrotation = 1\n");
+    // a picture, whatever its name
+    desk.write("page.svg", desk.read("page.png"));
     let cases: [(&[&str], &str); 10] = [
-        (&["trace", "page.png", "-o", "out/../page.png"], "page.png"),
-        (&["features", "page.png", "-o", "./page.png"], "page.png"),
+        (&["trace", "page.svg", "-o", "out/../page.svg"], "page.svg"),
+        (&["features", "page.svg", "-o", "./page.svg"], "page.svg"),
         (&["proof", "font.toml", "-o", "page.png"], "page.png"),
         (&["sheet", "font.toml", "-o", "page.png"], "page.png"),
         (

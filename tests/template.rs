@@ -554,7 +554,6 @@ fn pages_to_draw_on_are_written_in_every_format() {
         let picture = image::load_from_memory(&picture).expect("a PNG");
         assert_eq!((picture.width(), picture.height()), (488, 630));
     }
-    desk.refuses(&["sheet", "font.toml", "-o", "page.txt"], "sheet-ending");
 }
 
 #[test]

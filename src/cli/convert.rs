@@ -88,7 +88,7 @@ impl Convert {
     fn format(&self) -> Result<&'static Format, Failure> {
         if files::is_dash(&self.output) {
             let what = "- is standard output, to which no font is written";
-            return Err(Failure::new(what).help("name a file, or a folder for SVG files"));
+            return Err(Failure::of_use(what).help("name a file, or a folder for SVG files"));
         }
         let ending = self
             .output
@@ -100,10 +100,11 @@ impl Convert {
         known.ok_or_else(|| {
             let all: Vec<_> = FORMATS.iter().filter_map(|f| f.extension).collect();
             let name = self.output.display();
-            Failure::new(format!(
-                "{name}: give a name that ends in .{}, or a folder for SVG files",
+            let remedy = format!(
+                "end it in .{}, or name a folder for SVG files",
                 all.join(", .")
-            ))
+            );
+            Failure::of_use(format!("{name} is no name for a font")).help(remedy)
         })
     }
 

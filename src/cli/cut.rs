@@ -37,7 +37,7 @@ impl Cut {
     pub(crate) fn run(&self, common: &Common) -> Outcome {
         if self.output.as_deref().is_some_and(is_dash) {
             let what = "- is standard output, and the cells' pictures are a folder of files";
-            return Err(Failure::new(what).help("name a folder: -o DIR"));
+            return Err(Failure::of_use(what).help("name a folder: -o DIR"));
         }
         let opened = Opened::new(&self.project)?;
         let ((pages, notes), ..) = opened.work(common, |project, world| {

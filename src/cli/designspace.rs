@@ -23,7 +23,7 @@ impl Designspace {
     pub(crate) fn run(&self, common: &Common) -> Outcome {
         if files::is_dash(&self.output) {
             let what = "- is standard output, and the document names its masters by their way from its folder";
-            return Err(Failure::new(what).help("name a file: -o FAMILY.designspace"));
+            return Err(Failure::of_use(what).help("name a file: -o FAMILY.designspace"));
         }
         let masters = self.masters.iter().map(|ufo| {
             Ok(Master {

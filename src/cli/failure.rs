@@ -1,11 +1,23 @@
 //! How a failed job is told: where, what, and what to do.
 
 use std::error::Error;
-use std::fmt;
+use std::{fmt, iter};
 
 /// One or more errors, each with its remedy where there is one.
 #[derive(Debug)]
-pub(crate) struct Failure(Vec<Complaint>);
+pub(crate) struct Failure {
+    complaints: Vec<Complaint>,
+    fault: Fault,
+}
+
+/// What must be changed before the command can be done.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Fault {
+    /// Something that it reads, or where it writes.
+    Job,
+    /// The command line, whatever lies on the disk.
+    CommandLine,
+}
 
 /// One error.
 #[derive(Debug)]
@@ -25,17 +37,33 @@ impl Complaint {
 
 impl Failure {
     pub(crate) fn new(what: impl Into<String>) -> Self {
-        Self(vec![Complaint::new(what, None)])
+        iter::once(Complaint::new(what, None)).collect()
+    }
+
+    /// The command line itself is wrong, as one that is not understood.
+    pub(crate) fn of_use(what: impl Into<String>) -> Self {
+        Self {
+            fault: Fault::CommandLine,
+            ..Self::new(what)
+        }
+    }
+
+    /// Exit status.
+    pub(crate) fn status(&self) -> u8 {
+        match self.fault {
+            Fault::Job => 1,
+            Fault::CommandLine => 2,
+        }
     }
 
     /// A message that shows the place itself.
     pub(crate) fn drawn(text: String) -> Self {
-        Self(vec![Complaint::Drawn(text)])
+        iter::once(Complaint::Drawn(text)).collect()
     }
 
     /// With a remedy.
     pub(crate) fn help(mut self, remedy: impl Into<String>) -> Self {
-        if let Some(Complaint::Said { help, .. }) = self.0.last_mut() {
+        if let Some(Complaint::Said { help, .. }) = self.complaints.last_mut() {
             *help = Some(remedy.into());
         }
         self
@@ -43,7 +71,7 @@ impl Failure {
 
     /// What each error says, with its remedy.
     pub(crate) fn texts(&self) -> impl Iterator<Item = String> {
-        self.0.iter().map(|complaint| match complaint {
+        self.complaints.iter().map(|complaint| match complaint {
             Complaint::Said { what, help } => match help {
                 Some(help) => format!("{what}\n{help}"),
                 None => what.clone(),
@@ -60,13 +88,16 @@ impl Failure {
 
 impl FromIterator<Complaint> for Failure {
     fn from_iter<I: IntoIterator<Item = Complaint>>(complaints: I) -> Self {
-        Self(complaints.into_iter().collect())
+        Self {
+            complaints: complaints.into_iter().collect(),
+            fault: Fault::Job,
+        }
     }
 }
 
 impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for complaint in &self.0 {
+        for complaint in &self.complaints {
             match complaint {
                 Complaint::Said { what, help } => {
                     writeln!(f, "error: {what}")?;

@@ -28,7 +28,7 @@ pub(crate) fn ends_in(path: &Path, kinds: &[&str]) -> Outcome {
         return Ok(());
     }
     let what = format!("{} is no name for what is written there", path.display());
-    Err(Failure::new(what).help(format!("end it in .{}", kinds.join(" or ."))))
+    Err(Failure::of_use(what).help(format!("end it in .{}", kinds.join(" or ."))))
 }
 
 /// The whole content of a file or of standard input.

@@ -11,6 +11,7 @@ use clap::Args;
 use khatt::pipeline::{self, Store};
 use khatt::types::Files;
 use std::collections::BTreeMap;
+use std::num::ParseIntError;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
@@ -21,7 +22,7 @@ pub(crate) struct Page {
     #[arg(value_name = "PROJECT.toml")]
     project: PathBuf,
     /// Which [[sheet]] of the project, from 1
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = number)]
     sheet: usize,
     /// Where the result goes
     #[arg(short, long, value_name = "FILE")]
@@ -37,6 +38,15 @@ pub(crate) struct Merge {
     /// The results of all its sheets
     #[arg(value_name = "FILE", required = true)]
     results: Vec<PathBuf>,
+}
+
+/// Counts from 1.
+fn number(text: &str) -> Result<usize, String> {
+    let number = text.parse().map_err(|e: ParseIntError| e.to_string())?;
+    if number == 0 {
+        return Err("sheets count from 1".to_owned());
+    }
+    Ok(number)
 }
 
 /// A key and what is kept under it.

@@ -20,36 +20,56 @@ pub(crate) struct Sheet {
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
     /// Dots an inch of a .png
-    #[arg(long, value_name = "N", default_value_t = 300)]
+    #[arg(long, value_name = "N", default_value_t = 300, value_parser = clap::value_parser!(u16).range(1..))]
     dpi: u16,
+}
+
+/// What pages are written as.
+#[derive(Debug, Clone, Copy)]
+enum Kind {
+    Pdf,
+    Svg,
+    Png,
 }
 
 impl Sheet {
     pub(crate) fn run(&self, common: &Common) -> Outcome {
+        let kind = self.kind()?;
         let opened = Opened::new(&self.project)?;
         let (pages, ..) = opened.work(common, pipeline::sheets)?;
-        let each = |draw: &dyn Fn(&template::Page) -> Result<Vec<u8>, Failure>| {
-            let drawn = pages.iter().map(draw).collect::<Result<Vec<_>, _>>()?;
-            self.numbered(drawn, &opened.named())
+        let drawn = match kind {
+            Kind::Pdf => vec![template::pdf(&pages)],
+            Kind::Svg => pages
+                .iter()
+                .map(|page| template::svg(page).into_bytes())
+                .collect(),
+            Kind::Png => pages
+                .iter()
+                .map(|page| template::png(page, f64::from(self.dpi)))
+                .collect::<Result<_, _>>()
+                .map_err(|e| Failure::at(self.output.display(), &e))?,
         };
-        let kind = self.output.extension().map(|e| e.to_ascii_lowercase());
-        let pdf = || files::write(&self.output, &template::pdf(&pages), &opened.named());
-        match kind.as_ref().and_then(|k| k.to_str()) {
-            _ if is_dash(&self.output) => pdf(),
-            Some("pdf") => pdf(),
-            Some("svg") => each(&|page| Ok(template::svg(page).into_bytes())),
-            Some("png") => each(&|page| {
-                let picture = template::png(page, f64::from(self.dpi));
-                picture.map_err(|e| Failure::at(self.output.display(), &e))
-            }),
+        self.numbered(drawn, &opened.named())
+    }
+
+    /// What the output's name says.
+    fn kind(&self) -> Result<Kind, Failure> {
+        if is_dash(&self.output) {
+            return Ok(Kind::Pdf);
+        }
+        let ending = self.output.extension().map(|e| e.to_ascii_lowercase());
+        match ending.as_ref().and_then(|e| e.to_str()) {
+            Some("pdf") => Ok(Kind::Pdf),
+            Some("svg") => Ok(Kind::Svg),
+            Some("png") => Ok(Kind::Png),
             _ => {
                 let what = format!("{} is no name for pages", self.output.display());
-                Err(Failure::new(what).help("end it in .pdf, .svg or .png"))
+                Err(Failure::of_use(what).help("end it in .pdf, .svg or .png"))
             }
         }
     }
 
-    /// Writes one page under the name that was given, several under it and their numbers.
+    /// Writes one file under the name that was given, several under it and their numbers.
     fn numbered(&self, pages: Vec<Vec<u8>>, inputs: &[PathBuf]) -> Outcome {
         if let [page] = pages.as_slice() {
             return files::write(&self.output, page, inputs);

@@ -1,5 +1,6 @@
 //! `khatt completions`, `khatt man`, `khatt schema`: what other programs read, from the same sources.
 
+use super::failure::Failure;
 use super::{Khatt, Outcome, files, staged};
 use clap::{Args, Command, CommandFactory};
 use clap_complete::Shell;
@@ -35,6 +36,10 @@ pub(crate) struct Manual {
 
 impl Manual {
     pub(crate) fn run(&self) -> Outcome {
+        if self.output.as_deref().is_some_and(files::is_dash) {
+            let what = "- is standard output, and the pages are files";
+            return Err(Failure::of_use(what).help("name a folder: -o DIR"));
+        }
         let mut khatt = Khatt::command().disable_help_subcommand(true);
         khatt.build();
         let commands: Vec<Command> = khatt.get_subcommands().cloned().collect();
