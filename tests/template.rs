@@ -551,6 +551,9 @@ fn pages_to_draw_on_are_written_in_every_format() {
     for n in 1..=2 {
         assert!(desk.text(&format!("page-{n}.svg")).starts_with("<svg"));
         let picture = desk.read(&format!("page-{n}.png"));
+        let sheet = scan::load(&picture, "page", Polarity::Auto.into()).expect("a picture");
+        let dpi = sheet[0].dpi.expect("its resolution");
+        assert!((dpi - 100.0).abs() < 0.02, "{dpi}");
         let picture = image::load_from_memory(&picture).expect("a PNG");
         assert_eq!((picture.width(), picture.height()), (488, 630));
     }

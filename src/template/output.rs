@@ -88,7 +88,7 @@ fn drawing(page: &Page) -> Vec<u8> {
     c.finish().to_vec()
 }
 
-/// The page as a picture of `dpi` dots an inch: RGB bytes row by row with their width and height.
+/// The page as a PNG file of `dpi` dots an inch, which says so itself: programs print it at the page's size.
 ///
 /// # Errors
 /// The picture would be empty or larger than memory allows.
@@ -104,7 +104,22 @@ pub fn png(page: &Page, dpi: f64) -> Result<Vec<u8>, TemplateError> {
     map.fill(Color::WHITE);
     let fit = single(f64::from(w) / f64::from(tree.size().width()));
     resvg::render(&tree, Transform::from_scale(fit, fit), &mut map.as_mut());
-    map.encode_png().map_err(|e| fail(e.to_string()))
+    let file = map.encode_png().map_err(|e| fail(e.to_string()))?;
+    Ok(with_resolution(&file, pixels(1000.0 * dpi / INCH)))
+}
+
+/// The PNG file with its pixels a metre, in the chunk `pHYs` (PNG 2003 sec. 11.3.5.3).
+fn with_resolution(file: &[u8], per_metre: u32) -> Vec<u8> {
+    /// Where the second chunk begins: after the signature and the header, whose length is given.
+    const SECOND: usize = 8 + 4 + 4 + 13 + 4;
+    /// The unit is the metre.
+    const METRE: u8 = 1;
+    let size = per_metre.to_be_bytes();
+    let chunk = [b"pHYs", &size[..], &size, &[METRE]].concat();
+    let (header, rest) = file.split_at(SECOND.min(file.len()));
+    let length = [0, 0, 0, 9];
+    let check = crc32fast::hash(&chunk).to_be_bytes();
+    [header, &length, &chunk, &check, rest].concat()
 }
 
 #[expect(
