@@ -97,7 +97,10 @@ impl Merge {
     fn complaint(&self, number: usize) -> Complaint {
         let project = self.project.display();
         Complaint::new(
-            format!("{project}: none of the results is that of sheet {number} as it is now"),
+            format!(
+                "{project}: none of the results is that of sheet {number} as it is now, made by a khatt of the same \
+                 sources"
+            ),
             Some(format!(
                 "khatt page {project} --sheet {number} -o FILE makes it"
             )),

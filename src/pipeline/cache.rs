@@ -1,8 +1,8 @@
 //! What became of a picture's pages, kept under a digest of all that it follows from.
 //!
 //! Load, clean, cut and trace are nearly all of a build's work, and what they make of a page follows
-//! from its bytes, its labels, the options of these stages and the program. So a page that has not changed
-//! is not read again, and a change of what comes later, spacing or outputs, redoes no page.
+//! from its bytes, its labels, the options of these stages and the program's sources. So a page that has not
+//! changed is not read again, and a change of what comes later, spacing or outputs, redoes no page.
 
 use super::batch::Batch;
 use super::labels;
@@ -71,6 +71,6 @@ fn key(
     let labels: Vec<&str> = source.labels.iter().map(|l| l.0.as_str()).collect();
     let lines = labels::lines(source.table, world).map_err(|p| p.to_string())?;
     let picture = world.inputs.digest(image)?;
-    let all = json!([env!("CARGO_PKG_VERSION"), earlier, labels, lines, picture]);
+    let all = json!([env!("KHATT_SOURCES"), earlier, labels, lines, picture]);
     Ok(digest(all.to_string().as_bytes()))
 }
