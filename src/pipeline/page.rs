@@ -160,20 +160,15 @@ fn load(
         turn,
         colours,
     };
-    let mut pages = scan::load(&bytes, &name, reading)?;
-    let count = pages.len();
-    let page = match table.page {
-        None if count == 1 => pages.swap_remove(0),
-        None => {
-            let why = format!("the file holds {count} pages; say which one with page = 1");
-            return Err(wrong(why));
-        }
-        Some(n) if (1..=count).contains(&n) => pages.swap_remove(n - 1),
-        Some(n) => {
-            let why = format!("there is no page {n}: the file holds {count}");
-            return Err(wrong(why));
-        }
-    };
+    let number = table.page.unwrap_or(1);
+    let (page, count) = scan::load_page(&bytes, &name, reading, number)?;
+    let page = page.filter(|_| table.page.is_some() || count == 1);
+    let page = page.ok_or_else(|| {
+        wrong(match table.page {
+            Some(n) => format!("there is no page {n}: the file holds {count}"),
+            None => format!("the file holds {count} pages; say which one with page = 1"),
+        })
+    })?;
     match template::find(&page, &project.template) {
         Ok(found) => Err(wrong(format!(
             "this is page {} of those that `khatt sheet` prints, and cannot be cut by another layout: write \

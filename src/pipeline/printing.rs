@@ -148,16 +148,18 @@ impl<'a> Printing<'a> {
             tones: self.table.tones,
             ..Reading::default()
         };
-        let sheets = scan::load(&bytes, &image.display().to_string(), reading)?;
-        let mut sheets: Vec<Sheet> = sheets.into_iter().map(scan::grey).collect();
-        match self.table.page {
-            None => Ok(sheets),
-            Some(n) if (1..=sheets.len()).contains(&n) => Ok(vec![sheets.swap_remove(n - 1)]),
-            Some(n) => Err(Problem::Sheet {
-                sheet: image.display().to_string(),
-                why: format!("there is no page {n}: the file holds {}", sheets.len()),
-            }),
-        }
+        let name = image.display().to_string();
+        let sheets = match self.table.page {
+            None => scan::load(&bytes, &name, reading)?,
+            Some(n) => match scan::load_page(&bytes, &name, reading, n)? {
+                (Some(sheet), _) => vec![sheet],
+                (None, count) => {
+                    let why = format!("there is no page {n}: the file holds {count}");
+                    return Err(Problem::Sheet { sheet: name, why });
+                }
+            },
+        };
+        Ok(sheets.into_iter().map(scan::grey).collect())
     }
 
     /// Which page a picture shows, and its cells.

@@ -36,7 +36,7 @@ pub(crate) use cut::{SMALL_LETTER, SMALL_SHARE, is_full};
 pub use error::{Fault, ScanError};
 pub use grain::{InkGrain, grained};
 pub use ink::{Ink, Inks};
-pub use load::{ColourDetail, Polarity, Reading, Tones, Turn, describes_light, load};
+pub use load::{ColourDetail, Polarity, Reading, Tones, Turn, describes_light, load, load_page};
 pub use options::{Layout, Options, Order, Scale};
 pub use range::{full_range, is_all_dark};
 pub use separation::Colour;

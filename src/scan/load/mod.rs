@@ -140,7 +140,35 @@ impl Turn {
 /// # Errors
 /// The content is no picture of these kinds, ends too early, is damaged, or is larger than a page can be.
 pub fn load(bytes: &[u8], source: &str, reading: Reading) -> Result<Vec<Sheet>, ScanError> {
-    let pictures = pictures(bytes, reading.tones).map_err(|fault| fault.of(source, None))?;
+    sheets(bytes, source, reading, |_| true).map(|pages| pages.into_iter().flatten().collect())
+}
+
+/// The page `number` of a file, from 1, where it has that many, and how many it has; otherwise as [`load`]. No other
+/// page of a TIFF or PDF file is decoded.
+///
+/// # Errors
+/// The content is no picture of these kinds, or that page ends too early, is damaged, or is larger than a page can
+/// be.
+pub fn load_page(
+    bytes: &[u8],
+    source: &str,
+    reading: Reading,
+    number: usize,
+) -> Result<(Option<Sheet>, usize), ScanError> {
+    let mut pages = sheets(bytes, source, reading, |n| n == number)?;
+    let page = number.checked_sub(1).and_then(|i| pages.get_mut(i));
+    Ok((page.and_then(Option::take), pages.len()))
+}
+
+/// The pages of a file, those decoded whose number, from 1, is wanted.
+fn sheets(
+    bytes: &[u8],
+    source: &str,
+    reading: Reading,
+    wanted: impl Fn(usize) -> bool,
+) -> Result<Vec<Option<Sheet>>, ScanError> {
+    let pictures = pictures(bytes, reading.tones, wanted);
+    let pictures = pictures.map_err(|fault| fault.of(source, None))?;
     let several = pictures.len() > 1;
     let name = |n: usize| {
         if several {
@@ -149,28 +177,33 @@ pub fn load(bytes: &[u8], source: &str, reading: Reading) -> Result<Vec<Sheet>, 
             source.to_owned()
         }
     };
-    let sheets = pictures.into_iter().zip(1..);
-    sheets
-        .map(|(picture, n)| sheet(picture, name(n), reading))
+    let pages = pictures.into_iter().zip(1..);
+    pages
+        .map(|(picture, n)| picture.map(|p| sheet(p, name(n), reading)).transpose())
         .collect()
 }
 
-/// The pictures of a file in order.
-fn pictures(bytes: &[u8], tones: Tones) -> Result<Vec<Decoded>, Fault> {
+/// The pictures of a file in order, decoded where their number, from 1, is wanted.
+fn pictures(
+    bytes: &[u8],
+    tones: Tones,
+    wanted: impl Fn(usize) -> bool,
+) -> Result<Vec<Option<Decoded>>, Fault> {
     if pdf::is_pdf(bytes) {
-        return pdf::pages(bytes, tones);
+        return pdf::pages(bytes, tones, wanted);
     }
     let pages = header::tiff_pages(bytes);
     if pages.is_empty() {
-        return Ok(vec![decode(bytes, tones)?]);
+        // what cannot be decoded has no pages to count
+        return Ok(vec![Some(decode(bytes, tones)?)]);
     }
     // decoders begin at the first page: one copy, whose header points to one after the other
     let mut file = bytes.to_vec();
-    let begun = |first: [u8; 4]| {
+    let begun = |(first, number): ([u8; 4], usize)| {
         file[header::TIFF_FIRST].copy_from_slice(&first);
-        decode(&file, tones)
+        wanted(number).then(|| decode(&file, tones)).transpose()
     };
-    pages.into_iter().map(begun).collect()
+    pages.into_iter().zip(1..).map(begun).collect()
 }
 
 /// A page as its file has it, upright.

@@ -18,11 +18,16 @@ pub(super) fn is_pdf(bytes: &[u8]) -> bool {
     bytes.windows(5).take(1024).any(|w| w == b"%PDF-")
 }
 
-/// The picture of each page, upright, with its resolution where it covers the page.
-pub(super) fn pages(bytes: &[u8], tones: Tones) -> Result<Vec<Decoded>, Fault> {
+/// The picture of each page whose number, from 1, is wanted, upright, with its resolution where it covers the page.
+pub(super) fn pages(
+    bytes: &[u8],
+    tones: Tones,
+    wanted: impl Fn(usize) -> bool,
+) -> Result<Vec<Option<Decoded>>, Fault> {
     let pdf = Pdf::new(bytes.to_vec()).map_err(|_| fail("the PDF file cannot be read"))?;
-    let pages = pdf.pages().iter().map(|p| page(p, tones));
-    let found: Vec<Decoded> = pages.collect::<Result<_, _>>()?;
+    let pages = pdf.pages().iter().zip(1..);
+    let pages = pages.map(|(p, number)| wanted(number).then(|| page(p, tones)).transpose());
+    let found: Vec<Option<Decoded>> = pages.collect::<Result<_, _>>()?;
     if found.is_empty() {
         return Err(fail("the PDF file has no page"));
     }

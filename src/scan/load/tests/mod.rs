@@ -104,6 +104,7 @@ fn every_page_of_a_tiff_is_read() {
     assert_eq!(pages.len(), 2);
     assert_eq!(pages[0].gray, pages[1].gray);
     assert_eq!(pages[1].source, "two.tif, page 2");
+    one_by_one(&file, &pages);
     let circle = u32::try_from(start).unwrap().to_le_bytes();
     let last = file.len() - 4;
     file[last..].copy_from_slice(&circle);
@@ -111,6 +112,27 @@ fn every_page_of_a_tiff_is_read() {
         load(&file, "circle.tif", Reading::default()).is_ok(),
         "a circle of pages ends"
     );
+}
+
+/// Of the two pages of a TIFF file each is read by itself, the second also where the first is damaged.
+fn one_by_one(file: &[u8], pages: &[Sheet]) {
+    let page = |file: &[u8], n: usize| load_page(file, "two.tif", Reading::default(), n);
+    for (sheet, n) in pages.iter().zip(1..) {
+        let (read, count) = page(file, n).unwrap();
+        let read = read.unwrap();
+        assert_eq!((&read.gray, &read.source), (&sheet.gray, &sheet.source));
+        assert_eq!(count, 2);
+    }
+    for n in [0, 3] {
+        let (read, count) = page(file, n).unwrap();
+        assert!(read.is_none() && count == 2, "page {n}");
+    }
+    let start = u32::from_le_bytes(*file[4..].first_chunk().unwrap()) as usize;
+    let mut damaged = file.to_vec();
+    // the tag of the width
+    damaged[start + 2..start + 4].copy_from_slice(&[0xff, 0xff]);
+    assert!(page(&damaged, 1).is_err());
+    assert!(page(&damaged, 2).unwrap().0.is_some());
 }
 
 #[test]
