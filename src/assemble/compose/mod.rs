@@ -17,6 +17,8 @@ use crate::types::{Anchor, Form, Label, Outline};
 use kurbo::{Affine, Point, Rect, Vec2};
 use recipes::{Dots, Recipe};
 use serde::{Deserialize, Serialize};
+use std::cmp::Reverse;
+use std::collections::BTreeMap;
 use unicode_normalization::char::{canonical_combining_class, decompose_compatible};
 
 /// What is composed, and how. Lengths are parts of the em.
@@ -100,17 +102,56 @@ pub(super) fn add(
         by_hand,
     };
     for set in &options.letters {
+        let mut left = Vec::new();
         for &letter in &set.letters {
             let missing = work.letter(letter);
-            let is_there = work.drafts.iter().any(|d| d.id.chars == [letter]);
-            // most of latin stays undrawn, and nobody misses it
-            if !is_there && set.word != "latin" {
-                notes.push(note(letter, missing));
+            if !work.drafts.iter().any(|d| d.id.chars == [letter]) {
+                left.push((letter, missing));
             }
+        }
+        if set.word == recipes::LATIN {
+            notes.extend(summary(&set.word, &left));
+        } else {
+            notes.extend(
+                left.into_iter()
+                    .map(|(letter, missing)| note(letter, missing)),
+            );
         }
     }
     work.ligatures();
     notes
+}
+
+/// What a large set lacks: the parts that are missing, or letters that have none, those of most letters first. Most
+/// fonts lack many of its letters on purpose.
+fn summary(set: &str, left: &[(char, Option<char>)]) -> Option<Note> {
+    /// Parts that are named.
+    const TOLD: usize = 12;
+    let mut parts: BTreeMap<char, usize> = BTreeMap::new();
+    for &(letter, part) in left {
+        *parts.entry(part.unwrap_or(letter)).or_default() += 1;
+    }
+    let mut parts: Vec<(char, usize)> = parts.into_iter().collect();
+    parts.sort_by_key(|&(_, letters)| Reverse(letters));
+    let part = |&(part, letters): &(char, usize)| format!("{} for {letters}", code(part));
+    let mut told: Vec<String> = parts.iter().take(TOLD).map(part).collect();
+    if parts.len() > TOLD {
+        told.push(format!("{} more", parts.len() - TOLD));
+    }
+    let message = format!(
+        "{} letters are neither drawn nor composed for lack of {}",
+        left.len(),
+        told.join(", ")
+    );
+    (!told.is_empty()).then(|| Note {
+        glyph: set.to_owned(),
+        message,
+    })
+}
+
+/// A character's glyph and code.
+fn code(c: char) -> String {
+    format!("{} (U+{:04X})", names::name_of(&[c]), u32::from(c))
 }
 
 /// What a letter's body is in that form where it is composed, likeliest first.
@@ -119,7 +160,6 @@ pub(super) fn bodies(letter: char, form: Form) -> Vec<char> {
 }
 
 fn note(letter: char, missing: Option<char>) -> Note {
-    let code = |c: char| format!("{} (U+{:04X})", names::name_of(&[c]), u32::from(c));
     let message = match missing {
         Some(part) => format!(
             "neither drawn nor composed: its part {} is missing; draw it, or the whole letter",

@@ -78,14 +78,20 @@ const ALPHABETS: [(&str, &str); 3] = [
     ("urdu", "ءآأؤئابپتٹثجچحخدڈذرڑزژسشصضطظعغفقکگلمنںوہھیےۂۃۓ"),
 ];
 
-/// Blocks whose letters are composed for `latin`: Latin-1 to Extended-B, Extended Additional.
-const LATIN: [std::ops::RangeInclusive<u32>; 2] = [0xC0..=0x24F, 0x1E00..=0x1EFF];
+/// The alphabet that has far more letters than one language needs.
+pub(super) const LATIN: &str = "latin";
+
+/// Blocks whose letters are composed for it: Latin-1 to Extended-B, Extended Additional.
+const LATIN_BLOCKS: [std::ops::RangeInclusive<u32>; 2] = [0xC0..=0x24F, 0x1E00..=0x1EFF];
 
 /// The letters of an alphabet; none for a word that is no alphabet.
 pub(super) fn alphabet(word: &str) -> Option<Vec<char>> {
-    if word == "latin" {
-        let all = LATIN.into_iter().flatten().filter_map(char::from_u32);
-        return Some(all.filter(|c| decomposition(*c).is_some()).collect());
+    if word == LATIN {
+        let all = LATIN_BLOCKS.into_iter().flatten();
+        let composed = all.filter_map(char::from_u32);
+        let composed = composed.filter(|c| decomposition(*c).is_some());
+        let plain = ('A'..='Z').chain('a'..='z');
+        return Some(plain.chain(composed).collect());
     }
     let (_, letters) = ALPHABETS.iter().find(|(name, _)| *name == word)?;
     Some(letters.chars().collect())
