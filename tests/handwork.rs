@@ -50,6 +50,27 @@ fn a_ufo_built_again_keeps_hand_work() {
 }
 
 #[test]
+fn data_and_images_are_not_overwritten() {
+    let desk = Desk::letters();
+    desk.done(&BUILD);
+    let files = [
+        ("out/test.ufo/data/notes.txt", b"mine".to_vec()),
+        ("out/test.ufo/images/page.png", desk.read("page.png")),
+    ];
+    files.iter().for_each(|(name, file)| desk.write(name, file));
+    desk.edit(|text| format!("{text}[spacing.letters]\ntracking = 0.05\n"));
+    desk.done(&BUILD);
+    let said = desk.fails(&["build", "font.toml", "--overwrite"]);
+    let named = said.contains("data/notes.txt") && said.contains("without --overwrite");
+    assert!(named, "{said}");
+    for (name, file) in files {
+        assert_eq!(desk.read(name), file, "{name}");
+        desk.remove(name);
+    }
+    desk.done(&["build", "font.toml", "--overwrite"]);
+}
+
+#[test]
 fn a_damaged_ufo_is_told_with_its_file_and_the_reason() {
     let desk = Desk::letters();
     desk.done(&BUILD);

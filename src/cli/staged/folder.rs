@@ -41,14 +41,23 @@ pub(super) fn refuse_foreign(target: &Path, files: &Files) -> Result<(), Failure
     let Some(foreign) = there.difference(&ours).next() else {
         return Ok(());
     };
+    let help = remedy(foreign, files);
     let foreign = target.join(foreign);
     let what = format!(
         "{name} would be replaced, but holds {}, which khatt did not make",
         foreign.display()
     );
-    Err(Failure::new(what).help(
-        "give another folder, or delete this one where nothing in it is needed, as where an older khatt made it",
-    ))
+    Err(Failure::new(what).help(help))
+}
+
+/// What to do about a file that would be lost.
+fn remedy(foreign: &str, files: &Files) -> &'static str {
+    let kept = ["data/", "images/"].iter().any(|f| foreign.starts_with(f));
+    if kept && is_ufo(files) {
+        "move it out of the UFO, or give another folder; khatt build without --overwrite keeps data and images"
+    } else {
+        "give another folder, or delete this one where nothing in it is needed, as where an older khatt made it"
+    }
 }
 
 /// Which of the files that are there khatt made.
