@@ -503,6 +503,16 @@ fn a_line_of_names_that_is_no_row_is_told() {
         cells: 8,
     };
     assert_eq!(error, told);
+    // a name forgotten
+    let all = rows.join(" ");
+    let fewer: Vec<&str> = all
+        .split(' ')
+        .take(12)
+        .chain(all.split(' ').skip(13))
+        .collect();
+    let error = cut_page(&paper, &fewer.join(" "), &names(&[8, 7, 8, 7, 8])).unwrap_err();
+    let told = "with them: line 2 of `glyphs` has 7 names and row 2 8 letters";
+    assert!(error.to_string().contains(told), "{error}");
 }
 
 /// A page of [`ROWS`] whose longer strokes are each in two parts.

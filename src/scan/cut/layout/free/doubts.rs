@@ -2,6 +2,7 @@
 //! doubt.
 
 use super::reading::{Reading, Role};
+use crate::scan::cut::layout::listed;
 use crate::scan::cut::layout::touching::Touch;
 use crate::scan::error::Fault;
 
@@ -106,10 +107,11 @@ impl Unread {
         }
     }
 
-    /// The error of a page that has so many names; `label` says the text of one, and its number on the page.
+    /// The error of a page that has so many names, in lines of so many each where those are known; `label` says the
+    /// text of one, and its number on the page.
     pub(super) fn error<'a>(
         &self,
-        names: usize,
+        (names, lines): (usize, &[usize]),
         label: impl Fn(usize) -> (&'a str, usize),
     ) -> Fault {
         // places that only dirt makes are no rows
@@ -161,11 +163,15 @@ impl Unread {
                     .to_owned()
             }
         });
-        let mut doubts: Vec<String> = told.collect();
-        let more = self.doubts.len() - doubts.len();
-        if more > 0 {
-            doubts.push(format!("{more} more places are in doubt"));
-        }
+        let odd = match listed::check(lines, &rows) {
+            Err(Fault::Line { line, names, cells }) => Some(format!(
+                "line {line} of `glyphs` has {names} names and row {line} {cells} letters"
+            )),
+            _ => None,
+        };
+        let more = self.doubts.len().saturating_sub(TOLD);
+        let more = (more > 0).then(|| format!("{more} more places are in doubt"));
+        let doubts: Vec<String> = odd.into_iter().chain(told).chain(more).collect();
         let each: Vec<String> = rows.iter().map(usize::to_string).collect();
         Fault::Count {
             found: rows.iter().sum(),

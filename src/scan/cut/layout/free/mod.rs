@@ -82,8 +82,10 @@ pub(super) fn place(
         let index = names.get(k).copied().unwrap_or_default();
         (labels.get(index).map_or("", |l| l.0.as_str()), index + 1)
     };
-    let (read, parted) =
-        read(all, &shapes, task).map_err(|unread| unread.error(names.len(), label))?;
+    // a row that lacks letters whose places are given says nothing of its line
+    let lines = Some(task.options.lines.as_slice()).filter(|_| claims.is_empty());
+    let given = (names.len(), lines.unwrap_or_default());
+    let (read, parted) = read(all, &shapes, task).map_err(|unread| unread.error(given, label))?;
     let spare = read.spare.map(|s| [*s.start(), *s.end()].map(|k| names[k]));
     let doubtful = read.doubtful.iter().map(|&k| names[k]).collect();
     let mut names = names.into_iter();
