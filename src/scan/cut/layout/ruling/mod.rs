@@ -6,21 +6,15 @@
 //! stays too.
 
 mod hidden;
+mod stripes;
 
-use crate::numeric::cast::index;
 use crate::numeric::median::middle;
 use crate::numeric::view::View;
 use crate::scan::components::Component;
 use hidden::Hidden;
 use kurbo::Point;
 use std::ops::Range;
-
-/// Share of the lattice's length that a line of it covers at least.
-const LONG: f64 = 0.5;
-/// So many times as thick as the lattice's other lines is a row of letters that touch.
-const THICK: f64 = 1.6;
-/// How far a line's blurred and ragged edge reaches beyond where it covers so much, px.
-const EDGE: f64 = 1.5;
+use stripes::{THICK, inked, lines_of};
 
 /// Ways across a line: how far they lead along it, as a share of how far across. A letter's edge goes between two of
 /// them.
@@ -40,25 +34,6 @@ pub(super) fn heights(lines: &[&Component], upright: &View) -> Vec<f64> {
     lines.iter().flat_map(of).collect()
 }
 
-/// The stripes across the page and down it in which a lattice, or a single line, has ink for most of its length.
-fn lines_of(lattice: &Component, upright: &View) -> [Vec<Range<f64>>; 2] {
-    let b = lattice.upright;
-    let at = |x: usize, y: usize| upright.at(Point::new(x as f64 + 0.5, y as f64 + 0.5));
-    let mut profiles = [b.width(), b.height()].map(|length| vec![0.0; index(length) + 2]);
-    for (x, y) in lattice.pixels() {
-        let p = at(x, y) - b.origin();
-        for (profile, v) in profiles.iter_mut().zip([p.x, p.y]) {
-            if let Some(ink) = profile.get_mut(index(v)) {
-                *ink += 1.0;
-            }
-        }
-    }
-    [
-        stripes(&profiles[0], b.x0, b.height()),
-        stripes(&profiles[1], b.y0, b.width()),
-    ]
-}
-
 /// What is left of a lattice, or of a single line, without its lines: pieces that are wider than a line is thick.
 pub(super) fn freed(lattice: &Component, upright: &View) -> Vec<Component> {
     let b = lattice.upright;
@@ -72,11 +47,7 @@ pub(super) fn freed(lattice: &Component, upright: &View) -> Vec<Component> {
     let Some(thick) = columns.iter().chain(&rows).map(thick).reduce(f64::max) else {
         return Vec::new();
     };
-    let back = upright.inverse();
-    let ink = |x: f64, y: f64| {
-        let p = back.at(Point::new(x, y));
-        lattice.covers(index(p.x.max(0.0)), index(p.y.max(0.0)))
-    };
+    let ink = inked(lattice, upright);
     let across = |along: f64, x: f64| ink(x, along);
     let of = |lines: Vec<Range<f64>>, ends: Range<f64>, ink: &dyn Fn(f64, f64) -> bool| {
         let stripe = |line| Stripe {
@@ -92,7 +63,7 @@ pub(super) fn freed(lattice: &Component, upright: &View) -> Vec<Component> {
         match (Stripe::at(&columns, p.x), Stripe::at(&rows, p.y)) {
             (None, None) => false,
             (Some(c), None) => !c.is_letter((p.y, p.x), across),
-            (None, Some(r)) => !r.is_letter((p.x, p.y), ink),
+            (None, Some(r)) => !r.is_letter((p.x, p.y), &ink),
             (Some(_), Some(_)) => true,
         }
     };
@@ -134,20 +105,6 @@ fn crosses(line: &Range<f64>, v: f64, ink: impl Fn(f64, f64) -> bool) -> bool {
     let (before, after) = (line.start - 1.0, line.end + 1.0);
     let through = |way: &f64| ink(before, way * (before - v)) && ink(after, way * (after - v));
     WAYS.iter().any(through)
-}
-
-/// Where a profile that begins at `start` is that of a line of this length.
-fn stripes(profile: &[f64], start: f64, length: f64) -> Vec<Range<f64>> {
-    let mut out = Vec::new();
-    let mut at = start;
-    for bins in profile.chunk_by(|a, b| (*a < LONG * length) == (*b < LONG * length)) {
-        let end = at + bins.len() as f64;
-        if bins.iter().all(|ink| *ink >= LONG * length) {
-            out.push(at - EDGE..end + EDGE);
-        }
-        at = end;
-    }
-    out
 }
 
 #[cfg(test)]
