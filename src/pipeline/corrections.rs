@@ -77,6 +77,11 @@ impl Corrections {
         self.get(label).is_some_and(|c| c.0.ignore)
     }
 
+    /// Whether a user says where a letter's ink lies.
+    pub(super) fn places(&self, label: &Label) -> bool {
+        self.get(label).is_some_and(|c| c.1.is_some())
+    }
+
     /// The labels with those of ignored glyphs skipped.
     pub(super) fn kept(&self, labels: &[Label]) -> Vec<Label> {
         let keep = |l: &Label| {

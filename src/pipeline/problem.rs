@@ -88,6 +88,9 @@ pub enum Problem {
     /// A cell that should hold something is empty.
     #[error("{0}: the cell is empty")]
     Empty(Place),
+    /// There is no ink where a correction says that a letter's lies.
+    #[error("{0}: no ink lies where its [cells] table says")]
+    Misplaced(Place),
     /// A cell's label names no glyph.
     #[error("{place}: {source}")]
     Label {
@@ -199,6 +202,9 @@ impl Problem {
             Self::File { .. } => "paths start from the project file's folder",
             Self::Empty(_) => {
                 "draw the letter clear of its neighbours, or leave it out: ignore = true under [cells.NAME], or _ in `glyphs`"
+            }
+            Self::Misplaced(_) => {
+                "correct box, polygon or quad under [cells.NAME], in px of the picture, from its top left"
             }
             Self::Label { .. } => {
                 "give a character, an AGL name, uniXXXX, or a name such as beh-ar.init"

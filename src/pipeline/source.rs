@@ -102,7 +102,7 @@ impl<'a> Source<'a> {
         page.cut.cells.retain(|c| !corrections.ignores(&c.label));
         clear_spaces(&mut page.cut);
         let wanted = wanted.iter().filter(|w| !corrections.ignores(&w.1));
-        let mut problems = gaps(&page, wanted);
+        let mut problems = self.gaps(&page, wanted);
         if let (Layout::Grid(rows, columns), true) = (self.table.layout, problems.len() >= MANY) {
             problems.push(Problem::Sheet {
                 sheet: page.name.clone(),
@@ -114,6 +114,24 @@ impl<'a> Source<'a> {
         }
         page.table = self.number;
         unless(problems, page)
+    }
+
+    /// Names without a letter.
+    fn gaps<'w>(
+        &self,
+        page: &Page,
+        wanted: impl Iterator<Item = &'w (usize, Label)>,
+    ) -> Vec<Problem> {
+        let wanted = wanted.map(|(index, label)| (*index, label));
+        let gap = |(index, label): (usize, &Label)| {
+            let place = Place::new(&page.name, index, label);
+            if self.corrections.places(label) {
+                Problem::Misplaced(place)
+            } else {
+                Problem::Empty(place)
+            }
+        };
+        page::empty(&page.cut, wanted).map(gap).collect()
     }
 
     /// How a letter is traced.
@@ -195,11 +213,4 @@ fn clear_spaces(cut: &mut Cut) {
         });
     }
     cut.warnings.sort_by_key(|w| w.index);
-}
-
-/// Names without a letter.
-fn gaps<'a>(page: &Page, wanted: impl Iterator<Item = &'a (usize, Label)>) -> Vec<Problem> {
-    let empty = page::empty(&page.cut, wanted.map(|(index, label)| (*index, label)));
-    let empty = empty.map(|(index, label)| Problem::Empty(Place::new(&page.name, index, label)));
-    empty.collect()
 }
