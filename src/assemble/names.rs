@@ -73,16 +73,7 @@ pub fn identify(label: &Label) -> Result<Identity, LabelError> {
     if text == ".notdef" {
         return identity(text, Spelled::default());
     }
-    let (base, rest) = text
-        .split_once('.')
-        .map_or((text, None), |(b, r)| (b, Some(r)));
-    let with_rest = |name: String| {
-        [Some(&*name), rest]
-            .into_iter()
-            .flatten()
-            .collect::<Vec<_>>()
-            .join(".")
-    };
+    let (base, rest) = text.split_at(text.find('.').unwrap_or(text.len()));
     let is_text = [text, base]
         .into_iter()
         .any(|t| characters::literal(t).is_some());
@@ -94,7 +85,7 @@ pub fn identify(label: &Label) -> Result<Identity, LabelError> {
         Some(said) => identity(text, said),
         None => Err(LabelError::Unknown {
             label: text.to_owned(),
-            nearest: nearest::name(base).map(with_rest),
+            nearest: nearest::name(base).map(|n| n + rest),
         }),
     }
 }
