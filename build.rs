@@ -1,5 +1,6 @@
 //! Gives the program a digest of its sources, so that results of another build of the same version count as others.
 
+use blake3::Hasher;
 use std::io;
 use std::path::Path;
 use std::{fs, process::ExitCode};
@@ -7,11 +8,8 @@ use std::{fs, process::ExitCode};
 /// All that a build is made of, but the compiler.
 const SOURCES: [&str; 3] = ["src", "Cargo.toml", "Cargo.lock"];
 
-/// FNV-1a of 64 bit: offset and prime.
-const FNV: (u64, u64) = (0xcbf2_9ce4_8422_2325, 0x0100_0000_01b3);
-
 fn main() -> ExitCode {
-    let mut digest = FNV.0;
+    let mut digest = Hasher::new();
     for source in SOURCES {
         println!("cargo::rerun-if-changed={source}");
         if let Err(e) = add(&mut digest, Path::new(source)) {
@@ -19,12 +17,12 @@ fn main() -> ExitCode {
             return ExitCode::FAILURE;
         }
     }
-    println!("cargo::rustc-env=KHATT_SOURCES={digest:016x}");
+    println!("cargo::rustc-env=KHATT_SOURCES={}", digest.finalize());
     ExitCode::SUCCESS
 }
 
 /// Adds a file, or all files of a folder in the order of their names, each after its name and its length.
-fn add(digest: &mut u64, path: &Path) -> io::Result<()> {
+fn add(digest: &mut Hasher, path: &Path) -> io::Result<()> {
     if path.is_dir() {
         let entries = fs::read_dir(path)?.map(|entry| Ok(entry?.path()));
         let mut paths = entries.collect::<io::Result<Vec<_>>>()?;
@@ -35,8 +33,8 @@ fn add(digest: &mut u64, path: &Path) -> io::Result<()> {
     let names = path.iter().map(|part| part.to_string_lossy());
     let name = names.collect::<Vec<_>>().join("/");
     let length = (content.len() as u64).to_le_bytes();
-    for byte in name.bytes().chain(length).chain(content) {
-        *digest = (*digest ^ u64::from(byte)).wrapping_mul(FNV.1);
+    for part in [name.as_bytes(), &length, &content] {
+        digest.update(part);
     }
     Ok(())
 }
