@@ -3,6 +3,7 @@
 use crate::common::menu::is_complete;
 use crate::common::shapes::{Shape, circle, degenerate, noisy, polygon, smooth};
 use khatt::corner::Method;
+use khatt::numeric::angles;
 use khatt::types::Contour;
 use kurbo::{Affine, Point};
 
@@ -146,8 +147,8 @@ fn shift_and_turn_carry_over() {
         for (shape, _) in polygons() {
             for map in [
                 Affine::translate((500.0, -40.0)),
-                Affine::rotate(0.3),
-                Affine::rotate(1.2),
+                angles::rotation(0.3),
+                angles::rotation(1.2),
             ] {
                 let here: Vec<_> = found(m, &shape).into_iter().map(|p| map * p).collect();
                 let there = found(m, &shape.map(|p| map * p));

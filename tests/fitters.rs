@@ -4,6 +4,7 @@ use crate::common::menu::is_complete;
 use crate::common::shapes::{Shape, circle, degenerate, hard, line, smooth};
 use khatt::fit::Method;
 use khatt::fit::judge::{judge, points_to_curve};
+use khatt::numeric::angles;
 use khatt::types::{Fitted, Verdict};
 use kurbo::{Affine, BezPath, ParamCurve, PathEl, Point, Shape as _};
 
@@ -182,7 +183,7 @@ fn shift_scale_and_turn_carry_over() {
         ("shift", Affine::translate((1000.0, -300.0)), 1.0, 0.05),
         ("scale", Affine::scale(2.0), 2.0, 0.05),
         // Nodes at extrema are elsewhere once turned: another curve, as good.
-        ("turn", Affine::rotate(0.5), 1.0, 0.25),
+        ("turn", angles::rotation(0.5), 1.0, 0.25),
     ];
     each(&smooth(), |method, shape, what| {
         let here = fit(method, shape, TOLERANCE_PX);

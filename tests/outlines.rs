@@ -1,5 +1,6 @@
 //! Drawings with a known edge through the whole trace: where their outlines run, and what they never do.
 
+use khatt::numeric::angles;
 use khatt::numeric::cast::single;
 use khatt::numeric::coverage::blur;
 use khatt::pipeline::picture::{Options, trace_picture};
@@ -57,7 +58,7 @@ fn turns(path: &BezPath) -> Vec<f64> {
     let pairs = all.iter().zip(before);
     let turn = |(b, a): (&PathSeg, &PathSeg)| {
         let (u, v) = (way(a, 1.0 - 1e-4, 1.0), way(b, 0.0, 1e-4));
-        u.cross(v).atan2(u.dot(v)).abs().to_degrees()
+        libm::atan2(u.cross(v), u.dot(v)).abs().to_degrees()
     };
     pairs.map(turn).collect()
 }
@@ -150,11 +151,11 @@ fn a_cusp_keeps_its_tip() {
     // a drop: a disk and the two tangents from a point
     let tip = Point::new(48.3, 8.2);
     let (centre, radius) = (Point::new(48.3, 64.0), 22.0);
-    let half = (radius / tip.distance(centre)).asin();
+    let half = libm::asin(radius / tip.distance(centre));
     let inside = |p: Point| {
         let d = p - tip;
-        let wedge =
-            d.x.atan2(d.y).abs() < half && d.dot(d) < (centre - tip).hypot2() - radius * radius;
+        let wedge = libm::atan2(d.x, d.y).abs() < half
+            && d.dot(d) < (centre - tip).hypot2() - radius * radius;
         p.distance(centre) < radius || wedge
     };
     let got = outlines(&picture(96, |p| if inside(p) { -1.0 } else { 1.0 }));
@@ -168,7 +169,7 @@ fn a_cusp_keeps_its_tip() {
 #[test]
 fn an_s_is_smooth() {
     // a wave with rounded ends
-    let wave = |x: f64| Point::new(x, 48.0 + 20.0 * (x / 11.0).sin());
+    let wave = |x: f64| Point::new(x, 48.0 + 20.0 * libm::sin(x / 11.0));
     let spine: Vec<Point> = (0..=720)
         .map(|i| wave(12.0 + f64::from(i) / 10.0))
         .collect();
@@ -208,7 +209,7 @@ fn hairlines_keep_their_width() {
 /// Part of a step's height that a lens leaves at distance `d` px inside of it; nearly a Gaussian of 0.95 px, the
 /// pixel's box included.
 fn step(d: f64) -> f64 {
-    1.0 / (1.0 + (-1.702 * d / 0.95).exp())
+    1.0 / (1.0 + libm::exp(-1.702 * d / 0.95))
 }
 
 #[test]
@@ -338,7 +339,7 @@ fn blob(p: Point, seed: u32) -> f64 {
     ];
     let bumps: f64 = waves
         .iter()
-        .map(|(k, a)| a * (k * d.atan2() + phase * k).sin())
+        .map(|(k, a)| a * libm::sin(k * angles::heading(d) + phase * k))
         .sum();
     d.hypot() - 30.0 - bumps
 }
@@ -465,7 +466,7 @@ fn the_steps_of_two_levels_are_no_drawing() {
     for deg in [-3.0, 1.0, 2.0, 20.0] {
         // a stem aslant, whose sides run in steps of 3 to 60 px
         let stem = |p: Point| {
-            let to = Vec2::from_angle(f64::to_radians(deg));
+            let to = angles::direction(f64::to_radians(deg));
             let from = p - Point::new(100.2, 99.9);
             let (x, y) = (from.dot(to).abs() - 21.3, from.cross(to).abs() - 80.6);
             x.max(y).min(0.0) + Vec2::new(x.max(0.0), y.max(0.0)).hypot()
@@ -500,7 +501,7 @@ fn short_serifs_are_not_cut_off() {
         let k = f64::from(*k);
         let serif = 3.0 + 0.1 * (k % 11.0);
         let middle = CENTRE + Vec2::new(0.13 * k % 1.0, 0.29 * k % 1.0);
-        let turn = Affine::rotate_about((7.0 * k % 5.0 - 2.0).to_radians(), middle);
+        let turn = angles::rotation_about((7.0 * k % 5.0 - 2.0).to_radians(), middle);
         let distance = |p: Point| {
             let d = turn.inverse() * p - middle;
             let stem = (d.x.abs() - 2.1).max(d.y.abs() - 18.0);

@@ -281,3 +281,24 @@ fn outputs_older_than_an_input_that_has_not_changed_are_dated_anew() {
     assert!(dated.iter().all(|date| *date >= touched), "{dated:?}");
     assert!(desk.files("out") == files, "and nothing else");
 }
+
+/// The report is not rounded: it has the last bits of all that was measured.
+#[test]
+fn processors_with_fused_multiply_add_build_as_others_do() {
+    let desk = Desk::letters();
+    outputs(
+        &desk,
+        "ttf = \"out/test.ttf\"\nufo = \"out/test.ufo\"\nreport = \"out/test.json\"",
+    );
+    let args = ["build", "--no-cache", "font.toml"];
+    desk.done(&args);
+    let built = desk.files("out");
+    desk.remove("out");
+    // glibc's way to go by another processor; other systems' libraries do not hear it
+    let without = "glibc.cpu.hwcaps=-FMA,-FMA4,-AVX2,-AVX512F";
+    let status = desk.command(&args).env("GLIBC_TUNABLES", without).status();
+    assert!(status.is_ok_and(|s| s.success()));
+    assert_eq!(built.len(), desk.files("out").len());
+    let same = |(name, bytes): (&String, &Vec<u8>)| *bytes == desk.files("out")[name];
+    assert!(built.iter().all(same), "other bytes");
+}

@@ -27,8 +27,8 @@ fn rough(shape: &Shape, sigma: f64, seed: u64) -> Shape {
 
 fn bean() -> Shape {
     ring("bean", 400, |t| {
-        let r = 50.0 + 9.0 * (2.0 * TAU * t).cos() + 4.0 * (3.0 * TAU * t).sin();
-        (r * (TAU * t).cos(), r * (TAU * t).sin())
+        let r = 50.0 + 9.0 * libm::cos(2.0 * TAU * t) + 4.0 * libm::sin(3.0 * TAU * t);
+        (r * libm::cos(TAU * t), r * libm::sin(TAU * t))
     })
 }
 
@@ -112,7 +112,7 @@ fn samavati98_finds_the_straight_parts_of_a_stroke() {
             s if s > 260.0 - side => (2.0 * r, 260.0 - s),
             s => {
                 let a = (s - side) / r;
-                (r - r * a.cos(), side + r * a.sin())
+                (r - r * libm::cos(a), side + r * libm::sin(a))
             }
         }
     });
@@ -166,8 +166,9 @@ fn polygon_area(points: &[Point]) -> f64 {
 fn leaf() -> Shape {
     let mut shape = ring("leaf", 900, |t| {
         let a = TAU * t;
-        let r = 36.0 + 9.0 * (3.0 * a).cos() + 6.0 * (5.0 * a).sin() + 2.5 * (11.0 * a).cos();
-        ((r * a.cos()).round(), (r * a.sin()).round())
+        let r =
+            36.0 + 9.0 * libm::cos(3.0 * a) + 6.0 * libm::sin(5.0 * a) + 2.5 * libm::cos(11.0 * a);
+        ((r * libm::cos(a)).round(), (r * libm::sin(a)).round())
     });
     shape.points.dedup();
     shape
@@ -235,7 +236,10 @@ fn letter_d() -> Vec<Shape> {
     let bow = |rx: f64, ry: f64, y: f64| {
         move |t: f64| {
             let a = std::f64::consts::PI * (t - 0.5);
-            ((60.0 + rx * a.cos()).round(), (y + ry * a.sin()).round())
+            (
+                (60.0 + rx * libm::cos(a)).round(),
+                (y + ry * libm::sin(a)).round(),
+            )
         }
     };
     let mut outer = open("bow", 900, bow(90.0, 110.0, 110.0));

@@ -189,7 +189,7 @@ fn junctions(path: &BezPath, pen: f64) -> Vec<Point> {
             Some(before) => {
                 let into = before.end() - before.eval(0.95);
                 let out = segment.eval(0.05) - segment.start();
-                if into.cross(out).atan2(into.dot(out)).abs() > 0.5 {
+                if libm::atan2(into.cross(out), into.dot(out)).abs() > 0.5 {
                     meet.push(segment.start());
                 }
             }

@@ -84,7 +84,8 @@ fn redrawn(ink: impl Fn(f64, f64, f64) -> f64) -> Vec<u8> {
 
 #[test]
 fn ink_of_a_pen_that_shades_is_as_good_as_even_ink() {
-    let pools = redrawn(|drawn, x, y| drawn * (0.65 + 0.35 * (x / 11.0).sin() * (y / 13.0).cos()));
+    let pools =
+        redrawn(|drawn, x, y| drawn * (0.65 + 0.35 * libm::sin(x / 11.0) * libm::cos(y / 13.0)));
     let ((wanted, _), (got, told)) = (segments(&page(&[])), segments(&pools));
     assert_eq!(got, wanted, "segments of each letter: {told}");
 }

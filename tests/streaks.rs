@@ -25,7 +25,7 @@ fn bars(kinds: &[Lines]) -> Vec<u8> {
         let (x, y) = ((i % width % 200) as f32, (i / width % 200) as f32);
         if (80.0..120.0).contains(&x) && (40.0..150.0).contains(&y) {
             let (rough, left) = match kind {
-                Lines::Streaks => (0.5, 0.45 + 0.15 * (y / 9.0).sin()),
+                Lines::Streaks => (0.5, 0.45 + 0.15 * libm::sinf(y / 9.0)),
                 Lines::Slits => (0.05, 0.0),
                 Lines::None => (0.5, 1.0),
             };

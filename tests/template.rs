@@ -518,7 +518,8 @@ fn wrong_pictures_are_told_apart_and_nothing_is_written() {
 fn cat() -> Vec<u8> {
     png(700, 500, |x, y| {
         let (x, y) = (f64::from(x), f64::from(y));
-        let grain = 22.0 * ((0.9 * x).sin() * (1.3 * y + 0.4 * x).sin() + (0.37 * x * y).sin());
+        let grain =
+            22.0 * (libm::sin(0.9 * x) * libm::sin(1.3 * y + 0.4 * x) + libm::sin(0.37 * x * y));
         let face = ((x - 350.0) / 190.0).hypot((y - 270.0) / 160.0) < 1.0;
         let eye = |at: f64| (x - at).hypot(y - 220.0);
         let eyes = eye(270.0).min(eye(430.0));

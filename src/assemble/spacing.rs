@@ -94,7 +94,7 @@ impl Rhythm {
         let cap = info.metrics.cap_height;
         let x_height = if x > 0.0 { x } else { 0.7 * cap };
         let cap_height = if cap > 0.0 { cap } else { x_height / 0.7 };
-        let slant = (-info.italic_angle).to_radians().tan();
+        let slant = libm::tan((-info.italic_angle).to_radians());
         let counters = |letters: &str, zone: (f64, f64)| -> Vec<(f64, f64)> {
             let of = |d: &Draft| {
                 let wanted = d.codepoints.first().is_some_and(|c| letters.contains(*c));

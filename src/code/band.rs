@@ -3,7 +3,7 @@
 use super::places::{extent, place};
 use super::tube::Tube;
 use super::{Bounds, Kind, Width};
-use crate::numeric::turns::angle;
+use crate::numeric::angles::angle;
 use crate::numeric::{cast, qbc::Pull};
 use kurbo::Point;
 use std::collections::BTreeMap;

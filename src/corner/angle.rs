@@ -13,6 +13,7 @@
 //! ```
 
 use super::Detector;
+use crate::numeric::angles;
 use crate::numeric::turns::{Ends, Straight, Walk};
 use crate::types::Contour;
 use serde::{Deserialize, Serialize};
@@ -121,7 +122,7 @@ impl Angle {
 fn directions(walk: &Walk<'_>, n: usize, reach: f64) -> Vec<f64> {
     let mut last: Option<f64> = None;
     let unwrapped = |i: usize| {
-        let here = walk.chords(i, reach).1.angle().to_degrees();
+        let here = angles::heading(walk.chords(i, reach).1).to_degrees();
         let turn = last.map_or(0.0, |l| ((here - l) / 360.0).round());
         let here = here - 360.0 * turn;
         last = Some(here);
@@ -146,7 +147,7 @@ mod tests {
         let stem = (0..60).map(|i| Point::new(0.0, f64::from(60 - i)));
         let bow = (0..94).map(|i| {
             let a = f64::from(i) * std::f64::consts::PI / 94.0 - std::f64::consts::FRAC_PI_2;
-            Point::new(30.0 * a.cos(), 30.0 + 30.0 * a.sin())
+            Point::new(30.0 * libm::cos(a), 30.0 + 30.0 * libm::sin(a))
         });
         Contour::new(stem.chain(bow).collect()).unwrap()
     }

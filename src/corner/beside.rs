@@ -63,7 +63,7 @@ impl<'a> Corners<'a> {
     /// Where they meet at an acute angle each side is within the other's blur for longer.
     pub(super) fn corner(&self, k: usize) -> Option<Corner> {
         let meeting = self.meeting(k, self.clear)?;
-        let acute = ((std::f64::consts::PI - meeting.turn.abs()) / 2.0).sin() * SQRT_2;
+        let acute = libm::sin((std::f64::consts::PI - meeting.turn.abs()) / 2.0) * SQRT_2;
         let clear = self.clear * (1.0 / acute).clamp(1.0, NEEDLE);
         let apart = self.meeting(k, clear).filter(|m| m.noise < KNOWN_PX);
         let meeting = apart.unwrap_or(meeting);

@@ -18,7 +18,7 @@ pub(super) fn calm(contour: &Contour) -> Cow<'_, Contour> {
         return Cow::Borrowed(contour);
     }
     let kernel: Vec<f64> = (0..=reach)
-        .map(|k| (-0.5 * (k as f64 / sigma).powi(2)).exp())
+        .map(|k| libm::exp(-0.5 * (k as f64 / sigma).powi(2)))
         .collect();
     let total = 2.0 * kernel.iter().sum::<f64>() - kernel[0];
     let average = |i: usize| {

@@ -18,7 +18,7 @@ use super::{
     beside::{Corners, clearance_px},
     calm::calm,
 };
-use crate::numeric::turns::angle;
+use crate::numeric::angles::angle;
 use crate::{numeric::side::Meeting, types::Contour};
 use kurbo::{Line, ParamCurveNearest, Point};
 use serde::{Deserialize, Serialize};
@@ -125,9 +125,9 @@ impl Sides {
         let half = (turn / 2.0).min(1.5);
         let corner = contour.blur_px().hypot(TENT_PX).hypot(contour.ragged_px())
             * std::f64::consts::FRAC_2_PI.sqrt()
-            * half.tan();
-        let radius = clearance_px(contour) / half.tan();
-        let arc = radius * (1.0 / half.cos() - 1.0);
+            * libm::tan(half);
+        let radius = clearance_px(contour) / libm::tan(half);
+        let arc = radius * (1.0 / libm::cos(half) - 1.0);
         let seen = gap(contour.points(), i, m.apex);
         let sharp = turn >= self.sharp_deg.to_radians();
         if sharp {

@@ -18,7 +18,7 @@
 //! measure how much.
 
 use super::Detector;
-use crate::numeric::turns::angle;
+use crate::numeric::angles::angle;
 use crate::types::Contour;
 use kurbo::{Point, Vec2};
 use serde::{Deserialize, Serialize};

@@ -1,10 +1,10 @@
 //! Corners of known shapes, smooth and ragged.
 
 use super::{Detector as _, sharpen, sides::Sides};
+use crate::numeric::angles;
 use crate::{numeric::cast::index, types::Contour};
 use kurbo::{
-    Affine, BezPath, Circle, ParamCurve as _, ParamCurveArclen as _, Point, Rect, RoundedRect,
-    Shape as _,
+    BezPath, Circle, ParamCurve as _, ParamCurveArclen as _, Point, Rect, RoundedRect, Shape as _,
 };
 
 /// A shape's contour with points 0.8 px apart, moved off it by what `stray` says, px outwards.
@@ -23,7 +23,7 @@ fn contour(path: &BezPath, stray: impl Fn(usize) -> f64) -> Contour {
 }
 
 fn square() -> BezPath {
-    Affine::rotate(0.35) * Rect::new(0.0, 0.0, 60.0, 60.0).to_path(1e-3)
+    angles::rotation(0.35) * Rect::new(0.0, 0.0, 60.0, 60.0).to_path(1e-3)
 }
 
 /// Teeth 1.8 px high, 0.9 in the mean, twelve points long each: what paper's fibres make of a felt pen's edge.
@@ -36,7 +36,7 @@ const RAGGED_PX: f64 = 3.0;
 #[test]
 fn a_square_has_its_corners_smooth_or_ragged() {
     let corners = [(0.0, 0.0), (60.0, 0.0), (60.0, 60.0), (0.0, 60.0)];
-    let corners = corners.map(|p| Affine::rotate(0.35) * Point::from(p));
+    let corners = corners.map(|p| angles::rotation(0.35) * Point::from(p));
     for (c, within) in [
         (contour(&square(), |_| 0.0), 0.01),
         (contour(&square(), bumps).with_ragged(RAGGED_PX), 2.0),

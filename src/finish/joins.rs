@@ -3,7 +3,7 @@
 //! Rounded one by one, handles of 20 units turn against each other by up to 4°. Of the grid points around both the
 //! pair is taken that is nearest to where they were and to being collinear; beside a line there is one to choose.
 
-use crate::numeric::turns::angle;
+use crate::numeric::angles::angle;
 use kurbo::{PathEl, Point, Vec2};
 
 /// Directions that differ by less are one, radians: what outlines call a smooth join.
@@ -152,8 +152,9 @@ fn joins(path: &[PathEl]) -> Vec<(Point, [Side; 2])> {
 mod tests {
     use super::super::round::outline;
     use super::angle;
+    use crate::numeric::angles;
     use crate::types::Outline;
-    use kurbo::{BezPath, PathEl, Point, Vec2};
+    use kurbo::{BezPath, PathEl, Point};
     use proptest::prelude::{prop_assert, proptest};
     use std::f64::consts::FRAC_PI_2;
 
@@ -161,7 +162,7 @@ mod tests {
     fn blob(radii: [f64; 4], turn: f64, handle: f64) -> BezPath {
         let node = |k: usize| {
             let angle = turn + FRAC_PI_2 * k as f64;
-            let out = Vec2::from_angle(angle);
+            let out = angles::direction(angle);
             (Point::ORIGIN + radii[k % 4] * out, out.turn_90())
         };
         let mut path = BezPath::new();

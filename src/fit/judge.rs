@@ -182,7 +182,7 @@ mod tests {
     fn ring(radius: f64, n: u32) -> Vec<Point> {
         let at = |i: u32| f64::from(i) / f64::from(n) * std::f64::consts::TAU;
         (0..n)
-            .map(|i| Point::new(radius * at(i).cos(), radius * at(i).sin()))
+            .map(|i| Point::new(radius * libm::cos(at(i)), radius * libm::sin(at(i))))
             .collect()
     }
 

@@ -251,7 +251,7 @@ mod tests {
         let ring = ends == Ends::Closed;
         let at = |i: i32| {
             let a = f64::from(i) * 0.7;
-            Point::new(30.0 * a.cos(), 22.0 * a.sin())
+            Point::new(30.0 * libm::cos(a), 22.0 * libm::sin(a))
         };
         let points: Vec<Point> = (0..9).map(at).collect();
         let n = points.len();

@@ -5,8 +5,8 @@
 //! for it, a node beside a line takes the line's own. Whatever numbers an optimiser puts in,
 //! handles stay collinear and extrema upright.
 
+use super::angles::angle;
 use super::curves::{arriving, leaving};
-use super::turns::angle;
 use kurbo::{BezPath, CubicBez, PathEl, Point, Vec2};
 use std::ops::Range;
 

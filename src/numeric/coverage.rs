@@ -191,7 +191,7 @@ pub fn kernel(sigma_px: f64) -> Vec<f32> {
     if sigma_px < 0.1 {
         return vec![1.0];
     }
-    let weight = |i: usize| (-0.5 * (i as f64 / sigma_px).powi(2)).exp();
+    let weight = |i: usize| libm::exp(-0.5 * (i as f64 / sigma_px).powi(2));
     let radius = index((3.5 * sigma_px).ceil());
     let norm = 1.0 / (2.0 * (1..=radius).map(weight).sum::<f64>() + 1.0);
     (0..=radius).map(|i| single(weight(i) * norm)).collect()

@@ -227,7 +227,7 @@ mod tests {
     fn a_row_is_within_its_farthest_distance() {
         let wave = |i: u32, by: f64| {
             let x = 0.1 * f64::from(i);
-            Point::new(x, x.sin() + by * (1.7 * x).cos())
+            Point::new(x, libm::sin(x) + by * libm::cos(1.7 * x))
         };
         let line = Polyline::new((0..=400).map(|i| wave(i, 0.0)).collect()).unwrap();
         let row: Vec<Point> = (0..=1000).map(|i| wave(i * 2 / 5, 0.3)).collect();
@@ -243,7 +243,7 @@ mod tests {
     fn the_tree_finds_what_looking_at_all_finds() {
         let at = |i: u32| {
             let a = f64::from(i) * 0.37;
-            Point::new(a.cos() * (3.0 + a), a.sin() * (2.0 + 0.3 * a))
+            Point::new(libm::cos(a) * (3.0 + a), libm::sin(a) * (2.0 + 0.3 * a))
         };
         let points: Vec<_> = (0..77).map(at).collect();
         let line = Polyline::new(points.clone()).unwrap();
@@ -270,7 +270,7 @@ mod tests {
         let ring = |r: f64, x: f64| {
             let at = move |i: u32| {
                 let a = f64::from(i) * 0.11;
-                Point::new(x + r * a.cos(), r * a.sin())
+                Point::new(x + r * libm::cos(a), r * libm::sin(a))
             };
             (0..60).map(at).collect::<Vec<_>>()
         };

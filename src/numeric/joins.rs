@@ -1,8 +1,8 @@
 //! Joins that a fit leaves undecided: curves that turn back just before their end, corners that hardly turn, and
 //! smooth nodes that turn at once.
 
+use super::angles::angle;
 use super::chain::{Chain, Join, Kind, Node};
-use super::turns::angle;
 use kurbo::common::solve_quadratic;
 use kurbo::{CubicBez, ParamCurve, ParamCurveDeriv, Vec2};
 

@@ -1,5 +1,6 @@
 //! Mathematics, and what it does with samples and rings alone; imports nothing of ours.
 
+pub mod angles;
 pub mod assignment;
 pub mod banded;
 pub mod bspline;

@@ -129,6 +129,7 @@ fn casteljau(mut points: Vec<(Point, Vec2)>, u: f64) -> (Point, Vec2) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::numeric::angles;
     use kurbo::Affine;
     use proptest::prelude::*;
 
@@ -153,11 +154,11 @@ mod tests {
                 let at = pull.eval(&p, u).0;
                 // Inside the hull: no direction in which the point lies beyond all control points.
                 for i in 0..32 {
-                    let d = Vec2::from_angle(f64::from(i) * 0.2);
+                    let d = angles::direction(f64::from(i) * 0.2);
                     let most = p.iter().map(|q| q.to_vec2().dot(d)).fold(f64::NEG_INFINITY, f64::max);
                     prop_assert!(at.to_vec2().dot(d) <= most + 1e-9);
                 }
-                let map = Affine::rotate(turn) * Affine::skew(shear, 0.0) * Affine::translate((3.0, 5.0));
+                let map = angles::rotation(turn) * Affine::skew(shear, 0.0) * Affine::translate((3.0, 5.0));
                 let moved: Vec<Point> = p.iter().map(|&q| map * q).collect();
                 prop_assert!(pull.eval(&moved, u).0.distance(map * at) < 1e-7);
             }

@@ -1,6 +1,6 @@
 //! The two sides of a corner: lines or parabolas through the points beside it, and where they meet.
 
-use super::turns::angle;
+use super::angles::angle;
 use kurbo::{Point, Vec2};
 use nalgebra::{Matrix3, Vector3};
 
@@ -167,7 +167,7 @@ impl Side {
         let apex = self.point(a).midpoint(after.point(b));
         let (u, v) = (self.tangent(a), after.tangent(b));
         let turn = angle(u, v);
-        let noise = self.noise(a).hypot(after.noise(b)) / 2.0 / (turn / 2.0).cos().max(0.1);
+        let noise = self.noise(a).hypot(after.noise(b)) / 2.0 / libm::cos(turn / 2.0).max(0.1);
         let met = self.point(a).distance(after.point(b)) < 1e-3 && apex.distance(near) <= reach;
         met.then_some(Meeting { apex, turn, noise })
     }
@@ -185,13 +185,14 @@ pub enum Place {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::numeric::cast::index;
+    use crate::numeric::{angles, cast::index};
 
     /// Points of a circle about `centre` between two angles, half a pixel apart.
     fn arc(centre: Point, radius: f64, from: f64, to: f64) -> Vec<Point> {
         let n = index((to - from).abs() * radius / 0.5);
-        let at =
-            |i: usize| centre + radius * Vec2::from_angle(from + (to - from) * i as f64 / n as f64);
+        let at = |i: usize| {
+            centre + radius * angles::direction(from + (to - from) * i as f64 / n as f64)
+        };
         (0..=n).map(at).collect()
     }
 

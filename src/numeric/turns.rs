@@ -1,5 +1,6 @@
 //! Directions along a row of points, how they turn, and where they stay.
 
+use super::angles::angle;
 use kurbo::{Point, Vec2};
 use std::ops::Range;
 
@@ -32,12 +33,6 @@ pub struct Straight {
     pub length: f64,
     /// Farthest that a point of the run may lie from the line through its ends, in the points' unit.
     pub flat: f64,
-}
-
-/// The angle from one direction to another, −π…π radians, left positive; 0 where one of them is none.
-#[must_use]
-pub fn angle(from: Vec2, to: Vec2) -> f64 {
-    from.cross(to).atan2(from.dot(to))
 }
 
 /// Points of a run that are looked at when a broken line is put together: all of them would make the work
@@ -235,11 +230,12 @@ impl<'a> Walk<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::numeric::angles;
 
     /// A stadium: two straight sides of 40 and two half circles of radius 10, steps of about 1.
     fn stadium() -> Vec<Point> {
         let mut p: Vec<Point> = (0..40).map(|i| (f64::from(i), -10.0).into()).collect();
-        let cap = |i: i32| Vec2::from_angle(f64::from(i) * std::f64::consts::PI / 31.0) * 10.0;
+        let cap = |i: i32| angles::direction(f64::from(i) * std::f64::consts::PI / 31.0) * 10.0;
         let quarter = |v: Vec2| Vec2::new(v.y, -v.x);
         p.extend((0..31).map(|i| Point::new(40.0, 0.0) + quarter(cap(i))));
         p.extend((0..40).map(|i| Point::new(40.0 - f64::from(i), 10.0)));

@@ -134,6 +134,7 @@ impl Mul for View {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::numeric::angles;
 
     #[test]
     fn it_goes_through_its_points_and_its_tangent_touches() {
@@ -166,12 +167,12 @@ mod tests {
     fn there_and_back_is_where_one_was() {
         let view = View::of_pencils([1.1, 0.05, -0.03, 0.97, 2e-4, -1e-4]);
         let both = view.inverse() * view;
-        let turned = view * View::from(Affine::rotate(0.2));
+        let turned = view * View::from(angles::rotation(0.2));
         for (x, y) in [(0.0, 0.0), (300.0, -120.0), (-410.0, 77.0)] {
             let p = Point::new(x, y);
             assert!(view.inverse().at(view.at(p)).distance(p) < 1e-9);
             assert!(both.at(p).distance(p) < 1e-9);
-            assert!(turned.at(p).distance(view.at(Affine::rotate(0.2) * p)) < 1e-9);
+            assert!(turned.at(p).distance(view.at(angles::rotation(0.2) * p)) < 1e-9);
         }
         let flat = View::from(Affine::new([1.0, 2.0, 3.0, 4.0, 5.0, 6.0]));
         assert_eq!(

@@ -200,7 +200,7 @@ impl<'a> Printing<'a> {
                 .map(|d| d.cell)
                 .collect(),
             rejected,
-            skew_deg: b.atan2(a).to_degrees(),
+            skew_deg: libm::atan2(b, a).to_degrees(),
             upright: Affine::scale(scale) * down.inverse(),
             colours: Vec::new(),
             misfit: None,

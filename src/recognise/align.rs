@@ -83,7 +83,7 @@ fn change(m: &Map) -> f32 {
 
 fn apply(m: &Map, p: Spot) -> Spot {
     let straight = p.c.hypot(p.s);
-    let (sin, cos) = (0.5 * p.s.atan2(p.c)).sin_cos();
+    let (sin, cos) = libm::sincosf(0.5 * libm::atan2f(p.s, p.c));
     let (u, v) = (m[0] * cos + m[1] * sin, m[3] * cos + m[4] * sin);
     let scale = straight / (u * u + v * v).max(1e-9);
     Spot {
@@ -117,7 +117,7 @@ mod tests {
     /// Spots along an arc of `turn` radians, mapped by `map`.
     fn arc(turn: f32, map: &Map) -> Vec<Spot> {
         let spot = |i: usize| {
-            let (s, c) = (turn * i as f32 / 39.0).sin_cos();
+            let (s, c) = libm::sincosf(turn * i as f32 / 39.0);
             let (s2, c2) = (2.0 * s * c, c * c - s * s);
             // the tangent stands at a right angle to the radius: twice the angle has the opposite sign
             apply(

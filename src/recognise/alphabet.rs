@@ -225,7 +225,7 @@ impl Alphabet {
             }
         }
         let best = guesses.first().map_or(0.0, |g| g.distance);
-        let weight = |d: f64| (-(d - best) / self.method.temperature()).exp();
+        let weight = |d: f64| libm::exp(-(d - best) / self.method.temperature());
         let total: f64 = guesses.iter().map(|g| weight(g.distance)).sum();
         guesses
             .iter_mut()
@@ -320,9 +320,9 @@ fn page_scale(pairs: &[(f64, f64)]) -> Option<f64> {
     let ratios = || {
         pairs
             .iter()
-            .map(|(px, em)| (em / px.max(1e-6)).max(1e-9).ln())
+            .map(|(px, em)| libm::log((em / px.max(1e-6)).max(1e-9)))
     };
     let middle = median(ratios())?;
     let spread = median(ratios().map(|r| (r - middle).abs()))?;
-    (spread <= ONE_SCALE).then(|| middle.exp())
+    (spread <= ONE_SCALE).then(|| libm::exp(middle))
 }

@@ -13,8 +13,8 @@
 
 use super::skeleton::{Pruning, Skeleton, Stroke};
 use super::spline::{Data, Knots, Spline};
+use crate::numeric::angles::angle;
 use crate::numeric::cast::index;
-use crate::numeric::turns::angle;
 use crate::types::{Bitmap, Centerline, Gray, PenLine, Span};
 use kurbo::{BezPath, CubicBez, Point, Vec2};
 

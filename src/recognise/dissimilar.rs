@@ -228,7 +228,7 @@ impl Curve {
         }
         if self.closed {
             self.table.pop();
-            let axis = |p: &Point| p.y.atan2(p.x).abs();
+            let axis = |p: &Point| libm::atan2(p.y, p.x).abs();
             let on_axis = (0..self.table.len())
                 .min_by(|&i, &j| axis(&self.table[i]).total_cmp(&axis(&self.table[j])));
             let start = on_axis.unwrap_or_default();

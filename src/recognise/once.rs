@@ -23,7 +23,7 @@ pub fn once(guesses: &[Vec<Guess>]) -> Vec<Option<Guess>> {
         let mut row = vec![NEVER; columns.len()];
         for guess in guesses {
             if let Some(&column) = columns.get(guess.label.as_str()) {
-                row[column] = -guess.confidence.max(1e-15).ln();
+                row[column] = -libm::log(guess.confidence.max(1e-15));
             }
         }
         row

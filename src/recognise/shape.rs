@@ -11,6 +11,7 @@ use super::align::{self, Spot};
 use super::ink::Ink;
 use super::marks::{Marks, holes};
 use super::skeleton::{Pruning, Skeleton, Stroke};
+use crate::numeric::angles;
 use crate::numeric::cast::{index, single};
 use crate::numeric::median::middle;
 use crate::types::Bitmap;
@@ -229,7 +230,7 @@ fn density(lines: &[Line]) -> Vec<f32> {
         for j in around(v) {
             for i in around(u) {
                 let d2 = (i as f64 + 0.5 - u).powi(2) + (j as f64 + 0.5 - v).powi(2);
-                let k = length * (-d2 / (2.0 * BLUR * BLUR)).exp();
+                let k = length * libm::exp(-d2 / (2.0 * BLUR * BLUR));
                 let cell = &mut map[(j * GRID + i) * WAYS..][..WAYS];
                 cell.iter_mut().zip(ways).for_each(|(m, w)| *m += k * w);
             }
@@ -243,7 +244,7 @@ fn directions(way: Vec2) -> [f64; WAYS] {
     if way == Vec2::ZERO {
         return [1.0 / WAYS as f64; WAYS];
     }
-    let turn = (way.atan2() / PI).rem_euclid(1.0) * WAYS as f64;
+    let turn = (angles::heading(way) / PI).rem_euclid(1.0) * WAYS as f64;
     let (whole, part) = (index(turn) % WAYS, turn.fract());
     let mut out = [0.0; WAYS];
     out[whole] += 1.0 - part;

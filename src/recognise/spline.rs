@@ -10,7 +10,7 @@
 //! arc length and turning evenly, where its conclusion speaks of inverse chord lengths
 //! Cost     O(N k² + n k²) a curve      Fails  `None` with fewer points than control points
 
-use crate::numeric::turns::angle;
+use crate::numeric::angles::angle;
 use crate::numeric::{bspline::Basis, skyline::Skyline};
 use kurbo::{CubicBez, Point, Vec2};
 
@@ -68,7 +68,7 @@ impl Spline {
             let spline = Self::fit(data, order, count)?;
             let mean = spline.mean_square(data);
             Some((
-                n * (data.noise + mean).ln() + 2.0 * count as f64 * n.ln(),
+                n * libm::log(data.noise + mean) + 2.0 * count as f64 * libm::log(n),
                 spline,
             ))
         });

@@ -31,7 +31,7 @@ pub(super) fn pen(size: usize, r: f64, lines: &[&[(f64, f64)]]) -> Gray {
 }
 
 fn circle(cx: f64, cy: f64, r: f64) -> Vec<(f64, f64)> {
-    let at = |i: usize| (i as f64 / 40.0 * std::f64::consts::TAU).sin_cos();
+    let at = |i: usize| libm::sincos(i as f64 / 40.0 * std::f64::consts::TAU);
     (0..=40)
         .map(at)
         .map(|(s, c)| (cx + r * c, cy + r * s))
@@ -230,7 +230,7 @@ fn wave(width: f64) -> Vec<(f64, f64)> {
         let t = i as f64 / 200.0;
         (
             30.0 + 130.0 * t,
-            90.0 + 3.0 * width * (6.0 * t).sin() + 20.0 * t,
+            90.0 + 3.0 * width * libm::sin(6.0 * t) + 20.0 * t,
         )
     };
     (0..=200).map(at).collect()

@@ -87,7 +87,7 @@ fn blunt(
     }
     let (tip, turn) = meeting(before, after, NEEDLE * short)?;
     // the more acute a corner is, the further a lens is felt
-    let acute = ((PI - turn.abs()) / 2.0).sin() * SQRT_2;
+    let acute = libm::sin((PI - turn.abs()) / 2.0) * SQRT_2;
     let short = short * (1.0 / acute).clamp(1.0, NEEDLE);
     let sides = [before, after].map(|c| c.p0.distance(c.p3));
     let inwards = (start - tip) + (after.p0 - tip);
@@ -121,5 +121,5 @@ fn meeting(before: &CubicBez, after: &CubicBez, reach: f64) -> Option<(Point, f6
     let gap = after.p0 - before.p3;
     let (on, back) = (gap.cross(v) / cross, gap.cross(u) / cross);
     let near = |d: f64| (-1e-6..=reach).contains(&d);
-    (near(on) && near(-back)).then(|| (before.p3 + on * u, cross.atan2(u.dot(v))))
+    (near(on) && near(-back)).then(|| (before.p3 + on * u, libm::atan2(cross, u.dot(v))))
 }

@@ -8,7 +8,7 @@ use super::{
     curves::{arriving, leaving},
     residual::{Blot, Residual},
 };
-use crate::numeric::turns::angle;
+use crate::numeric::angles::{self, angle};
 use crate::types::{Contour, Gray};
 use kurbo::{CubicBez, Point, Vec2};
 
@@ -60,7 +60,7 @@ pub(super) fn undrawn(residual: &Residual<'_>, path: &[CubicBez]) -> Vec<Point> 
     let corners = path.iter().zip(before).filter_map(|(after, before)| {
         let (u, v) = (arriving(before), leaving(after));
         let (long, more) = LONG_PX;
-        let tip = 1.0 / (angle(u, v) / 2.0).cos() - 1.0;
+        let tip = 1.0 / libm::cos(angle(u, v) / 2.0) - 1.0;
         let limit = limit.min((long + more * residual.lens_px()) / tip);
         let part = round(residual, after.p0, (u, v), limit)?;
         (part > 1.0).then_some(after.p0)
@@ -82,9 +82,9 @@ fn round(residual: &Residual<'_>, at: Point, (u, v): (Vec2, Vec2), radius: f64) 
     (turn.abs() >= TELLING && inwards.hypot() > 1e-9).then(|| {
         let inwards = inwards.normalize();
         let half = turn.abs() / 2.0;
-        let centre = at + inwards * (radius / half.cos());
+        let centre = at + inwards * (radius / libm::cos(half));
         let arc = |k: i32| {
-            let turn = Vec2::from_angle(half * f64::from(k) / 8.0);
+            let turn = angles::direction(half * f64::from(k) / 8.0);
             centre - inwards.rotate_scale(turn) * radius
         };
         let arc: Vec<Point> = (-8..=8).map(arc).collect();

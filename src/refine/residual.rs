@@ -188,7 +188,7 @@ impl Residual<'_> {
     /// makes worse to undo. Without a lens there is nothing to average.
     pub(super) fn kernel(&self) -> Vec<f64> {
         let sigma = self.lens * AVERAGE;
-        let weight = |i: usize| (-0.5 * (i as f64 / sigma.max(0.1)).powi(2)).exp();
+        let weight = |i: usize| libm::exp(-0.5 * (i as f64 / sigma.max(0.1)).powi(2));
         (0..=index(2.5 * sigma)).map(weight).collect()
     }
 
@@ -286,7 +286,7 @@ impl Residual<'_> {
             for x in columns.clone() {
                 let d = Vec2::new(x as f64 - cx, cy - y as f64);
                 let (a, c) = (d.dot(along), d.dot(across));
-                let pattern = height * (-0.5 * (a * a / va + c * c / vc)).exp();
+                let pattern = height * libm::exp(-0.5 * (a * a / va + c * c / vc));
                 seen += pattern * f64::from(self.off[y * self.seen.width() + x]);
                 whole += pattern * pattern;
             }
@@ -382,9 +382,9 @@ impl Residual<'_> {
     /// Weights at distance `d`, `d` + 1, `d` + 2 … px of a place.
     fn bell(&self, d: f64) -> impl Iterator<Item = f64> {
         let narrow = (self.spread * self.spread).recip();
-        let first = (-0.5 * d * d * narrow).exp();
+        let first = libm::exp(-0.5 * d * d * narrow);
         // each is the one before it times what itself shrinks evenly
-        let (ratio, shrink) = ((-(d + 0.5) * narrow).exp(), (-narrow).exp());
+        let (ratio, shrink) = (libm::exp(-(d + 0.5) * narrow), libm::exp(-narrow));
         let next = move |(w, ratio): &(f64, f64)| Some((w * ratio, ratio * shrink));
         successors(Some((first, ratio)), next).map(|(w, _)| w)
     }

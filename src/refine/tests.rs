@@ -1,4 +1,5 @@
 use super::*;
+use crate::numeric::angles;
 use crate::numeric::{
     cast::index,
     coverage::{Coverage, blur},
@@ -17,7 +18,7 @@ pub(super) fn picture(ring: &[Point], size: usize, lens: f64) -> Gray {
 
 fn circle(centre: Point, radius: f64, n: usize) -> Vec<Point> {
     let at =
-        |i: usize| centre + radius * Vec2::from_angle(std::f64::consts::TAU * i as f64 / n as f64);
+        |i: usize| centre + radius * angles::direction(std::f64::consts::TAU * i as f64 / n as f64);
     (0..n).map(at).collect()
 }
 

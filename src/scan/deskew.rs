@@ -115,7 +115,7 @@ impl Edges {
 }
 
 fn energy(points: &[Point], angle: f64, bin: f64) -> f64 {
-    let (s, c) = angle.to_radians().sin_cos();
+    let (s, c) = libm::sincos(angle.to_radians());
     energy_of(points.iter().map(|p| (p.y * c - p.x * s) / bin)) / bin
 }
 

@@ -194,7 +194,7 @@ impl Strokes {
     /// Over how much ink is averaged, a Gaussian's standard deviation, px: as much as leaves its half without holes,
     /// and no more than its strokes bear. Grain is alike over `g` px as exp(-d²/4g²).
     fn averaged_px(&self) -> f64 {
-        let grain_px = (-0.25 / self.alike.clamp(0.01, 0.99).ln()).sqrt();
+        let grain_px = (-0.25 / libm::log(self.alike.clamp(0.01, 0.99))).sqrt();
         let calm = ((self.deviation / CALM).powi(2) - 1.0).max(0.0).sqrt();
         (grain_px * calm).min(OF_STROKE * self.width_px)
     }

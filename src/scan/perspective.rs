@@ -9,6 +9,7 @@ use super::components::Component;
 use super::deskew::{Edges, energy_of};
 use super::options::Layout;
 use super::paper::Paper;
+use crate::numeric::angles;
 use crate::numeric::cast::index;
 use crate::numeric::view::View;
 use kurbo::{Affine, Point, Rect, Vec2};
@@ -113,9 +114,9 @@ impl Told {
             (Rows::Together, 0.0)
         };
         let more = slope + turn * below;
-        let news = rows == Rows::Apart || more.atan().to_degrees().abs() >= LEAST_TURN_DEG;
+        let news = rows == Rows::Apart || libm::atan(more).to_degrees().abs() >= LEAST_TURN_DEG;
         news.then(|| Self {
-            skew_deg: (seen.slope + more).atan().to_degrees(),
+            skew_deg: libm::atan(seen.slope + more).to_degrees(),
             rows,
         })
     }
@@ -136,7 +137,7 @@ pub(super) struct Scene<'a> {
 impl Scene<'_> {
     /// From the picture to the upright page; turned only, where it was seen from straight above.
     pub(super) fn view(&self) -> View {
-        let slope = self.skew_deg.to_radians().tan();
+        let slope = libm::tan(self.skew_deg.to_radians());
         let rows = match self.rows {
             Rows::Together => self.pencil(&self.edges.about(self.middle), slope),
             Rows::Apart => None,
@@ -155,7 +156,7 @@ impl Scene<'_> {
         };
         let columns = columns.filter(|p| p.turn.abs() * self.middle.y > PLUMB);
         if rows.is_none() && columns.is_none() {
-            let turn = Affine::rotate_about(-self.skew_deg.to_radians(), self.middle);
+            let turn = angles::rotation_about(-self.skew_deg.to_radians(), self.middle);
             return turn.into();
         }
         let plumb = columns.unwrap_or(Pencil {
@@ -309,10 +310,13 @@ fn wave(points: &[Vec2], count: usize, lean: f64) -> (f64, f64, f64) {
         let (least, most) = ((high - low) / (n + 0.2), (high - low) / (n - 1.6));
         (0..PITCHES).map(move |k| {
             let pitch = least + (most - least) * k as f64 / (PITCHES - 1) as f64;
-            let sum = across
-                .iter()
-                .fold(Vec2::ZERO, |sum, x| sum + Vec2::from_angle(TAU * x / pitch));
-            (sum.hypot(), (pitch, lean, sum.atan2() / TAU * pitch))
+            let sum = across.iter().fold(Vec2::ZERO, |sum, x| {
+                sum + angles::direction(TAU * x / pitch)
+            });
+            (
+                sum.hypot(),
+                (pitch, lean, angles::heading(sum) / TAU * pitch),
+            )
         })
     });
     let best = tries.max_by(|a, b| a.0.total_cmp(&b.0));

@@ -300,7 +300,7 @@ mod tests {
     }
 
     fn streaked(levels: [f32; 2]) -> Gray {
-        let depth = |x: usize| 0.45 + 0.15 * (x as f32 / 9.0).sin();
+        let depth = |x: usize| 0.45 + 0.15 * libm::sinf(x as f32 / 9.0);
         lined(0.5, 2.5, depth, levels)
     }
 

@@ -2,6 +2,7 @@
 
 use super::layout::{Code, Layout, Place};
 use super::{TemplateError, lettering};
+use crate::numeric::angles;
 use crate::types::{Direction, Form, characters};
 use kurbo::{Affine, BezPath, Circle, Line, Point, Rect, Shape, Size, Stroke, StrokeOpts, Vec2};
 use qrcode::{EcLevel, QrCode};
@@ -207,7 +208,7 @@ fn gain_strip(layout: &Layout) -> Vec<Paint> {
     let squares = strip.squares.iter().map(|&c| {
         let square = Rect::from_center_size(Point::ORIGIN, (edge, edge)).to_path(1.0);
         (
-            Affine::translate(c.to_vec2()) * Affine::rotate(slant) * square,
+            Affine::translate(c.to_vec2()) * angles::rotation(slant) * square,
             Ink::Black,
         )
     });

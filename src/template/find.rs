@@ -3,6 +3,7 @@
 use super::TemplateError;
 use super::draw::RING;
 use super::layout::{Code, Layout};
+use crate::numeric::angles;
 use crate::numeric::cast::index;
 use crate::numeric::view::View;
 use crate::types::{Gray, Sheet};
@@ -233,7 +234,7 @@ fn outermost(points: &[Point]) -> Option<[Point; 4]> {
 fn clockwise(mut ring: [Point; 4]) -> [Point; 4] {
     let centre = ring.iter().fold(Vec2::ZERO, |s, p| s + p.to_vec2()) / 4.0;
     ring.sort_by(|a, b| {
-        let angle = |p: &Point| (p.to_vec2() - centre).atan2();
+        let angle = |p: &Point| angles::heading(p.to_vec2() - centre);
         angle(a).total_cmp(&angle(b))
     });
     ring

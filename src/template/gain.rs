@@ -3,6 +3,7 @@
 use super::draw::{LADDER, SQUARE, strip};
 use super::find::{Found, sample};
 use super::layout::Layout;
+use crate::numeric::angles;
 use crate::numeric::cast::index;
 use crate::types::Sheet;
 use kurbo::{Affine, Point, Rect, Vec2};
@@ -78,7 +79,7 @@ pub fn gain(sheet: &Sheet, layout: &Layout, found: &Found) -> Option<Gain> {
 
 /// Paper beside and ink inside a square.
 fn levels(at: &impl Fn(Point) -> f64, centre: Point) -> (f64, f64) {
-    let frame = Affine::translate(centre.to_vec2()) * Affine::rotate(SQUARE.1);
+    let frame = Affine::translate(centre.to_vec2()) * angles::rotation(SQUARE.1);
     let ink = patch(&at, Rect::from_center_size(centre, (2.0, 2.0)));
     let sides = [(0.0, 4.1), (4.1, 0.0), (0.0, -4.1), (-4.1, 0.0)];
     let paper = sides.map(|s| {
@@ -102,7 +103,7 @@ struct Edge {
 
 /// The edge of a square on the side that `turn` points to.
 fn edge(at: &impl Fn(Point) -> f64, centre: Point, turn: f64, step: f64) -> Option<Edge> {
-    let (out, along) = (Vec2::from_angle(turn), Vec2::from_angle(turn).turn_90());
+    let (out, along) = (angles::direction(turn), angles::direction(turn).turn_90());
     let bins = index(2.0 * REACH / BIN);
     let mut sums = vec![[0.0f64; 2]; bins];
     let half = 0.35 * SQUARE.0;

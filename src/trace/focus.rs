@@ -125,7 +125,7 @@ mod tests {
             Gray::from_fn(side, side, |x, y| {
                 let middle = side as f64 / 2.0 - 0.5;
                 let off = (x as f64 - middle).hypot(y as f64 - middle);
-                single((-0.5 * (off / 4.0).powi(2)).exp())
+                single(libm::exp(-0.5 * (off / 4.0).powi(2)))
             })
         };
         assert!(focus(&dot(31)).is_none());

@@ -180,7 +180,7 @@ impl Fit {
         let scale = 1.0 / (SQRT_2 * self.lens);
         // the integral of the error function, and of that by its scale
         let edge = |x: f64| {
-            let (z, bell) = (x * scale, (-(x * scale).powi(2)).exp() / PI.sqrt());
+            let (z, bell) = (x * scale, libm::exp(-(x * scale).powi(2)) / PI.sqrt());
             (x * erf(z) + bell / scale, bell / scale)
         };
         for place in places {

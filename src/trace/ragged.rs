@@ -89,7 +89,7 @@ fn excess(contour: &Contour) -> Vec<f64> {
         let along = m1 / s2;
         let off = NORMAL * middle.cross(along) / along.hypot().max(1e-12);
         let (flat, steep) = (along.x.abs(), along.y.abs());
-        let slant = flat.min(steep).atan2(flat.max(steep)).to_degrees();
+        let slant = libm::atan2(flat.min(steep), flat.max(steep)).to_degrees();
         let stepped = (STEEP_DEG.0..STEEP_DEG.1).contains(&slant);
         off * off - FLOOR_PX * FLOOR_PX * if stepped { 2.0 } else { 1.0 }
     };
@@ -100,6 +100,7 @@ fn excess(contour: &Contour) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::numeric::angles;
     use crate::numeric::coverage::{Coverage, blur};
     use crate::trace::{Options, trace};
     use crate::types::Gray;
@@ -108,7 +109,7 @@ mod tests {
     #[test]
     fn slanting_edges_are_not_ragged() {
         for half_deg in 0..180 {
-            let turn = Affine::rotate((0.5 * f64::from(half_deg)).to_radians());
+            let turn = angles::rotation((0.5 * f64::from(half_deg)).to_radians());
             let place = Affine::translate((150.3, 149.9)) * turn;
             let bar = Rect::new(-120.0, -20.0, 120.0, 20.0);
             let mut drawn = Coverage::new(300, 300);

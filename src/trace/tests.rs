@@ -79,7 +79,7 @@ fn blur_is_measured() {
         let total = sigma.hypot(Contour::PIXEL_BLUR_PX);
         let disk = Gray::from_fn(64, 64, |x, y| {
             let d = 22.0 - (x as f64 - 31.3).hypot(y as f64 - 31.7);
-            single(1.0 / (1.0 + (-1.702 * d / total).exp()))
+            single(1.0 / (1.0 + libm::exp(-1.702 * d / total)))
         });
         let seen = traced(&disk)[0].blur_px();
         assert!((seen / total - 1.0).abs() < 0.06, "{sigma}: {seen}");
@@ -123,7 +123,7 @@ const DISK: Point = Point::new(45.0, 45.0);
 /// The disk, and a bar of `size` px around `at` turned by `degrees`: of ink beside it, or a slit in it. As a lens of
 /// 0.9 px sees it under a scan's grain.
 fn thin(at: Point, (length, width): (f64, f64), degrees: f64) -> Gray {
-    let (sin, cos) = degrees.to_radians().sin_cos();
+    let (sin, cos) = libm::sincos(degrees.to_radians());
     let inside = |x: f64, y: f64| {
         let d = Point::new(x, y) - at;
         let local = Vec2::new(d.x * cos + d.y * sin, d.y * cos - d.x * sin);

@@ -211,7 +211,7 @@ fn caret_slope(italic_angle: f64) -> Result<(i16, i16), WriteError> {
     if italic_angle.abs() < 0.01 {
         return Ok((1, 0));
     }
-    let run = (-italic_angle).to_radians().tan() * 1000.0;
+    let run = libm::tan((-italic_angle).to_radians()) * 1000.0;
     Ok((1000, to_i16(run, || "the italic angle's slope".to_owned())?))
 }
 

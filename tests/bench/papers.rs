@@ -17,9 +17,10 @@ use khatt::fit::judge::{judge, points_to_curve};
 use khatt::fit::periodic::Periodic;
 use khatt::fit::wls::Wls;
 use khatt::fit::{self, Fitter};
+use khatt::numeric::angles;
 use khatt::trace::{Boundary, Options, trace};
 use khatt::types::{Contour, Gray, Span};
-use kurbo::{Affine, Point};
+use kurbo::Point;
 use std::path::Path;
 use std::time::Instant;
 
@@ -297,7 +298,7 @@ fn rotation(folder: &Path) {
     );
     for method in corner::Method::all() {
         let count = |k: i32| {
-            let map = Affine::rotate(f64::from(k) * std::f64::consts::PI / 12.0);
+            let map = angles::rotation(f64::from(k) * std::f64::consts::PI / 12.0);
             // back on the pixel grid, as a turned picture is
             let snapped = |p: &Point| (map * *p).round();
             let turned = Contour::new(contour.points().iter().map(snapped).collect());
@@ -342,7 +343,7 @@ fn truth() {
     let mut sums = [[0_usize; 3]; 3];
     for (name, svg, corners) in DRAWN {
         for turn in [0_i32, 30] {
-            let map = Affine::rotate_about(f64::from(turn).to_radians(), (90.0, 90.0));
+            let map = angles::rotation_about(f64::from(turn).to_radians(), (90.0, 90.0));
             let path = map * kurbo::BezPath::from_svg(svg).expect("a path");
             let ends: Vec<Point> = path
                 .segments()
@@ -403,10 +404,10 @@ fn bean(n: u32, size: f64, sigma: f64) -> (Vec<Point>, Vec<Point>) {
     let mut truth = Vec::new();
     for i in 0..n {
         let t = std::f64::consts::TAU * f64::from(i) / f64::from(n);
-        let r = size * (50.0 + 9.0 * (2.0 * t).cos() + 4.0 * (3.0 * t).sin());
+        let r = size * (50.0 + 9.0 * libm::cos(2.0 * t) + 4.0 * libm::sin(3.0 * t));
         // the sum of twelve uniform numbers is nearly normal, with deviation 1
         let noise: f64 = (0..12).map(|_| roll()).sum::<f64>() - 6.0;
-        let at = |r: f64| Point::new(r * t.cos(), r * t.sin());
+        let at = |r: f64| Point::new(r * libm::cos(t), r * libm::sin(t));
         truth.push(at(r));
         noisy.push(at(r + sigma * noise));
     }
@@ -461,7 +462,7 @@ fn speed() {
             times.push((f64::from(n), best));
         }
         if let (Some(a), Some(b)) = (times.first(), times.last()) {
-            let exponent = (b.1 / a.1).ln() / (b.0 / a.0).ln();
+            let exponent = libm::log(b.1 / a.1) / libm::log(b.0 / a.0);
             println!("{line} {exponent:.2} | {worst:.2} |");
         }
     }
@@ -478,7 +479,7 @@ fn million() {
     let dot = vec![Point::new(3.0, 4.0); MANY as usize];
     let circle: Vec<Point> = (0..MANY)
         .map(|i| {
-            let (y, x) = (std::f64::consts::TAU * f64::from(i) / f64::from(MANY)).sin_cos();
+            let (y, x) = libm::sincos(std::f64::consts::TAU * f64::from(i) / f64::from(MANY));
             Point::new(500.0 * x, 500.0 * y)
         })
         .collect();

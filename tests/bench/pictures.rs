@@ -158,8 +158,9 @@ fn maple() -> Vec<Point> {
     (0..420)
         .map(|i| {
             let a = TAU * f64::from(i) / 420.0;
-            let lobes = 26.0 * (2.5 * a).cos().abs().powf(0.7) + 9.0 * (12.5 * a).cos().abs();
-            Point::new((55.0 + lobes) * a.sin(), (55.0 + lobes) * a.cos())
+            let lobes =
+                26.0 * libm::pow(libm::cos(2.5 * a).abs(), 0.7) + 9.0 * libm::cos(12.5 * a).abs();
+            Point::new((55.0 + lobes) * libm::sin(a), (55.0 + lobes) * libm::cos(a))
         })
         .collect()
 }

@@ -6,6 +6,7 @@
 )]
 
 use image::codecs::jpeg::JpegEncoder;
+use khatt::numeric::angles;
 use khatt::template::{self, Page, View};
 use kurbo::{Affine, BezPath, Point, Vec2};
 
@@ -70,7 +71,7 @@ impl Camera {
                 (i / size.x as usize) as f64 / size.y,
             );
             let shade = 1.0 - self.shade * (x + y) / 2.0;
-            let v = 255.0 * (f64::from(v) / 255.0).powf(self.gamma);
+            let v = 255.0 * libm::pow(f64::from(v) / 255.0, self.gamma);
             let v = (30.0 + 0.82 * v) * shade + 3.0 * rng.normal();
             pixel.0 = [v.round().clamp(0.0, 255.0) as u8];
         }
@@ -92,7 +93,7 @@ impl Camera {
         let turn =
             self.skew_deg.to_radians() + f64::from(self.quarters) * std::f64::consts::FRAC_PI_2;
         let half = page.size.to_vec2() / 2.0;
-        let around = Affine::scale(px) * Affine::rotate(turn) * Affine::translate(-half);
+        let around = Affine::scale(px) * angles::rotation(turn) * Affine::translate(-half);
         let plane = corners(page.size.to_vec2()).map(|p| around * p);
         let depth =
             |p: Point| 1.0 + (self.tilt[0] * p.x + self.tilt[1] * p.y) / (half.hypot() * px);
@@ -147,7 +148,7 @@ fn bilinear(print: &image::GrayImage, p: Vec2) -> f64 {
 fn smooth(v: Vec<f32>, width: usize, sigma: f64) -> Vec<f32> {
     let reach = (3.0 * sigma).ceil() as usize;
     let kernel: Vec<f32> = (0..=2 * reach)
-        .map(|i| (-(i as f64 - reach as f64).powi(2) / (2.0 * sigma * sigma)).exp() as f32)
+        .map(|i| libm::exp(-(i as f64 - reach as f64).powi(2) / (2.0 * sigma * sigma)) as f32)
         .collect();
     let total: f32 = kernel.iter().sum();
     let height = v.len() / width;

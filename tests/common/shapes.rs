@@ -80,8 +80,8 @@ impl Dice {
 
     /// Normal with deviation 1 (Box and Muller).
     pub(crate) fn normal(&mut self) -> f64 {
-        let r = (-2.0 * (1.0 - self.roll()).ln()).sqrt();
-        r * (TAU * self.roll()).cos()
+        let r = (-2.0 * libm::log(1.0 - self.roll())).sqrt();
+        r * libm::cos(TAU * self.roll())
     }
 }
 
@@ -103,7 +103,10 @@ pub(crate) fn noisy(shape: &Shape, sigma: f64, seed: u64) -> Shape {
 
 pub(crate) fn circle() -> Shape {
     ring("circle", 314, |t| {
-        (50.0 * (TAU * t).cos() + 60.0, 50.0 * (TAU * t).sin() + 55.0)
+        (
+            50.0 * libm::cos(TAU * t) + 60.0,
+            50.0 * libm::sin(TAU * t) + 55.0,
+        )
     })
 }
 
@@ -112,21 +115,21 @@ pub(crate) fn smooth() -> Vec<Shape> {
     vec![
         circle(),
         ring("ellipse", 260, |t| {
-            (60.0 * (TAU * t).cos(), 25.0 * (TAU * t).sin())
+            (60.0 * libm::cos(TAU * t), 25.0 * libm::sin(TAU * t))
         }),
         ring("bean", 300, |t| {
-            let r = 40.0 + 9.0 * (2.0 * TAU * t).cos() + 3.0 * (TAU * t).sin();
-            (r * (TAU * t).cos(), r * (TAU * t).sin())
+            let r = 40.0 + 9.0 * libm::cos(2.0 * TAU * t) + 3.0 * libm::sin(TAU * t);
+            (r * libm::cos(TAU * t), r * libm::sin(TAU * t))
         }),
         open("arc", 160, |t| {
-            (100.0 * (2.0 * t).cos(), 100.0 * (2.0 * t).sin())
+            (100.0 * libm::cos(2.0 * t), 100.0 * libm::sin(2.0 * t))
         }),
         open("wave", 140, |t| {
-            (120.0 * t, 15.0 * (TAU * t).sin() + 10.0 * t)
+            (120.0 * t, 15.0 * libm::sin(TAU * t) + 10.0 * t)
         }),
         open("spiral", 260, |t| {
             let (r, a) = (20.0 + 40.0 * t, 1.5 * PI * t);
-            (r * a.cos(), r * a.sin())
+            (r * libm::cos(a), r * libm::sin(a))
         }),
     ]
 }

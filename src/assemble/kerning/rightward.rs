@@ -140,7 +140,7 @@ impl<'d> Sides<'d> {
         let near = |i: usize| (self.right[i] + next.left[i]).clamp(least, most).powi(-5);
         let sum: f64 = rows.map(near).sum();
         if sum > 0.0 {
-            (sum / count).powf(-0.2)
+            libm::pow(sum / count, -0.2)
         } else {
             most
         }

@@ -2,16 +2,16 @@ mod algorithm;
 mod words;
 
 use super::{Bounds, Closing, Code, CodeError, Kind, Steps, Width, distortion, encode};
+use crate::numeric::angles::angle;
 use crate::numeric::qbc::Pull;
-use crate::numeric::turns::angle;
 use kurbo::Point;
 
 /// The boundary pixels of a three-lobed shape, 8-connected.
 fn boundary(scale: f64) -> Vec<Point> {
     let at = |k: u32| {
         let a = f64::from(k) * std::f64::consts::TAU / 4000.0;
-        let r = scale * (14.0 + 4.0 * (3.0 * a).cos());
-        Point::new((r * a.cos()).round(), (r * a.sin()).round())
+        let r = scale * (14.0 + 4.0 * libm::cos(3.0 * a));
+        Point::new((r * libm::cos(a)).round(), (r * libm::sin(a)).round())
     };
     let mut out: Vec<Point> = (0..4000).map(at).collect();
     out.dedup();

@@ -245,7 +245,7 @@ impl Row<'_> {
         let half = piece.span.len() as f64 / 2.0;
         let membership = |i: usize| {
             let position = to_ends(&piece.span, three[i]) / half;
-            (distances[i] / sum).powf(FUZZY.0) * position.powf(FUZZY.1)
+            libm::pow(distances[i] / sum, FUZZY.0) * libm::pow(position, FUZZY.1)
         };
         let best = (0..3).max_by(|&a, &b| membership(a).total_cmp(&membership(b)))?;
         self.far(piece, three[best])

@@ -145,7 +145,8 @@ fn jumps(s: &Samples) -> Vec<usize> {
         })
         .collect();
     // The bend of a parabola through m samples has the deviation 27 σ / m^2.5.
-    let floor = 27.0 * s.sigma.max(0.01 * s.step) / ((reach as f64).powf(2.5) * s.step * s.step);
+    let floor =
+        27.0 * s.sigma.max(0.01 * s.step) / (libm::pow(reach as f64, 2.5) * s.step * s.step);
     let near = s.reach;
     let mut out: Vec<usize> = (0..n)
         .filter(|&k| {

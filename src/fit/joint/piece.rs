@@ -2,7 +2,7 @@
 
 use super::candidate::Candidate;
 use super::samples::Samples;
-use crate::numeric::turns::angle;
+use crate::numeric::angles::{self, angle};
 use crate::numeric::{
     chain::Join,
     powers::{LANES, Powers},
@@ -67,8 +67,8 @@ impl Lines {
         let [x, y, xx, xy, yy, m] = d;
         let (xx, xy, yy) = (xx - x * x / m, xy - x * y / m, yy - y * y / m);
         let half = (0.25 * (xx - yy) * (xx - yy) + xy * xy).sqrt();
-        let turn = 0.5 * (2.0 * xy).atan2(xx - yy);
-        ((0.5 * (xx + yy) - half).max(0.0), Vec2::from_angle(turn))
+        let turn = 0.5 * libm::atan2(2.0 * xy, xx - yy);
+        ((0.5 * (xx + yy) - half).max(0.0), angles::direction(turn))
     }
 
     /// Centre of samples `i..=j`.
@@ -242,7 +242,7 @@ impl<'a> Trial<'a> {
         let v = self.v;
         let turned = |end: usize, by: f64| {
             let heading = self.ends[end].heading;
-            heading.rotate_scale(Vec2::from_angle(by))
+            heading.rotate_scale(angles::direction(by))
         };
         let (u, w) = (turned(0, v[1]), turned(1, v[3]));
         self.along = [u, w];

@@ -86,7 +86,7 @@ impl Samples {
         s.heading.clear();
         s.bend.clear();
         // The variance of a parabola's bend falls with the fifth power of its reach.
-        let wider = (s.sigma / (0.02 * s.step)).max(1.0).powf(0.4) * REACH as f64;
+        let wider = libm::pow((s.sigma / (0.02 * s.step)).max(1.0), 0.4) * REACH as f64;
         s.reach = (REACH..=REACH_MOST)
             .find(|&r| r as f64 >= wider)
             .unwrap_or(REACH_MOST);

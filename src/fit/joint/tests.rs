@@ -96,7 +96,7 @@ fn smooth_joins_are_exactly_smooth() {
     let p: Vec<Point> = points(&path)
         .iter()
         .enumerate()
-        .map(|(i, q)| *q + Vec2::new(0.0, 0.05 * (i as f64 * 1.7).sin()))
+        .map(|(i, q)| *q + Vec2::new(0.0, 0.05 * libm::sin(i as f64 * 1.7)))
         .collect();
     let got = fit(Span::Open(&p)).path;
     let segs: Vec<_> = got.segments().collect();
@@ -122,7 +122,7 @@ fn a_rough_edge_is_not_its_own_polygon() {
                 drift = 0.9 * drift + noise();
                 let whisker = if noise() > 0.47 { 4.0 } else { 0.0 };
                 let x = f64::from(i);
-                Point::new(x, 40.0 * (bend * x).sin() + drift + whisker)
+                Point::new(x, 40.0 * libm::sin(bend * x) + drift + whisker)
             })
             .collect();
         for span in [Span::Open(&points), Span::Ring(&points)] {
@@ -181,7 +181,7 @@ fn noise_of_one_side_is_no_reason_to_leave_it() {
 fn a_span_that_misses_is_followed_more_closely() {
     // two waves of 0.8 px: too regular for noise, too flat to be seen at first
     let p: Vec<Point> = (0..120)
-        .map(|i| Point::new(f64::from(i), 0.8 * (f64::from(i) * 0.105).sin()))
+        .map(|i| Point::new(f64::from(i), 0.8 * libm::sin(f64::from(i) * 0.105)))
         .collect();
     let got = fit(Span::Open(&p));
     assert_eq!(got.verdict, Verdict::Met, "{:?}", got.path);

@@ -409,8 +409,8 @@ mod tests {
         let ring: Vec<Point> = (0..200)
             .map(|i| {
                 let a = f64::from(i) * std::f64::consts::TAU / 200.0;
-                let r = 40.0 + 10.0 * (5.0 * a).cos();
-                Point::new(r * a.cos(), r * a.sin())
+                let r = 40.0 + 10.0 * libm::cos(5.0 * a);
+                Point::new(r * libm::cos(a), r * libm::sin(a))
             })
             .collect();
         let options = Periodic::default();
@@ -442,8 +442,8 @@ mod tests {
             .map(|i| {
                 let a = f64::from(i) * std::f64::consts::TAU / 20_000.0;
                 let noise = 0.2 * ((0..12).map(|_| roll()).sum::<f64>() - 6.0);
-                let r = 50.0 * (50.0 + 9.0 * (2.0 * a).cos() + 4.0 * (3.0 * a).sin()) + noise;
-                Point::new(r * a.cos(), r * a.sin())
+                let r = 50.0 * (50.0 + 9.0 * libm::cos(2.0 * a) + 4.0 * libm::sin(3.0 * a)) + noise;
+                Point::new(r * libm::cos(a), r * libm::sin(a))
             })
             .collect();
         let fitted = Periodic::default().fit(Span::Ring(&ring), 1.0).unwrap();

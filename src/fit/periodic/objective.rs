@@ -214,7 +214,10 @@ mod tests {
             let round = if closed { n } else { n - 1 };
             let at = |i: i32| {
                 let a = f64::from(i) / f64::from(round) * std::f64::consts::TAU * 0.99;
-                Point::new(30.0 * a.cos(), 20.0 * a.sin() + 3.0 * (3.0 * a).cos())
+                Point::new(
+                    30.0 * libm::cos(a),
+                    20.0 * libm::sin(a) + 3.0 * libm::cos(3.0 * a),
+                )
             };
             let points: Vec<Point> = (0..n).map(at).collect();
             let weights = vec![1.0 / 40.0; 40];

@@ -270,7 +270,7 @@ mod tests {
         let ring: Vec<Point> = (0..60_u8)
             .map(|i| {
                 let a = f64::from(i) / 60.0 * std::f64::consts::TAU;
-                (a.cos(), a.sin()).into()
+                (libm::cos(a), libm::sin(a)).into()
             })
             .collect();
         let closed = even(&Walk::new(&ring, Ends::Closed), Ends::Closed, 6);

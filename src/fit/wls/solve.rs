@@ -125,10 +125,10 @@ mod tests {
 
     fn data() -> (Vec<Point>, Vec<f64>) {
         let at: Vec<f64> = (0..60).map(|i| 3.0 + f64::from(i) * 6.0 / 59.0).collect();
-        let noise = |u: f64| 0.2 * (37.0 * u).sin();
+        let noise = |u: f64| 0.2 * libm::sin(37.0 * u);
         let points = at
             .iter()
-            .map(|&u| Point::new(4.0 * u + noise(u), 9.0 * (u - noise(u)).sin()));
+            .map(|&u| Point::new(4.0 * u + noise(u), 9.0 * libm::sin(u - noise(u))));
         (points.collect(), at)
     }
 

@@ -12,10 +12,11 @@ mod prior;
 #[cfg(test)]
 mod tests;
 
+use super::angles::angle;
 use super::chain::{Chain, Join, Kind};
 use super::powers::{LANES, Powers};
 use super::skyline::Skyline;
-use super::turns::angle;
+use crate::numeric::angles;
 use kurbo::{Point, Vec2};
 use moments::{Moments, Term};
 use std::{
@@ -507,7 +508,7 @@ impl Refit {
     fn apply(&self, chain: &mut Chain) {
         let part = self.stride(chain);
         let step = |slot: Slot| part * self.stepped(slot);
-        let turn = |d: Vec2, by: f64| d.rotate_scale(Vec2::from_angle(by.clamp(-0.5, 0.5)));
+        let turn = |d: Vec2, by: f64| d.rotate_scale(angles::direction(by.clamp(-0.5, 0.5)));
         // A handle may shrink or grow only by a factor a step: it must not change sides.
         let grow = |handle: f64, by: f64| (handle + by).clamp(0.3 * handle, 3.0 * handle + 1e-9);
         for (node, s) in chain.nodes.iter_mut().zip(&self.slots) {
@@ -539,7 +540,7 @@ fn unhook(chain: &mut Chain) {
             if turn.abs() <= HOOK {
                 return d;
             }
-            chord.rotate_scale(Vec2::from_angle(HOOK.copysign(turn)))
+            chord.rotate_scale(angles::direction(HOOK.copysign(turn)))
         };
         let free = |join: Join| join == Join::Corner || join.is_end();
         if free(chain.nodes[a].join) {

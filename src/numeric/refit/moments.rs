@@ -121,12 +121,13 @@ fn add_product(sum: &mut Lanes, a: &Lanes, b: &Lanes) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::numeric::angles;
     use kurbo::{BezPath, ParamCurve as _};
 
     /// Moves one of the eight numbers of a chain's only segment.
     fn nudged(chain: &Chain, number: usize, by: f64) -> Chain {
         let mut chain = chain.clone();
-        let turned = |d: Vec2| Vec2::from_angle(d.atan2() + by);
+        let turned = |d: Vec2| angles::direction(angles::heading(d) + by);
         let [a, b] = &mut chain.nodes[..] else {
             panic!("one segment")
         };
@@ -151,7 +152,7 @@ mod tests {
                 let k = k as f64;
                 Term {
                     t: 0.1 + 0.11 * k,
-                    normal: Vec2::from_angle(0.7 * k),
+                    normal: angles::direction(0.7 * k),
                     distance: 0.3 - 0.1 * k,
                     weight: 1.0 + 0.2 * k,
                 }

@@ -188,7 +188,7 @@ impl Grid {
         let ended = ended(rows, on, blur_px);
         let last = self.row(0).unwrap_or(&[]).to_vec();
         for (k, ended) in ended.iter().enumerate() {
-            let gone = SLANT_PX * (1.0 - (-((k + 1) as f64) / SLANT_PX).exp());
+            let gone = SLANT_PX * (1.0 - libm::exp(-((k + 1) as f64) / SLANT_PX));
             let mut row = vec![0.0_f32; self.width];
             for stroke in &strokes {
                 stroke.draw(&last, (gone, *ended), &mut row);

@@ -1,7 +1,7 @@
 //! A contour as spans between the nodes that must stay, each sampled evenly by arc length.
 
 use super::glyf::Stored;
-use crate::numeric::turns::angle;
+use crate::numeric::angles::angle;
 use crate::numeric::{cast::index, curves};
 use kurbo::{BezPath, ParamCurve, ParamCurveDeriv, PathSeg, Point, Vec2};
 

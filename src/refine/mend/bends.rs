@@ -1,7 +1,7 @@
 //! Bends too tight for a lens to tell from corners, and the corners in their place.
 
 use super::side::{HOOKED, behind, reversed, unit};
-use crate::numeric::turns::angle;
+use crate::numeric::angles::angle;
 use crate::{
     numeric::chain::{Chain, Join, Node},
     refine::curves::arriving,
@@ -146,7 +146,7 @@ pub(super) fn is_sharp(chain: &Chain, i: usize) -> bool {
         let last = c.p3 - c.eval(1.0 - behind(c, SIDE_PX));
         angle(last, end).abs() < HOOKED
     };
-    (-u.cross(v)).atan2(-u.dot(v)).abs() > SHARP && leads(&before, u) && leads(&after, v)
+    libm::atan2(-u.cross(v), -u.dot(v)).abs() > SHARP && leads(&before, u) && leads(&after, v)
 }
 
 /// The corner where two sides meet, each carried on from a place, in a direction, with a handle so long; halfway

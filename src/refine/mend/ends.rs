@@ -1,7 +1,7 @@
 //! Corners whose ends are cut off by a short line, as some designers draw them, and those that are rounds.
 
 use super::side::unit;
-use crate::numeric::turns::angle;
+use crate::numeric::angles::angle;
 use crate::{
     numeric::chain::{Chain, Join},
     refine::{

@@ -1,8 +1,8 @@
 //! What no outline may look like, however well it explains a picture.
 
 use super::tips::is_needle;
+use crate::numeric::angles::angle;
 use crate::numeric::chain::Chain;
-use crate::numeric::turns::angle;
 use kurbo::{ParamCurve, Vec2};
 
 /// A smooth node does not turn by more than this, radians, in such a part of both its curves.

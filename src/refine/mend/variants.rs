@@ -3,7 +3,7 @@
 use super::bends::corner;
 use super::side::{HOOKED, behind, reversed, unit};
 use super::tips::tip;
-use crate::numeric::turns::angle;
+use crate::numeric::angles::angle;
 use crate::{
     numeric::{
         chain::{Chain, Join, Kind, Node},

@@ -5,6 +5,7 @@
 //! keeps what the scanner could resolve (Lanczos of three lobes). Perspective is undone in the same step.
 
 use super::{Slot, holes};
+use crate::numeric::angles;
 use crate::numeric::cast::{index, single};
 use crate::numeric::view::View;
 use crate::scan::chamfer::distances;
@@ -54,7 +55,7 @@ impl Shutter<'_> {
         let mut ink = union(|c| c.upright).unwrap_or(Rect::ZERO);
         if rotation_deg.abs() > 0.0 {
             let foot = Point::new(ink.center().x, baseline);
-            upright = View::from(Affine::rotate_about(rotation_deg.to_radians(), foot)) * upright;
+            upright = View::from(angles::rotation_about(rotation_deg.to_radians(), foot)) * upright;
             let turned = parts.iter().map(|&c| {
                 let mut c = c.clone();
                 c.stand(&upright);
@@ -267,7 +268,7 @@ impl Kernel {
             if x.abs() < 1e-9 {
                 1.0
             } else {
-                (PI * x).sin() / (PI * x)
+                libm::sin(PI * x) / (PI * x)
             }
         };
         let weight = |x: f64| {

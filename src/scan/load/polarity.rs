@@ -244,7 +244,7 @@ fn fill(blocks: &[bool], columns: usize) -> f64 {
         .map(|i| ((i % columns) as f64, (i / columns) as f64))
         .collect();
     let filled = |degrees: u32| {
-        let (s, c) = f64::from(degrees).to_radians().sin_cos();
+        let (s, c) = libm::sincos(f64::from(degrees).to_radians());
         let length = |of: &dyn Fn(&(f64, f64)) -> f64| {
             let none = (f64::INFINITY, f64::NEG_INFINITY);
             let ends = places.iter().map(of);

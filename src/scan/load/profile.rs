@@ -117,7 +117,7 @@ fn curve(of: Option<&ToneReprCurve>) -> Result<impl Fn(f32) -> f32 + use<>, Stri
 fn power(gamma: f64) -> impl Fn(f32) -> f32 {
     // what is infinite is no curve that rises
     let gamma = single(gamma);
-    move |number: f32| number.powf(gamma)
+    move |number: f32| libm::powf(number, gamma)
 }
 
 /// The luminance of a CIE lightness, both 0 to 1.

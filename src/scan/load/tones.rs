@@ -45,7 +45,7 @@ pub(super) fn srgb(number: f32) -> f32 {
     if number <= 0.040_45 {
         number / 12.92
     } else {
-        ((number + 0.055) / 1.055).powf(2.4)
+        libm::powf((number + 0.055) / 1.055, 2.4)
     }
 }
 

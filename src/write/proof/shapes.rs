@@ -1,7 +1,7 @@
 //! What shows the quality of an outline: curvature comb, extrema, corners, deviation from the scan.
 
 use super::draw::{dot, stroke};
-use crate::numeric::turns::angle;
+use crate::numeric::angles::angle;
 use crate::types::{Info, Outline};
 use kurbo::{CubicBez, ParamCurve, ParamCurveCurvature, ParamCurveDeriv, PathSeg, Point, Vec2};
 

@@ -10,7 +10,7 @@ pub(super) mod states;
 use super::WriteError;
 use super::colour::FOREGROUND;
 use super::layout;
-use crate::numeric::turns::angle;
+use crate::numeric::angles::angle;
 use crate::types::formats::{
     CATEGORIES, COLOUR_KEYS, GLYPH_ORDER, KERNING_GROUPS, UFO_DATE, USE_TYPO_METRICS,
 };

@@ -167,6 +167,12 @@ impl<'a> Fit<'a> {
             s.ways.iter().for_each(|&(i, v)| s.at += v * step[i]);
         }
         let parts = offs.iter().map(|o| (o.far.abs() / worst).powi(power));
-        Some(worst * (parts.sum::<f64>() / offs.len() as f64).powf(f64::from(power).recip()))
+        Some(
+            worst
+                * libm::pow(
+                    parts.sum::<f64>() / offs.len() as f64,
+                    f64::from(power).recip(),
+                ),
+        )
     }
 }

@@ -49,7 +49,7 @@ pub(super) fn numbers(chain: &Chain) -> Vec<(usize, Number)> {
 pub(super) fn nudge(chain: &mut Chain, (i, number): (usize, Number), by: f64) {
     let node = &mut chain.nodes[i];
     let turn = |v: &mut Vec2| {
-        let (sin, cos) = by.sin_cos();
+        let (sin, cos) = libm::sincos(by);
         *v = Vec2::new(cos * v.x - sin * v.y, sin * v.x + cos * v.y);
     };
     match number {

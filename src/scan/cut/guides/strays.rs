@@ -138,7 +138,7 @@ fn homes(alone: &[Option<f64>], row: usize) -> Vec<f64> {
 /// The place with most votes within reach, less what speaks against one that is far from all homes.
 fn likeliest(votes: &[Vote], homes: &[f64], usual: f64, reach: f64) -> f64 {
     let score = |at: f64| {
-        let against = |h: &f64| (((at - h) / usual).powi(2)).ln_1p();
+        let against = |h: &f64| libm::log1p(((at - h) / usual).powi(2));
         let least = homes.iter().map(against).reduce(f64::min);
         agreement(votes, at, reach) - least.unwrap_or(0.0)
     };

@@ -34,7 +34,7 @@ impl<'a> Dots<'a> {
         let cost = |g: &[usize], usual: f64| {
             let near = g.iter().map(|&i| gap(boxes[i], body));
             let off = near.fold(f64::INFINITY, f64::min) / body.height().max(1.0);
-            (area(g) / (usual * shape.dots as f64)).ln().abs() + off
+            libm::log(area(g) / (usual * shape.dots as f64)).abs() + off
         };
         let best = usual.and_then(|usual| {
             let groups = match shape.dots {

@@ -10,6 +10,7 @@ mod told;
 use super::super::clean::{Texture, clean, clean_otherwise};
 use super::super::options::{Layout, Order, Scale};
 use super::*;
+use crate::numeric::angles;
 use crate::numeric::cast::index;
 use crate::numeric::view::View;
 use crate::types::{Direction, Gray, Sheet};
@@ -68,7 +69,7 @@ impl Paper {
         let middle = Vec2::new(self.width as f64 / 2.0, self.height as f64 / 2.0);
         let [g, k] = self.tilt;
         let tilt = View::of_pencils([1.0, 0.0, 0.0, 1.0, g / middle.x, k / middle.y]);
-        let turn = Affine::translate(middle) * Affine::rotate(self.skew_deg.to_radians());
+        let turn = Affine::translate(middle) * angles::rotation(self.skew_deg.to_radians());
         View::from(turn) * tilt * View::from(Affine::translate(-middle))
     }
 

@@ -47,7 +47,7 @@ fn letters_stand_on_rows_that_climb_and_fall() {
     ] {
         let cut = cut_rows(slopes);
         let mean = slopes.iter().sum::<f64>() / slopes.len() as f64;
-        let turn = cut.skew_deg - mean.atan().to_degrees();
+        let turn = cut.skew_deg - libm::atan(mean).to_degrees();
         assert!(turn.abs() < 0.3, "{turn}");
         assert!(from_above(&cut));
     }

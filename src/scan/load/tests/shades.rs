@@ -30,7 +30,7 @@ fn picture([paper, ink]: [[f64; 3]; 2], light: Light, table: Option<(f64, f64)>)
     let (w, h) = (400.0, 320.0);
     let wider = table.map_or(1.0, |(_, share)| share.sqrt().recip());
     let (s, c) = if table.is_some() {
-        4f64.to_radians().sin_cos()
+        libm::sincos(4f64.to_radians())
     } else {
         (0.0, 1.0)
     };
@@ -42,13 +42,13 @@ fn picture([paper, ink]: [[f64; 3]; 2], light: Light, table: Option<(f64, f64)>)
         let (u, v) = (u * c + v * s + w / 2.0, v * c - u * s + h / 2.0);
         let on_page = (0.0..w).contains(&u) && (0.0..h).contains(&v);
         let sent = match table {
-            Some((sent, _)) if !on_page => [sent * (1.0 + 0.15 * (x / 9.0).sin()); 3],
+            Some((sent, _)) if !on_page => [sent * (1.0 + 0.15 * libm::sin(x / 9.0)); 3],
             _ if drawn(u, v) => ink,
             _ => paper,
         };
         let light = light(x / (w * wider), y / (h * wider));
         // each pixel its own noise
-        let noise = ((12.9898 * x + 78.233 * y).sin() * 43_758.5).fract() * 0.01;
+        let noise = (libm::sin(12.9898 * x + 78.233 * y) * 43_758.5).fract() * 0.01;
         Rgb(sent.map(|v| level(v * light + noise)))
     })
 }

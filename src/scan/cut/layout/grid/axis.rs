@@ -176,12 +176,12 @@ impl Profile {
         let at = |i: usize| self.origin + (i as f64 + 0.5) * self.step;
         let inked = || self.ink.iter().enumerate().filter(|(_, v)| **v > 0.0);
         let sums = inked().fold((0.0, 0.0), |(c, s), (i, v)| {
-            let (sin, cos) = (TAU * at(i) / pitch).sin_cos();
+            let (sin, cos) = libm::sincos(TAU * at(i) / pitch);
             (c + v * cos, s + v * sin)
         });
         let strength = sums.0.hypot(sums.1) / self.total;
         // the ink is densest in the middle of the cells
-        let middle = sums.1.atan2(sums.0) / TAU * pitch;
+        let middle = libm::atan2(sums.1, sums.0) / TAU * pitch;
         let first = middle - pitch / 2.0;
         let from = ((self.low - first) / pitch).floor() - 1.0;
         let outside = |start: f64| {

@@ -6,8 +6,8 @@ use super::joint::{Place, joint};
 use super::parabola::Parabola;
 use super::shape::{Ink, filled};
 use super::{Field, SPACING};
+use crate::numeric::angles::angle;
 use crate::numeric::cast::index;
-use crate::numeric::turns::angle;
 use crate::scan::cut::layout::touching::{Border, Meeting};
 use kurbo::{Point, Vec2};
 

@@ -1,7 +1,7 @@
 //! Two ends of edges → how one letter's edge may go on from the first to the second beneath another one's ink.
 
 use super::edges::End;
-use crate::numeric::turns::angle;
+use crate::numeric::angles::angle;
 use kurbo::{CubicBez, ParamCurve, Point, Vec2};
 use std::f64::consts::FRAC_PI_2;
 
@@ -150,7 +150,7 @@ fn curve(from: End, to: End) -> Option<(f64, Vec<Point>)> {
         return None;
     }
     // that of a circle's arc
-    let handle = |turn: f64| chord.hypot() / (1.5 * (1.0 + turn.cos()));
+    let handle = |turn: f64| chord.hypot() / (1.5 * (1.0 + libm::cos(turn)));
     let curve = CubicBez::new(
         from.at,
         from.at + handle(a) * from.way,
