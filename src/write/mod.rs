@@ -5,6 +5,7 @@
 
 pub mod centerline;
 mod cff;
+mod cmap;
 mod colour;
 pub mod designspace;
 pub mod handwork;

@@ -1,7 +1,7 @@
 //! The tables that TrueType and CFF fonts share.
 
 use super::numbers::{around, count, to_i16, to_u16};
-use super::{WriteError, colour, layout, names, os2};
+use super::{WriteError, cmap, colour, layout, names, os2};
 use crate::types::formats::EPOCH_1904;
 use crate::types::{Font, Glyph, Info};
 use kurbo::Rect;
@@ -9,7 +9,6 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 use write_fonts::read::tables::post::Post as StoredPost;
 use write_fonts::read::{FontData, FontRead, TopLevelTable};
-use write_fonts::tables::cmap::Cmap;
 use write_fonts::tables::gasp::{Gasp, GaspRange, GaspRangeBehavior};
 use write_fonts::tables::head::{Flags, Head, MacStyle};
 use write_fonts::tables::hhea::Hhea;
@@ -17,7 +16,7 @@ use write_fonts::tables::hmtx::{Hmtx, LongMetric};
 use write_fonts::tables::maxp::Maxp;
 use write_fonts::tables::os2::Os2;
 use write_fonts::tables::post::Post;
-use write_fonts::types::{FWord, Fixed, GlyphId, LongDateTime, Tag, UfWord, Version16Dot16};
+use write_fonts::types::{FWord, Fixed, LongDateTime, Tag, UfWord, Version16Dot16};
 use write_fonts::validate::Validate;
 use write_fonts::{FontBuilder, FontWrite, dump_table};
 
@@ -60,7 +59,9 @@ pub(super) fn common(font: &Font, extents: &[Option<Rect>]) -> Result<Common, Wr
     };
     add(&mut builder, "OS/2", &os2)?;
     add(&mut builder, "name", &names::table(&font.info)?)?;
-    add(&mut builder, "cmap", &cmap(font)?)?;
+    if !font.carried.contains_key(b"cmap") {
+        add(&mut builder, "cmap", &cmap::table(font)?)?;
+    }
     if let Some((colr, cpal)) = colour::tables(font)? {
         add(&mut builder, "COLR", &colr)?;
         add(&mut builder, "CPAL", &cpal)?;
@@ -213,18 +214,6 @@ fn caret_slope(italic_angle: f64) -> Result<(i16, i16), WriteError> {
     }
     let run = libm::tan((-italic_angle).to_radians()) * 1000.0;
     Ok((1000, to_i16(run, || "the italic angle's slope".to_owned())?))
-}
-
-fn cmap(font: &Font) -> Result<Cmap, WriteError> {
-    let ids = (0..).map(GlyphId::new);
-    let of = |(g, id): (&Glyph, GlyphId)| {
-        g.codepoints
-            .iter()
-            .map(move |&c| (c, id))
-            .collect::<Vec<_>>()
-    };
-    let pairs = font.glyphs().iter().zip(ids).flat_map(of);
-    Cmap::from_mappings(pairs).map_err(|e| WriteError::table("cmap", e))
 }
 
 fn head(font: &Font, extents: &[Option<Rect>]) -> Result<Head, WriteError> {
