@@ -276,6 +276,15 @@ mod tests {
     }
 
     #[test]
+    fn characters_that_xml_cannot_hold_are_noted_by_number() {
+        let mut glyph = Glyph::new("nul");
+        glyph.codepoints = norad::Codepoints::new(['\0', '\u{8}', '\u{1D}', '\u{FFFF}', 'A']);
+        sign_glyph(&mut glyph);
+        let noted = signed(&glyph.lib).unwrap();
+        assert_eq!(noted[CHARACTERS], "U+0000U+0008U+001DU+FFFFA");
+    }
+
+    #[test]
     fn a_glyph_an_anchor_and_a_pair_by_hand_stay() {
         let name = |n: &str| Name::new(n).unwrap();
         let old = edited(&built(700.0, -40.0), |font| {

@@ -62,13 +62,22 @@ pub(in crate::write) fn glyph_states(glyph: &Glyph) -> States {
     }
     let mut states = States::from([
         (OUTLINE.to_owned(), digest(&outline)),
-        (CHARACTERS.to_owned(), glyph.codepoints.iter().collect()),
+        (CHARACTERS.to_owned(), characters(glyph)),
     ]);
     states.extend(glyph.anchors.iter().filter_map(|a| {
         let name = a.name.as_ref()?;
         Some((format!("{ANCHOR}{name}"), format!("{} {}", a.x, a.y)))
     }));
     states
+}
+
+/// A glyph's characters, by their numbers where XML has no way to write them.
+fn characters(glyph: &Glyph) -> String {
+    let written = |c: char| match c {
+        '\t' | '\n' | '\r' | ' '..='\u{FFFD}' | '\u{10000}'.. => c.to_string(),
+        _ => format!("U+{:04X}", u32::from(c)),
+    };
+    glyph.codepoints.iter().map(written).collect()
 }
 
 pub(in crate::write) const FEATURES: &str = "features";
