@@ -140,11 +140,15 @@ impl Rate {
         };
         let mut contours = Vec::new();
         for (i, path) in outline.contours().iter().enumerate() {
-            let stored = contour(path, keep, effort).ok_or(QuadraticError::Grid {
+            let places = Keep { free: 0.0, ..keep };
+            let stored = contour(path, keep, effort)
+                .filter(|stored| stored.len() > 1)
+                // corners that may all move to one point leave nothing of a contour
+                .or_else(|| contour(path, places, effort));
+            contours.push(stored.ok_or(QuadraticError::Grid {
                 contour: i,
                 tolerance,
-            })?;
-            contours.push(stored);
+            })?);
         }
         contours.retain(|c| c.len() > 1);
         let points = contours.iter().map(Vec::len).sum();
@@ -171,7 +175,7 @@ fn contour(path: &BezPath, keep: Keep, effort: Effort) -> Option<Vec<Stored>> {
         c
     };
     let found = match (one(&turned, effort), one(path, effort).map(back)) {
-        (Some(a), Some(b)) => Some(splice::splice(a, b)),
+        (Some(a), Some(b)) => Some(splice::splice(a, b, effort.limit)),
         (a, b) => a.or(b),
     };
     let closer = Effort {

@@ -3,13 +3,15 @@
 use super::assemble;
 use super::glyf::{Pen, Stored};
 use super::search::smooth;
-use kurbo::Vec2;
+use crate::numeric::distance::Polyline;
+use kurbo::{ParamCurve, Point, QuadBez, Vec2};
 use std::collections::BTreeMap;
 
-/// The cheapest of both rings and of those that follow one and the other by turns. They run the same way around.
-pub(super) fn splice(a: Vec<Stored>, b: Vec<Stored>) -> Vec<Stored> {
+/// The cheapest of both rings and of those that follow one and the other by turns. They run the same way around, each
+/// within `limit` (units) of one contour.
+pub(super) fn splice(a: Vec<Stored>, b: Vec<Stored>, limit: f64) -> Vec<Stored> {
     let both = [&a, &b].map(Vec::as_slice);
-    let turns = by_turns(both, &meetings(both));
+    let turns = by_turns(both, &meetings(both), limit);
     let all = turns.into_iter().chain([a, b]);
     all.min_by_key(|c| assemble::bytes(c)).unwrap_or_default()
 }
@@ -60,8 +62,9 @@ fn meetings([a, b]: [&[Stored]; 2]) -> Vec<(usize, usize)> {
     }
 }
 
-/// The cheapest ring that may change at each meeting, from the first one on.
-fn by_turns(rings: [&[Stored]; 2], meetings: &[(usize, usize)]) -> Option<Vec<Stored>> {
+/// The cheapest ring that may change at each meeting, from the first one on. None where rings that meet do not draw the
+/// same from one meeting to the next: then it is not at one place of the contour that they meet.
+fn by_turns(rings: [&[Stored]; 2], meetings: &[(usize, usize)], limit: f64) -> Option<Vec<Stored>> {
     let &(start, _) = meetings.first().filter(|_| meetings.len() > 1)?;
     let mut ways = vec![(0, Pen::after(rings[0][start]), Vec::new())];
     let next = meetings.iter().cycle().skip(1);
@@ -71,6 +74,11 @@ fn by_turns(rings: [&[Stored]; 2], meetings: &[(usize, usize)]) -> Option<Vec<St
             let many = (j + ring.len() - i - 1) % ring.len() + 1;
             (1..=many).map(|k| after(ring, i, k)).collect::<Vec<_>>()
         });
+        let pieces: Vec<_> = pieces.collect();
+        let begin = after(rings[0], from.0, 0);
+        if !alike(begin, [&pieces[0], &pieces[1]], limit) {
+            return None;
+        }
         let along = |piece: Vec<Stored>| {
             let walked = ways.iter().map(|(cost, pen, _)| {
                 let mut pen = *pen;
@@ -80,16 +88,55 @@ fn by_turns(rings: [&[Stored]; 2], meetings: &[(usize, usize)]) -> Option<Vec<St
             let ((cost, pen), way) = walked.zip(&ways).min_by_key(|((cost, _), _)| *cost)?;
             Some((cost, pen, [way.2.as_slice(), &piece].concat()))
         };
-        ways = pieces.filter_map(along).collect();
+        ways = pieces.into_iter().filter_map(along).collect();
     }
     let rings = ways.into_iter().map(|(_, _, ring)| ring);
     rings.min_by_key(|c| assemble::bytes(c))
+}
+
+/// Whether two runs of points that begin behind `begin` draw the same, as runs do that are within `limit` (units) of
+/// one stretch of a contour.
+fn alike(begin: Stored, pieces: [&[Stored]; 2], limit: f64) -> bool {
+    /// How far they lie from each other at most, limits: twice, and what their samples leave.
+    const APART: f64 = 2.5;
+    let drawn = pieces.map(|piece| drawn(begin, piece));
+    let within = |one: &[Point], other: &[Point]| {
+        let line = Polyline::new(other.to_vec());
+        line.is_none_or(|line| line.is_within(one.iter().copied(), APART * limit))
+    };
+    within(&drawn[0], &drawn[1]) && within(&drawn[1], &drawn[0])
+}
+
+/// Points of what a run draws between the points that it begins and ends with.
+fn drawn(begin: Stored, piece: &[Stored]) -> Vec<Point> {
+    /// Points of a quadratic.
+    const SAMPLES: usize = 4;
+    let all: Vec<Stored> = [&[begin], piece].concat();
+    let join = |a: Stored, b: Stored| match (a.on, b.on) {
+        (true, _) => a.point(),
+        (_, true) => b.point(),
+        _ => a.point().midpoint(b.point()),
+    };
+    let mut out = vec![join(all[0], all[1])];
+    for w in all.windows(3) {
+        let end = join(w[2], w[1]);
+        if w[1].on {
+            out.push(w[1].point());
+        } else {
+            let quad = QuadBez::new(join(w[0], w[1]), w[1].point(), end);
+            out.extend((1..=SAMPLES).map(|i| quad.eval(i as f64 / SAMPLES as f64)));
+        }
+    }
+    out.extend(all.last().filter(|p| p.on).map(|p| p.point()));
+    out
 }
 
 #[cfg(test)]
 mod tests {
     use super::{Stored, splice};
     use crate::quadratic::rate::assemble;
+
+    const LIMIT: f64 = 100.0;
 
     fn ring(points: &[(i32, i32, bool)]) -> Vec<Stored> {
         let stored = |&(x, y, on): &(i32, i32, bool)| Stored { x, y, on };
@@ -103,10 +150,13 @@ mod tests {
         let a = [(0, 0, true), out, (400, 0, true), (300, -80, true), back];
         let b = [(400, 0, true), back, (0, 0, true), (100, 80, true), out];
         let (a, b) = (ring(&a), ring(&b));
-        let both = splice(a.clone(), b.clone());
+        let both = splice(a.clone(), b.clone(), LIMIT);
         assert_eq!(both.len(), 4, "{both:?}");
         assert!(assemble::bytes(&both) < assemble::bytes(&a).min(assemble::bytes(&b)));
-        assert_eq!(assemble::bytes(&splice(b, a)), assemble::bytes(&both));
+        assert_eq!(
+            assemble::bytes(&splice(b, a, LIMIT)),
+            assemble::bytes(&both)
+        );
     }
 
     #[test]
@@ -126,7 +176,7 @@ mod tests {
             (200, 0, true),
             (-200, 0, true),
         ];
-        let both = splice(ring(&a), ring(&b));
+        let both = splice(ring(&a), ring(&b), LIMIT);
         let at = both.iter().position(|p| (p.x, p.y) == (0, 0)).unwrap();
         assert_eq!(both[at - 1].y, -both[at + 1].y, "{both:?}");
     }
@@ -135,7 +185,7 @@ mod tests {
     fn rings_that_never_meet_stay() {
         let a = ring(&[(0, 0, false), (9, 0, false), (9, 9, false), (0, 9, false)]);
         let b = ring(&[(1, 0, false), (300, 0, false), (9, 8, false), (0, 8, false)]);
-        assert_eq!(splice(a.clone(), b), a);
-        assert_eq!(splice(Vec::new(), a), Vec::new());
+        assert_eq!(splice(a.clone(), b, LIMIT), a);
+        assert_eq!(splice(Vec::new(), a, LIMIT), Vec::new());
     }
 }
