@@ -302,6 +302,8 @@ impl Curve {
 
     /// Extrema of y and x inside the span, each at least the tolerance from its neighbours.
     fn extrema(&self, tolerance: f64) -> Vec<Gate> {
+        /// Samples that differ by less are at one height, units.
+        const LEVEL: f64 = 1e-9;
         let mut gates = Vec::new();
         for horizontal in [true, false] {
             let value = |i: usize| {
@@ -314,12 +316,11 @@ impl Curve {
             let (first, last) = (self.first, self.last);
             let mut found: Vec<usize> = Vec::new();
             for i in first + 1..last {
-                let (a, b, c) = (value(i - 1), value(i), value(i + 1));
-                if (b > a && b >= c) || (b < a && b <= c) {
-                    // A level stretch stands for its middle.
-                    let flat = (i..last)
-                        .take_while(|&j| (value(j) - b).abs() < 1e-9)
-                        .count();
+                let is_level = |j: &usize| (value(*j) - value(i)).abs() < LEVEL;
+                // A level stretch stands for its middle, if it is no step on a slope.
+                let flat = (i..last).take_while(is_level).count();
+                let turns = [i - 1, i + flat].map(|j| value(j) < value(i));
+                if turns[0] == turns[1] && ![i - 1, i + flat].iter().any(is_level) {
                     found.push(i + flat.saturating_sub(1) / 2);
                 }
             }
@@ -401,13 +402,15 @@ fn control_length(seg: &PathSeg) -> f64 {
 
 /// Unit tangent; at a collapsed handle the direction to the next control point.
 pub(super) fn direction(seg: &PathSeg, u: f64) -> Vec2 {
+    /// A shorter derivative is what rounding left of a handle, parts of the curve's length.
+    const HANDLE: f64 = 1e-4;
     let c = seg.to_cubic();
     let d = match seg {
         PathSeg::Line(l) => l.p1 - l.p0,
         PathSeg::Quad(q) => q.deriv().eval(u).to_vec2(),
         PathSeg::Cubic(c) => c.deriv().eval(u).to_vec2(),
     };
-    if d.hypot() > 1e-6 * control_length(seg) {
+    if d.hypot() > HANDLE * control_length(seg) {
         return level(d.normalize());
     }
     let spans = if u < 0.5 {
