@@ -4,7 +4,7 @@ use super::super::{
     curve::{Node, coarse},
     glyf::Stored,
 };
-use super::lattice::{floor, full, half, smooth};
+use super::lattice::{floor, full, half, is_ahead, smooth};
 use super::quad::price;
 use super::stage::{Kind, gate_direction, on_gate};
 use super::{Join, Leg, Search};
@@ -117,11 +117,12 @@ impl Search<'_> {
 
     fn reach_end(&mut self, leg: &Leg) -> bool {
         let Leg { gate, c, .. } = *leg;
-        let along = self.end.along;
+        let (along, ends) = (self.end.along, self.curve.dots[self.curve.last].t);
         let mut hit = false;
         for k in 0..self.ends.len() {
             let m = self.ends[k];
-            if m == c || along.is_some_and(|u| !smooth(u, m - c)) {
+            let fits = along.map_or_else(|| is_ahead(ends, m - c), |u| smooth(u, m - c));
+            if m == c || !fits {
                 continue;
             }
             let mut pen = leg.pen;

@@ -44,6 +44,14 @@ pub(in super::super) fn smooth(u: Vec2, v: Vec2) -> bool {
         }
 }
 
+/// Whether a control point beside a corner, `leg` from or to it, lies where the curve leaves it or comes to it along
+/// `u`: behind it the curve would turn back on itself.
+pub(in super::super) fn is_ahead(u: Vec2, leg: Vec2) -> bool {
+    /// Cosine of the largest angle between them.
+    const AHEAD: f64 = 0.5;
+    u.dot(leg) > AHEAD * leg.hypot()
+}
+
 pub(super) fn level(x: f64, most: f64) -> u64 {
     index(x.clamp(-most, most) + most + 0.5) as u64
 }

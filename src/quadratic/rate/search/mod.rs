@@ -13,7 +13,7 @@ use crate::numeric::shortest::{Id, Labels};
 pub(super) use care::Care;
 use kurbo::{Point, Vec2};
 use lattice::floor;
-pub(super) use lattice::smooth;
+pub(super) use lattice::{is_ahead, smooth};
 use quad::{LEVELS, Place, places};
 pub(super) use stage::on_gate;
 use stage::{Kind, Stage, gate_direction, stages};
@@ -356,7 +356,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Lattice points near `c` that keep the join smooth.
+    /// Lattice points near `c` that keep the join smooth, and lie ahead of a corner.
     fn around(&self, join: Join, c: Point, s: usize) -> impl Iterator<Item = Point> + use<> {
         let low = floor(c);
         let mut xs = [low.x, low.x + 1.0];
@@ -383,10 +383,13 @@ impl<'a> Search<'a> {
             Kind::Free => {}
         }
         let all = [(0, 0), (0, 1), (1, 0), (1, 1)].map(|(i, j)| Point::new(xs[i], ys[j]));
+        let begins = self.curve.dots[self.curve.first].t;
         let fits = move |&k: &usize| {
-            let q = all[k];
-            let smooth = join.along.is_none_or(|u| smooth(u, q - join.m));
-            smooth && q != join.m && !all[..k].contains(&q)
+            let (q, leg) = (all[k], all[k] - join.m);
+            let fits = join
+                .along
+                .map_or_else(|| is_ahead(begins, leg), |u| smooth(u, leg));
+            fits && q != join.m && !all[..k].contains(&q)
         };
         (0..all.len()).filter(fits).map(move |k| all[k])
     }

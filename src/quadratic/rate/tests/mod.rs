@@ -4,11 +4,11 @@ mod exact;
 
 use super::{
     Rate, Strictness,
-    curve::{Course, Span},
+    curve::{Course, Span, direction},
     glyf::points,
     glyf_bytes,
 };
-use crate::{quadratic::split::Split, types::Outline};
+use crate::{numeric::angles, quadratic::split::Split, types::Outline};
 use kurbo::{
     Affine, BezPath, Circle, Ellipse, ParamCurve, ParamCurveNearest, PathEl, PathSeg, Point, Shape,
 };
@@ -247,6 +247,80 @@ fn a_line_that_is_drawn_on_into_a_bend_stays_beside_it() {
             }
         }
     }
+}
+
+#[test]
+fn corners_so_near_that_either_may_be_the_other_lose_no_contour() {
+    // a ring that a line closes which is shorter than its corners may move
+    for (gap, keep, tolerances) in [
+        (1.6e-5, Strictness::Extrema, [1.5, 2.0, 3.0]),
+        (0.1, Strictness::Extrema, [1.0, 1.5, 2.0]),
+        (0.1, Strictness::Corners, [1.0, 1.5, 2.0]),
+    ] {
+        let end = 232.8 + gap;
+        let svg = format!(
+            "M232.8 503C232.8 478.8 252.6 459 276.8 459C301 459 321.9 478.8 321.9 503C321.9 528.3 301 548.1 276.8 548.1\
+             C252.6 548.1 {end} 528.3 {end} 503Z"
+        );
+        let ring = Outline::new(vec![BezPath::from_svg(&svg).unwrap()]).unwrap();
+        let rate = Rate {
+            keep,
+            ..Rate::default()
+        };
+        for tolerance in tolerances {
+            let far = astray(&ring, &rate.convert(&ring, tolerance).unwrap());
+            assert!(far <= tolerance, "{gap} {tolerance}: {far}");
+        }
+    }
+}
+
+#[test]
+fn a_level_step_on_a_slope_takes_no_extremum_with_it() {
+    let svg = "M100 500C100 430 180 360 290 360L294 360C300 360 303 359.9 306 359.9C420 359.9 500 430 500 500L500 900\
+               L100 900Z";
+    let arch = Outline::new(vec![BezPath::from_svg(svg).unwrap()]).unwrap();
+    for tolerance in [0.5, 1.0, 2.0] {
+        let made = Rate::default().convert(&arch, tolerance).unwrap();
+        let quads = made.contours()[0].segments();
+        let mut ends = quads.filter_map(|s| match s {
+            PathSeg::Quad(q) => Some((q.p1, q.p2)),
+            _ => None,
+        });
+        let is_top = |(c, p): (Point, Point)| (c.y - p.y).abs() < 1e-9 && (p.y - 360.0).abs() < 1.0;
+        assert!(ends.any(is_top), "{tolerance}: {:?}", made.contours());
+    }
+}
+
+#[test]
+fn no_control_point_lies_behind_its_corner() {
+    // petals of two curves, more and less bulged, narrow and wide, turned
+    let mut seen = 0;
+    for (bulge, turn) in (1..12).flat_map(|b| (0..15).map(move |t| (b, t))) {
+        let (deep, wide) = (f64::from(bulge) * 9.0, 40.0 + f64::from(turn) * 3.0);
+        let svg = format!(
+            "M0 0C{deep} {wide} 60 120 90 {}C70 80 {wide} 20 0 0Z",
+            100.0 + deep
+        );
+        let map = Affine::translate((400.0, 400.0)) * angles::rotation(0.41 * f64::from(turn));
+        let petal = Outline::new(vec![map * BezPath::from_svg(&svg).unwrap()]).unwrap();
+        let drawn: Vec<_> = petal.contours()[0].segments().collect();
+        for tolerance in [0.8, 2.0] {
+            let made = Rate::default().convert(&petal, tolerance).unwrap();
+            for s in made.contours()[0].segments() {
+                let PathSeg::Quad(q) = s else { continue };
+                for (corner, c, way) in [(q.p0, q.p1, 0.0), (q.p2, q.p1, 1.0)] {
+                    let at = drawn
+                        .iter()
+                        .find(|d| d.eval(way).distance(corner) < tolerance);
+                    let Some(at) = at else { continue };
+                    let (leg, along) = (c - corner, direction(at, way) * (1.0 - 2.0 * way));
+                    assert!(leg.dot(along) > 0.0, "{svg} {turn} {tolerance}: {q:?}");
+                    seen += 1;
+                }
+            }
+        }
+    }
+    assert!(seen > 1000, "{seen}");
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use super::super::curve::{Curve, Node};
 use super::super::glyf::Stored;
-use super::{Point, Vec2, smooth};
+use super::{Point, Vec2, is_ahead, smooth};
 use crate::numeric::cast::index;
 
 /// A point, and what may move it.
@@ -42,6 +42,8 @@ pub(super) struct Chain {
     pub(super) unknowns: usize,
     /// Directions in which it must begin and end.
     pub(super) along: [Option<Vec2>; 2],
+    /// Directions in which the curve begins and ends.
+    tangents: [Vec2; 2],
     is_ring: bool,
 }
 
@@ -71,6 +73,7 @@ impl Chain {
             unknowns: 2 * controls.len(),
             spots: free(controls),
             along: [None; 2],
+            tangents: [Vec2::ZERO; 2],
             is_ring: true,
         })
     }
@@ -105,6 +108,7 @@ impl Chain {
             spots: controls,
             unknowns,
             along,
+            tangents: [curve.first, curve.last].map(|i| curve.dots[i].t),
             is_ring: false,
         })
     }
@@ -188,13 +192,16 @@ impl Chain {
         was_free && self.spots.iter().any(|s| !s.ways.is_empty())
     }
 
-    /// Whether it begins and ends along the lines given.
-    pub(super) fn leaves_smoothly(&self) -> bool {
+    /// Whether it begins and ends along the lines given, and at corners where the curve goes.
+    pub(super) fn leaves_well(&self) -> bool {
         let last = self.spots.len() - 1;
         let leg = |from: usize, to: usize| self.spots[to].at - self.spots[from].at;
-        let [start, end] = self.along;
-        start.is_none_or(|u| smooth(u, leg(0, 1)))
-            && end.is_none_or(|u| smooth(u, leg(last - 1, last)))
+        let ends = self.along.into_iter().zip(self.tangents);
+        let mut ends = ends.zip([leg(0, 1), leg(last - 1, last)]);
+        self.is_ring
+            || ends.all(|((along, tangent), leg)| {
+                along.map_or_else(|| is_ahead(tangent, leg), |u| smooth(u, leg))
+            })
     }
 
     /// As TrueType stores it.

@@ -9,7 +9,7 @@ mod fit;
 
 use super::curve::{Curve, Node};
 use super::glyf::{Pen, Stored};
-use super::search::{Effort, smooth};
+use super::search::{Effort, is_ahead, smooth};
 use super::{Strictness, assemble};
 use chain::Chain;
 use fit::Fit;
@@ -83,7 +83,7 @@ fn holds(fit: &mut Fit<'_>, curve: &Curve, effort: Effort) -> bool {
     const SURE: f64 = 0.998;
     let limit = effort.limit;
     let near = fit.worst() <= SURE * limit && fit.keeps_lines(SURE * effort.beside * limit);
-    if !(near && fit.chain.leaves_smoothly()) {
+    if !(near && fit.chain.leaves_well()) {
         return false;
     }
     let last = fit.chain.many() - 1;
