@@ -35,7 +35,7 @@ const USUAL_EXTENT: f64 = 1.0;
 pub(super) struct Guides {
     /// How far the baseline lies below the slots' levels, px, for each row of the layer.
     pub(super) drop: Vec<f64>,
-    /// Where rows lie that slope each in its own way, px, and how, px down for one to the right.
+    /// Where rows lie that slope each in its own way, upright px, and how, px down for one to the right.
     pub(super) apart: Option<Vec<(f64, f64)>>,
     pub(super) px_per_em: f64,
     pub(super) warnings: Vec<Warning>,
@@ -80,7 +80,11 @@ pub(super) fn measure(
         unruled(&letters, layer.rows)
     };
     let (px_per_em, warning) = scale(&letters, &drop, page, options)?;
-    let apart = told.map(|slopes| drop.iter().copied().zip(slopes).collect());
+    let apart = told.map(|slopes| {
+        let rows = slopes.into_iter().enumerate();
+        rows.filter_map(|(row, slope)| Some((middle(&letters, &drop, row)?, slope)))
+            .collect()
+    });
     Ok(Guides {
         drop,
         apart,
@@ -105,6 +109,13 @@ fn slope(layer: &mut Layer, slopes: &[f64], all: &[Component]) {
             slot.level += slopes[slot.row] * (x - middles[slot.row]);
         }
     }
+}
+
+/// The mean of the baselines of a row's letters, upright px; `None` of no letters.
+fn middle(letters: &[Letter], drop: &[f64], row: usize) -> Option<f64> {
+    let own = letters.iter().filter(|l| l.row == row);
+    let (sum, count) = own.fold((0.0, 0), |(s, n), l| (s + l.baseline(drop), n + 1));
+    (count > 0).then(|| sum / f64::from(count))
 }
 
 /// A slot's letter of its parts' areas and boxes.
