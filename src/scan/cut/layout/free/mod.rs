@@ -90,7 +90,9 @@ pub(super) fn place(
     let doubtful = read.doubtful.iter().map(|&k| names[k]).collect();
     let mut names = names.into_iter();
     let rows = read.rows.into_iter();
-    let mut rows: Vec<Row> = rows.map(|row| names.by_ref().zip(row).collect()).collect();
+    // a row's end takes no name of the next one
+    let row = |row: Vec<Vec<usize>>| names.by_ref().take(row.len()).zip(row).collect();
+    let mut rows: Vec<Row> = rows.map(row).collect();
     claims.iter().for_each(|c| seat(all, &mut rows, c));
     rows.sort_by_key(|row| row.iter().map(|l| l.0).min());
     let counts: Vec<usize> = rows.iter().map(Vec::len).collect();
