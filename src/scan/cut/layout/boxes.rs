@@ -36,10 +36,7 @@ pub(super) fn place(
     task: &Task<'_>,
 ) -> Result<Layer, Fault> {
     let frames = frames(task);
-    let mut order = rows(&frames);
-    if task.options.direction == Direction::Rtl {
-        order.iter_mut().for_each(|r| r.reverse());
-    }
+    let order = rows(&frames);
     let rows: Vec<usize> = order.iter().map(Vec::len).collect();
     listed::check(&task.options.lines, &rows)?;
     let mut rejected = Vec::new();
@@ -76,8 +73,13 @@ pub(super) fn place(
         let outside = outside.map(|r| all[r.0].area).sum();
         return Err(too_many(frames.len(), labels, (held, outside)));
     }
-    let boxes = order.iter().enumerate();
-    let boxes = boxes.flat_map(|(r, row)| row.iter().enumerate().map(move |(c, &f)| (r, c, f)));
+    let boxes = order.iter().enumerate().flat_map(|(r, row)| {
+        let mut row: Vec<_> = (row.iter().enumerate()).map(|(c, &f)| (r, c, f)).collect();
+        if task.options.direction == Direction::Rtl {
+            row.reverse();
+        }
+        row
+    });
     let places = boxes.enumerate().map(|(index, (row, column, f))| Place {
         index,
         row,

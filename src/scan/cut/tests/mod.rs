@@ -523,34 +523,41 @@ fn what_every_cell_has_at_the_same_place_is_printed() {
     assert!(cut.rejected.is_empty(), "{:?}", cut.rejected);
 }
 
+/// Three rows of four printed boxes, n p i l in each, and a label under each; the fifth is empty, and the sixth holds
+/// a letter that touches it.
+fn boxed(skew: f64) -> Paper {
+    let mut paper = Paper::new(700, 520, skew);
+    for i in 0..12 {
+        let (x, y) = (
+            60.0 + 150.0 * f64::from(i % 4),
+            50.0 + 150.0 * f64::from(i / 4),
+        );
+        for (dx, dy, w, h) in [
+            (0.0, 0.0, 120.0, 3.0),
+            (0.0, 107.0, 120.0, 3.0),
+            (0.0, 0.0, 3.0, 110.0),
+            (117.0, 0.0, 3.0, 110.0),
+        ] {
+            paper.bar(x + dx, y + dy, w, h);
+        }
+        paper.letter('n', x + 55.0, y + 146.0); // a printed label under the box
+        match i {
+            4 => {}
+            5 => paper.bar(x + 40.0, y, 6.0, 70.0), // a letter that touches its box
+            _ => paper.letter(
+                ['n', 'p', 'i', 'l'][usize::try_from(i % 4).unwrap_or(0)],
+                x + 45.0,
+                y + 75.0,
+            ),
+        }
+    }
+    paper
+}
+
 #[test]
 fn printed_boxes_hold_one_letter_each() {
     for skew in [0.0, -2.0] {
-        let mut paper = Paper::new(700, 520, skew);
-        for i in 0..12 {
-            let (x, y) = (
-                60.0 + 150.0 * f64::from(i % 4),
-                50.0 + 150.0 * f64::from(i / 4),
-            );
-            for (dx, dy, w, h) in [
-                (0.0, 0.0, 120.0, 3.0),
-                (0.0, 107.0, 120.0, 3.0),
-                (0.0, 0.0, 3.0, 110.0),
-                (117.0, 0.0, 3.0, 110.0),
-            ] {
-                paper.bar(x + dx, y + dy, w, h);
-            }
-            paper.letter('n', x + 55.0, y + 146.0); // a printed label under the box
-            match i {
-                4 => {}
-                5 => paper.bar(x + 40.0, y, 6.0, 70.0), // a letter that touches its box
-                _ => paper.letter(
-                    ['n', 'p', 'i', 'l'][usize::try_from(i % 4).unwrap_or(0)],
-                    x + 45.0,
-                    y + 75.0,
-                ),
-            }
-        }
+        let paper = boxed(skew);
         let cut = cut_page(&paper, "n p i l n l i l n p i l", &options(Layout::Boxes)).unwrap();
         assert_eq!(cut.cells.len(), 11, "at {skew}°");
         let warned: Vec<_> = cut.warnings.iter().map(|w| w.index).collect();

@@ -20,6 +20,21 @@ fn rows_without_names_are_told() {
 }
 
 #[test]
+fn a_box_without_a_name_is_told_from_the_left() {
+    let rtl = Options {
+        direction: Direction::Rtl,
+        ..options(Layout::Boxes)
+    };
+    let error = cut_page(&boxed(0.0), "l i", &rtl).unwrap_err();
+    let told = Fault::TooFewNames {
+        row: 1,
+        column: 2,
+        names: 2,
+    };
+    assert_eq!(error, told);
+}
+
+#[test]
 fn ink_that_reaches_the_next_row_is_told() {
     let mut paper = grid_page(0.0);
     let cut = |paper: &Paper| cut_page(paper, NAMES, &options(Layout::Grid(4, 5))).unwrap();
