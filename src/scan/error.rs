@@ -1,5 +1,6 @@
 //! What can be wrong with a page.
 
+use super::options::Order;
 use crate::types::Shade;
 use thiserror::Error;
 
@@ -101,18 +102,21 @@ pub enum Fault {
         /// names given
         names: usize,
     },
-    /// A line of names is longer or shorter than its row of letters, and one after it as long as its own.
+    /// A line of names is longer or shorter than its row of letters, or its column where columns come first, and one
+    /// after it as long as its own.
     #[error(
-        "has room for {cells} letters in row {line}, and line {line} of `glyphs` has {names} names, so that the names after it are \
-         those of other rows; correct the line, write _ for what is to be skipped, draw letters clear of each other, or write all names in one \
-         line if lines are no rows"
+        "has room for {cells} letters in {word} {line}, and line {line} of `glyphs` has {names} names, so that the names after it are \
+         those of other {word}s; correct the line, write _ for what is to be skipped, draw letters clear of each other, or write all names in one \
+         line if lines are no {word}s", word = line_of(*order)
     )]
     Line {
+        /// which come first
+        order: Order,
         /// from 1
         line: usize,
         /// names in it
         names: usize,
-        /// cells of its row
+        /// cells of its row or column
         cells: usize,
     },
     /// Letters and names differ in number.
@@ -189,6 +193,14 @@ impl Fault {
             fault: self,
             taken: guessed.filter(|_| !is_told),
         }
+    }
+}
+
+/// What a line of names is where such come first.
+const fn line_of(order: Order) -> &'static str {
+    match order {
+        Order::Rows => "row",
+        Order::Columns => "column",
     }
 }
 

@@ -10,6 +10,7 @@ use crate::numeric::view::View;
 use crate::scan::components::{Component, enclosed};
 use crate::scan::cut::{Layer, Levels, Reason};
 use crate::scan::error::Fault;
+use crate::scan::options::Order;
 use crate::types::{Direction, Label};
 use kurbo::{Affine, Rect};
 use std::mem;
@@ -38,7 +39,7 @@ pub(super) fn place(
     let frames = frames(task);
     let order = rows(&frames);
     let rows: Vec<usize> = order.iter().map(Vec::len).collect();
-    listed::check(&task.options.lines, &rows)?;
+    listed::check(&task.options.lines, (Order::Rows, &rows))?;
     let mut rejected = Vec::new();
     let mut inside: Vec<Vec<usize>> = vec![Vec::new(); frames.len()];
     let mut freed = Vec::new();

@@ -4,12 +4,14 @@
 //! one with a name too many or too few has shifted all names after it.
 
 use crate::scan::error::Fault;
+use crate::scan::options::Order;
 
-/// Checks lines of names, by how many each has, against the cells or letters of each row.
+/// Checks lines of names, by how many each has, against the cells or letters of each row, or of each column where
+/// those come first.
 ///
 /// # Errors
 /// Lines are rows, and one that is as long as its row does not begin with it.
-pub(super) fn check(lines: &[usize], rows: &[usize]) -> Result<(), Fault> {
+pub(super) fn check(lines: &[usize], (order, rows): (Order, &[usize])) -> Result<(), Fault> {
     let both = || lines.iter().zip(rows);
     let fit = both().filter(|(names, cells)| names == cells).count();
     if lines.len() > rows.len() || 2 * fit <= lines.len() {
@@ -22,6 +24,7 @@ pub(super) fn check(lines: &[usize], rows: &[usize]) -> Result<(), Fault> {
             odd = (names != cells).then_some((line, names, cells));
         } else if let Some((line, names, cells)) = odd.filter(|_| names == cells) {
             return Err(Fault::Line {
+                order,
                 line: line + 1,
                 names,
                 cells,
@@ -38,7 +41,7 @@ mod tests {
 
     /// The line that shifts those after it, from 1, and how many names it has.
     fn slip(lines: &[usize], rows: &[usize]) -> Option<(usize, usize)> {
-        match check(lines, rows) {
+        match check(lines, (Order::Rows, rows)) {
             Err(Fault::Line { line, names, .. }) => Some((line, names)),
             _ => None,
         }

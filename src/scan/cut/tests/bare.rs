@@ -498,6 +498,7 @@ fn a_line_of_names_that_is_no_row_is_told() {
     }
     let error = cut(&[8, 7, 8, 8, 8]).map(|c| c.cells.len()).unwrap_err();
     let told = Fault::Line {
+        order: Order::Rows,
         line: 2,
         names: 7,
         cells: 8,

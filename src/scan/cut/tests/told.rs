@@ -35,6 +35,22 @@ fn a_box_without_a_name_is_told_from_the_left() {
 }
 
 #[test]
+fn a_line_that_is_no_column_is_told_as_that() {
+    let columns = Options {
+        order: Order::Columns,
+        lines: vec![4, 3, 4, 4, 4],
+        ..options(Layout::Grid(4, 5))
+    };
+    let error = cut_page(&grid_page(0.0), &NAMES[..NAMES.len() - 2], &columns);
+    let error = error.unwrap_err().to_string();
+    assert!(
+        error.contains("4 letters in column 2, and line 2 of"),
+        "{error}"
+    );
+    assert!(!error.contains("row"), "{error}");
+}
+
+#[test]
 fn ink_that_reaches_the_next_row_is_told() {
     let mut paper = grid_page(0.0);
     let cut = |paper: &Paper| cut_page(paper, NAMES, &options(Layout::Grid(4, 5))).unwrap();

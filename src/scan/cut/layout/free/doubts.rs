@@ -5,6 +5,7 @@ use super::reading::{Reading, Role};
 use crate::scan::cut::layout::listed;
 use crate::scan::cut::layout::touching::Touch;
 use crate::scan::error::Fault;
+use crate::scan::options::Order;
 
 /// So many places are told; where more are in doubt, it is not one name that was forgotten.
 const TOLD: usize = 3;
@@ -163,8 +164,10 @@ impl Unread {
                     .to_owned()
             }
         });
-        let odd = match listed::check(lines, &rows) {
-            Err(Fault::Line { line, names, cells }) => Some(format!(
+        let odd = match listed::check(lines, (Order::Rows, &rows)) {
+            Err(Fault::Line {
+                line, names, cells, ..
+            }) => Some(format!(
                 "line {line} of `glyphs` has {names} names and row {line} {cells} letters"
             )),
             _ => None,

@@ -20,6 +20,7 @@ use crate::scan::cut::sieve::{LATTICE_COVER, stroke_width};
 use crate::scan::cut::{self, Layer, Levels, Reason, Slot};
 use crate::scan::error::Fault;
 use crate::scan::letters::{Pieces, Shape};
+use crate::scan::options::Order;
 use crate::types::{Direction, Label};
 use doubts::Unread;
 use kurbo::Rect;
@@ -96,7 +97,7 @@ pub(super) fn place(
     claims.iter().for_each(|c| seat(all, &mut rows, c));
     rows.sort_by_key(|row| row.iter().map(|l| l.0).min());
     let counts: Vec<usize> = rows.iter().map(Vec::len).collect();
-    listed::check(&task.options.lines, &counts)?;
+    listed::check(&task.options.lines, (Order::Rows, &counts))?;
     // lines that are the page's rows say how many letters there are
     if let Some(among) = spare.filter(|_| task.options.lines != counts) {
         return Err(spare_name(labels, among));

@@ -38,7 +38,8 @@ pub(super) fn place(
     labels: &[Label],
     plan: &Plan<'_>,
 ) -> Result<Layer, Fault> {
-    listed::check(&plan.task.options.lines, &plan.lines())?;
+    let options = plan.task.options;
+    listed::check(&options.lines, (options.order, &plan.lines()))?;
     plan.too_many(labels)?;
     let lines = lines(all, plan);
     let is_lined = !lines.is_empty();
