@@ -85,7 +85,7 @@ pub(super) fn resolve(
     Ok((project, remarks))
 }
 
-/// A page has fewer cells than this.
+/// Cells of a page that get names at most: more would be too small for letters on the largest page, too.
 const MOST_CELLS: usize = 1_000_000;
 
 /// Confidence, among the letters left by the other cells, from which a cell is named by what it looks like.
@@ -156,7 +156,7 @@ fn of_letters(project: &Project) -> impl Iterator<Item = (usize, &SheetTable)> {
 fn sheet_labels(sheet: &SheetTable, world: World<'_>) -> Result<Vec<Label>, Problem> {
     match (sheet.glyphs.is_auto(), sheet.layout) {
         (false, _) => labels::of_sheet(sheet, world),
-        // a grid of more cells than this is refused when it is cut
+        // bounded, since a grid for whose cells the page has no room is refused only when it is cut
         (true, Layout::Grid(rows, columns)) => Ok(vec![
             Label("?".to_owned());
             rows.saturating_mul(columns).min(MOST_CELLS)

@@ -15,8 +15,8 @@ use crate::numeric::view::View;
 use crate::scan::clean::Page;
 use crate::scan::components::Component;
 use crate::scan::error::Fault;
-use crate::scan::options::{Layout, Options, Order};
-use crate::types::{Direction, Gray, Label};
+use crate::scan::options::{Layout, Options};
+use crate::types::{Gray, Label};
 
 /// A page to be laid out, and how.
 pub(super) struct Task<'a> {
@@ -50,17 +50,5 @@ pub(super) fn place(
         }
         Layout::Free => free::place(all, labels, task),
         Layout::Boxes => boxes::place(all, labels, task),
-    }
-}
-
-/// Row and column of a cell from its position in reading order.
-fn position(index: usize, (rows, columns): (usize, usize), options: &Options) -> (usize, usize) {
-    let (row, column) = match options.order {
-        Order::Rows => (index / columns, index % columns),
-        Order::Columns => (index % rows, index / rows),
-    };
-    match options.direction {
-        Direction::Ltr => (row, column),
-        Direction::Rtl => (row, columns.saturating_sub(column + 1)),
     }
 }

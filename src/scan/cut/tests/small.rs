@@ -312,3 +312,35 @@ fn a_dot_nearer_to_the_row_before_is_that_letters_whose_name_has_it() {
         assert_eq!(high(5) > 40.0, keeps, "{under}: {}", high(5));
     }
 }
+
+#[test]
+fn a_grid_of_many_cells_is_cut() {
+    let mut paper = Paper::new(2_400, 2_400, 0.0);
+    for i in 0..40 {
+        paper.bar(
+            30.0 + 60.0 * f64::from(i),
+            30.0 + 60.0 * f64::from(i),
+            3.0,
+            4.0,
+        );
+    }
+    let names = vec!["n"; 600 * 600].join(" ");
+    let cut = cut_page(&paper, &names, &options(Layout::Grid(600, 600))).unwrap();
+    // one may lie in two cells
+    assert!((40..50).contains(&cut.cells.len()), "{}", cut.cells.len());
+}
+
+#[test]
+fn columns_are_read_from_the_right() {
+    let options = Options {
+        direction: Direction::Rtl,
+        order: Order::Columns,
+        ..options(Layout::Grid(4, 5))
+    };
+    let names = "l n n n n i n i p p l n i n n p n n i n";
+    let cut = cut_page(&grid_page(0.0), names, &options).unwrap();
+    let middle = |i: usize| cut.cells[i].in_sheet.center();
+    assert!(cut.warnings.is_empty(), "{:?}", cut.warnings);
+    assert!(middle(0).x > 500.0 && middle(4).x < 500.0 && middle(19).x < 120.0);
+    assert!((1..4).all(|i| middle(i).y > middle(i - 1).y + 60.0));
+}

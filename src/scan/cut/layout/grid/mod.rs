@@ -56,7 +56,7 @@ pub(super) fn place(
         ..plan.clone()
     };
     let mut shared = share(all, &letters, labels, plan).ok_or(Fault::Blank)?;
-    let label = |cell: usize| labels.get(plan.index((cell / plan.columns, cell % plan.columns))?);
+    let label = |cell: usize| labels.get(plan.index((cell / plan.columns, cell % plan.columns)));
     let one_piece = |l: &Label| Shape::of(l).pieces == Pieces::One;
     let drawn = shared.cells.iter().enumerate();
     let drawn = drawn.filter_map(|(cell, parts)| Some((label(cell)?, parts.as_slice())));
@@ -82,15 +82,15 @@ pub(super) fn place(
     } = shared;
     rejected.extend(outside.into_iter().map(|i| (i, Reason::Outside)));
     settle_small_parts(all, &mut cells, &x, &y);
-    let places = cells.into_iter().enumerate().filter_map(|(cell, parts)| {
+    let places = cells.into_iter().enumerate().map(|(cell, parts)| {
         let (row, column) = (cell / plan.columns, cell % plan.columns);
-        Some(Place {
-            index: plan.index((row, column))?,
+        Place {
+            index: plan.index((row, column)),
             row,
             column,
             level: y.begin(row),
             parts,
-        })
+        }
     });
     let slots = named(all, places.collect(), labels, &mut rejected)?;
     Ok(Layer {

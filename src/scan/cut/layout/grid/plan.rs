@@ -1,9 +1,9 @@
 //! The grid that a user said.
 
-use crate::scan::cut::layout::{Task, position};
+use crate::scan::cut::layout::Task;
 use crate::scan::error::Fault;
 use crate::scan::options::Order;
-use crate::types::Label;
+use crate::types::{Direction, Label};
 
 /// A cell is at least this large, px.
 const LEAST_CELL: usize = 4;
@@ -36,12 +36,29 @@ impl<'a> Plan<'a> {
         .ok_or(Fault::NoGrid { rows, columns })
     }
 
+    /// Row and column of a cell from its position in reading order.
     pub(super) fn place(&self, index: usize) -> (usize, usize) {
-        position(index, (self.rows, self.columns), self.task.options)
+        let (row, column) = match self.task.options.order {
+            Order::Rows => (index / self.columns, index % self.columns),
+            Order::Columns => (index % self.rows, index / self.rows),
+        };
+        (row, self.across(column))
     }
 
-    pub(super) fn index(&self, cell: (usize, usize)) -> Option<usize> {
-        (0..self.rows * self.columns).find(|&i| self.place(i) == cell)
+    /// The position in reading order of a cell of such a row and column.
+    pub(super) fn index(&self, (row, column): (usize, usize)) -> usize {
+        match self.task.options.order {
+            Order::Rows => row * self.columns + self.across(column),
+            Order::Columns => self.across(column) * self.rows + row,
+        }
+    }
+
+    /// A column counted from the side from which rows are read, of one from the left, and the other way round.
+    fn across(&self, column: usize) -> usize {
+        match self.task.options.direction {
+            Direction::Ltr => column,
+            Direction::Rtl => self.columns.saturating_sub(column + 1),
+        }
     }
 
     /// How many cells follow each other in a row, or in a column where columns come first.
