@@ -151,6 +151,17 @@ pub enum Fault {
         /// names given
         names: usize,
     },
+    /// Far more ink than names on a bare page.
+    #[error(
+        "has {pieces} pieces of ink, too many for the letters of {names} names: are they dust? Clean the picture, or write \
+         layout = {{ grid = [rows, columns] }}, which goes by places alone"
+    )]
+    ManyPieces {
+        /// pieces of ink in rows
+        pieces: usize,
+        /// names given
+        names: usize,
+    },
     /// There is ink for every name, but it is likelier that one has none.
     #[error(
         "looks as if it had a letter less than the {names} names: {among} seems to have only a part of another's ink; take \

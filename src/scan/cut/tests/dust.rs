@@ -2,6 +2,36 @@
 
 use super::*;
 
+#[test]
+fn dust_without_end_is_told() {
+    let speck = |at: usize| (4..9).contains(&(at % 14));
+    let dusty = Gray::from_fn(
+        1_400,
+        1_000,
+        |x, y| {
+            if speck(x) && speck(y) { 0.8 } else { 0.05 }
+        },
+    );
+    let sheet = Sheet {
+        gray: dusty,
+        ..Paper::new(10, 10, 0.0).scan()
+    };
+    let page = clean(sheet, Texture::default()).unwrap();
+    let names = labels(&vec![NAMES; 150].join(" "));
+    let told = cut(&page, &names, &options(Layout::Free), &[]).map_err(|e| e.fault);
+    let told = told.map(|c| c.cells.len());
+    let many = |f: &Fault| {
+        matches!(
+            f,
+            Fault::ManyPieces {
+                pieces: 7_000..,
+                names: 3_000
+            }
+        )
+    };
+    assert!(told.as_ref().is_err_and(many), "{told:?}");
+}
+
 /// The box of the letter in the second cell of a page of letters with a stroke of 6, one of which is called `name`:
 /// its dot lies from 58 to 64, its body from 70 to 100.
 fn second(name: &str, bars: &[(f64, f64, f64, f64)]) -> Rect {

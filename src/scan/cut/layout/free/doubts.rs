@@ -19,6 +19,8 @@ pub(super) struct Unread {
     doubts: Vec<Doubt>,
     /// Letters that touch each other: the page can be read when they are parted.
     pub(super) touching: Vec<Touch>,
+    /// How many pieces of ink it has, where these are too many to be read.
+    crowd: Option<usize>,
 }
 
 /// A place where names and letters part, from 1.
@@ -96,6 +98,7 @@ impl Unread {
             rows,
             doubts,
             touching,
+            crowd: None,
         }
     }
 
@@ -105,6 +108,17 @@ impl Unread {
             rows,
             doubts: vec![Doubt::Unlike],
             touching: Vec::new(),
+            crowd: None,
+        }
+    }
+
+    /// Of a page of so many pieces of ink, too many for its names.
+    pub(super) fn crowded(pieces: usize) -> Self {
+        Self {
+            rows: Vec::new(),
+            doubts: Vec::new(),
+            touching: Vec::new(),
+            crowd: Some(pieces),
         }
     }
 
@@ -115,6 +129,9 @@ impl Unread {
         (names, lines): (usize, &[usize]),
         label: impl Fn(usize) -> (&'a str, usize),
     ) -> Fault {
+        if let Some(pieces) = self.crowd {
+            return Fault::ManyPieces { pieces, names };
+        }
         // places that only dirt makes are no rows
         let rows: Vec<usize> = self.rows.iter().copied().filter(|&n| n > 0).collect();
         if rows.is_empty() {

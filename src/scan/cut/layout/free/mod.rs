@@ -53,8 +53,10 @@ const LONG: f64 = 2.0;
 /// Pieces of less ink than this share of a usual letter's may be dirt.
 const DIRT: f64 = 0.06;
 
-/// Letters of a piece of ink at most, in the mean: reading takes time and memory for every piece and every name.
+/// Letters of a piece of ink at most, in the mean, and products of pieces and names: reading takes time and 40 bytes
+/// for every piece and every name.
 const HELD: usize = 8;
+const MOST: usize = 8_000_000;
 
 /// Gathers the ink of a bare page into letters and names them. Letters that touch are cut apart in `all`, and those
 /// that touch a printed lattice are cut free of it.
@@ -361,6 +363,9 @@ impl<'a> Bare<'a> {
             out,
             dearest,
         } = gather(self.all, ink, (self.height, self.stroke), letters);
+        if groups.len() != letters {
+            return None;
+        }
         let boxes: Vec<Rect> = groups.iter().map(|g| bounds(self.all, g)).collect();
         let mut order = rows(&boxes);
         if self.rtl {
@@ -368,7 +373,7 @@ impl<'a> Bare<'a> {
         }
         let letter = |&g: &usize| groups[g].clone();
         let row = |row: &Vec<usize>| row.iter().map(letter).collect();
-        (groups.len() == letters).then(|| Read {
+        Some(Read {
             rows: order.iter().map(row).collect(),
             out,
             doubtful: Vec::new(),
@@ -421,6 +426,10 @@ impl<'a> Bare<'a> {
     /// Reads some ink: pieces, rows, and what each piece is.
     fn read(&self, ink: &[usize], names: &[Option<Shape>]) -> Result<Read, Unread> {
         let found = self.found(ink, names);
+        let pieces = found.rows.iter().map(Vec::len).sum();
+        if names.len().saturating_mul(pieces) > MOST {
+            return Err(Unread::crowded(pieces));
+        }
         let lines = Lines::new(&found.pieces, &found.ties, &found.rows, found.usual);
         let dirt = found.rows.iter().flatten().map(|&i| found.dirt[i]);
         let (reading, owners) = lines.read(names, &dirt.collect::<Vec<_>>());

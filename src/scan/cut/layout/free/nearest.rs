@@ -2,8 +2,11 @@
 //! pair until there are as many letters as names.
 
 use crate::numeric::median::middle;
-use crate::scan::components::Component;
+use crate::numeric::sets::Sets;
+use crate::scan::components::{Component, close};
 use crate::scan::cut::Reason;
+use kurbo::Rect;
+use std::mem;
 
 /// A part that is joined to something above or below is lower than this share of a usual letter.
 const SMALL: f64 = 0.35;
@@ -50,23 +53,21 @@ fn letters(
     scale: (f64, f64),
     wanted: usize,
 ) -> (Vec<Vec<usize>>, f64) {
-    let mut pairs: Vec<(f64, usize, usize)> = Vec::new();
-    for (i, &a) in ink.iter().enumerate() {
-        for (j, &b) in ink.iter().enumerate().skip(i + 1) {
-            let cost = cost(&all[a], &all[b], scale);
-            if cost < DEAREST {
-                pairs.push((cost, i, j));
-            }
-        }
-    }
-    pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let mut group: Vec<usize> = (0..ink.len()).collect();
+    let boxes: Vec<Rect> = ink.iter().map(|&i| all[i].upright).collect();
+    let reach = (DEAREST * scale.0).max(TORN * scale.1);
+    let near = close(&boxes, |_| reach).map(|(i, j)| (i.min(j), i.max(j)));
+    let costs = near.map(|(i, j)| (cost(&all[ink[i]], &all[ink[j]], scale), i, j));
+    let mut pairs: Vec<(f64, usize, usize)> = costs.filter(|p| p.0 < DEAREST).collect();
+    pairs.sort_by(|a, b| a.0.total_cmp(&b.0).then((a.1, a.2).cmp(&(b.1, b.2))));
+    let mut sets = Sets::new(ink.len());
     let mut left = ink.len();
     let mut dearest: f64 = 0.0;
     let small: Vec<bool> = ink
         .iter()
         .map(|&i| all[i].upright.height() < SMALL * scale.0)
         .collect();
+    // of each set, by its first index
+    let mut full: Vec<bool> = small.iter().map(|s| !s).collect();
     // a dot between two letters belongs to one of them; only if too many pieces are left then, to both
     let between = pairs.iter().map(|p| (true, p));
     let joining = pairs.iter().map(|p| (false, p));
@@ -74,25 +75,17 @@ fn letters(
         if left <= wanted {
             break;
         }
-        let (from, to) = (group[i].max(group[j]), group[i].min(group[j]));
-        let full = |id: usize| (0..ink.len()).any(|k| group[k] == id && !small[k]);
+        let (one, other) = (sets.first(i), sets.first(j));
         let dot = parting && (small[i] || small[j]) && cost > 0.0;
-        if from != to && !(dot && full(from) && full(to)) {
-            group
-                .iter_mut()
-                .filter(|g| **g == from)
-                .for_each(|g| *g = to);
+        if one != other && !(dot && full[one] && full[other]) {
+            sets.join(one, other);
+            full[one.min(other)] = full[one] || full[other];
             left -= 1;
             dearest = dearest.max(cost);
         }
     }
-    let of = |id: usize| {
-        (0..ink.len())
-            .filter(|&i| group[i] == id)
-            .map(|i| ink[i])
-            .collect::<Vec<_>>()
-    };
-    let groups = (0..ink.len()).map(of).filter(|g| !g.is_empty()).collect();
+    let mut groups = sets.into_groups();
+    groups.iter_mut().flatten().for_each(|i| *i = ink[*i]);
     (groups, dearest)
 }
 
@@ -134,14 +127,39 @@ fn drop_dirt(
     wanted: usize,
 ) -> Vec<(usize, Reason)> {
     let area = |g: &Vec<usize>| g.iter().map(|&i| all[i].area).sum::<usize>();
-    let usual = middle(groups.iter().map(area), usize::cmp).unwrap_or(0) as f64;
-    let mut out = Vec::new();
-    while groups.len() > wanted {
-        let least = (0..groups.len()).min_by_key(|&g| area(&groups[g]));
-        let Some(least) = least.filter(|&g| (area(&groups[g]) as f64) < DIRT * usual) else {
-            break;
-        };
-        out.extend(groups.remove(least).into_iter().map(|i| (i, Reason::Dirt)));
-    }
+    let areas: Vec<usize> = groups.iter().map(area).collect();
+    let usual = middle(areas.iter().copied(), usize::cmp).unwrap_or(0) as f64;
+    let mut least: Vec<usize> = (0..groups.len()).collect();
+    least.sort_by_key(|&g| areas[g]);
+    least.truncate(groups.len().saturating_sub(wanted));
+    least.retain(|&g| (areas[g] as f64) < DIRT * usual);
+    let out = least.into_iter().flat_map(|g| mem::take(&mut groups[g]));
+    let out = out.map(|i| (i, Reason::Dirt)).collect();
+    groups.retain(|g| !g.is_empty());
     out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scan::components::components;
+    use crate::types::Gray;
+
+    /// The letters that some ink is joined to, 40 px high and so thick.
+    fn gathered(size: usize, inked: impl Fn(usize, usize) -> bool, letters: usize) -> Gathered {
+        let inked = |x: usize, y: usize| f32::from(u8::from(inked(x, y)));
+        let all = components(&Gray::from_fn(size, size, inked), 0.33, 0.5);
+        let ink: Vec<usize> = (0..all.len()).collect();
+        gather(&all, &ink, (40.0, 2.0), letters)
+    }
+
+    #[test]
+    fn dust_in_any_number_is_gathered() {
+        let specks = |x: usize, y: usize| x % 12 < 2 && y % 12 < 2;
+        let letters = |x: usize, y: usize| x % 400 < 12 && (100..140).contains(&(y % 400));
+        let inked = |x: usize, y: usize| specks(x, y) || letters(x, y);
+        let found = gathered(2_400, inked, 36);
+        let joined = found.groups.iter().map(Vec::len).max();
+        assert!(found.groups.len() >= 36 && joined > Some(1), "{joined:?}");
+    }
 }
