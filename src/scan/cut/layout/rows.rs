@@ -1,6 +1,7 @@
 //! Boxes → rows: neighbours that stand side by side.
 
 use crate::numeric::median;
+use crate::numeric::sets::Sets;
 use kurbo::Rect;
 
 /// Share of the lower box's height by which two neighbours of a row overlap.
@@ -22,7 +23,7 @@ const PARTLY: f64 = 4.0;
 /// differ in height and reach down. Links of one row that do not meet are put together where they lie far nearer to
 /// each other than rows do. What stands beside nothing joins the row that is nearest in height.
 pub(super) fn rows(boxes: &[Rect]) -> Vec<Vec<usize>> {
-    let mut row: Vec<usize> = (0..boxes.len()).collect();
+    let mut sets = Sets::new(boxes.len());
     let mut linked = vec![false; boxes.len()];
     for (i, a) in boxes.iter().enumerate() {
         let right = |j: &usize| boxes[*j].center().x > a.center().x && beside(a, &boxes[*j]);
@@ -30,23 +31,13 @@ pub(super) fn rows(boxes: &[Rect]) -> Vec<Vec<usize>> {
         let nearest =
             next.min_by(|&p, &q| distance(a, &boxes[p]).total_cmp(&distance(a, &boxes[q])));
         if let Some(j) = nearest {
-            let (from, to) = (row[i].max(row[j]), row[i].min(row[j]));
-            row.iter_mut().filter(|r| **r == from).for_each(|r| *r = to);
+            sets.join(i, j);
             (linked[i], linked[j]) = (true, true);
         }
     }
-    let mut ids: Vec<usize> = row.clone();
-    ids.sort_unstable();
-    ids.dedup();
-    let of = |id: usize| {
-        (0..boxes.len())
-            .filter(|&i| row[i] == id)
-            .collect::<Vec<_>>()
-    };
-    let (mut rows, alone): (Vec<Vec<usize>>, Vec<Vec<usize>>) = ids
-        .into_iter()
-        .map(of)
-        .partition(|r| r.iter().any(|&i| linked[i]));
+    let groups = sets.into_groups().into_iter();
+    let (mut rows, alone): (Vec<Vec<usize>>, Vec<Vec<usize>>) =
+        groups.partition(|r| r.iter().any(|&i| linked[i]));
     merge(boxes, &mut rows);
     weave(boxes, &mut rows);
     for one in alone.into_iter().flatten() {
