@@ -50,7 +50,7 @@ const FEWER: usize = 2;
 /// stripes of a letter.
 const LEFT_OUT: f64 = 0.03;
 const LONG: f64 = 2.0;
-/// Pieces of less ink than this share of a usual letter's may be dirt.
+/// Pieces of less ink than this share of a usual letter's may be dirt, and what is gathered of so little.
 const DIRT: f64 = 0.06;
 
 /// Letters of a piece of ink at most, in the mean, and products of pieces and names: reading takes time and 40 bytes

@@ -1,6 +1,8 @@
 //! Ink of a bare page → letters where names say nothing of them: pieces are joined from the most to the least obvious
 //! pair until there are as many letters as names.
 
+use super::DIRT;
+use super::pieces::{is_one, torn};
 use crate::numeric::median::middle;
 use crate::numeric::sets::Sets;
 use crate::scan::components::{Component, close};
@@ -10,15 +12,11 @@ use std::mem;
 
 /// A part that is joined to something above or below is lower than this share of a usual letter.
 const SMALL: f64 = 0.35;
-/// Two large pieces one above the other are one letter within this share of a stroke's width.
-const TORN: f64 = 0.35;
 /// Joins that cost more are never made: about this share of a usual letter lies between the two.
 const DEAREST: f64 = 0.75;
 /// Two dots of one letter differ in size and height by less than this share of their size, and less than one of
 /// them would fit between them.
 const PAIRED: f64 = 0.4;
-/// Groups of less ink than this share of a usual letter's may be dirt.
-const DIRT: f64 = 0.06;
 
 /// Letters and what is left out.
 pub(super) struct Gathered {
@@ -54,7 +52,7 @@ fn letters(
     wanted: usize,
 ) -> (Vec<Vec<usize>>, f64) {
     let boxes: Vec<Rect> = ink.iter().map(|&i| all[i].upright).collect();
-    let reach = (DEAREST * scale.0).max(TORN * scale.1);
+    let reach = (DEAREST * scale.0).max(torn(scale.1));
     let near = close(&boxes, |_| reach).map(|(i, j)| (i.min(j), i.max(j)));
     let costs = near.map(|(i, j)| (cost(&all[ink[i]], &all[ink[j]], scale), i, j));
     let mut pairs: Vec<(f64, usize, usize)> = costs.filter(|p| p.0 < DEAREST).collect();
@@ -100,8 +98,7 @@ fn cost(one: &Component, other: &Component, (height, stroke): (f64, f64)) -> f64
     let low = a.height().min(b.height());
     let narrow = a.width().min(b.width()).max(1.0);
     let small = low < SMALL * height;
-    let torn = TORN * stroke;
-    if -dx > narrow / 2.0 && dy < torn && one.is_near(other, torn) {
+    if is_one(one, other, torn(stroke)) {
         return 0.0;
     }
     let alike = |p: f64, q: f64| (p - q).abs() < PAIRED * p.min(q);
@@ -151,6 +148,13 @@ mod tests {
         let all = components(&Gray::from_fn(size, size, inked), 0.33, 0.5);
         let ink: Vec<usize> = (0..all.len()).collect();
         gather(&all, &ink, (40.0, 2.0), letters)
+    }
+
+    #[test]
+    fn a_hairline_that_paper_shines_through_is_one() {
+        let hairline =
+            |x: usize, y: usize| (20..22).contains(&x) && (5..55).contains(&y) && y != 30;
+        assert_eq!(gathered(60, hairline, 1).groups.len(), 1);
     }
 
     #[test]

@@ -219,9 +219,9 @@ pub(super) fn pieces(
     let is_apart = |i: usize, j: usize| parted.contains(&i) && parted.contains(&j);
     let boxes: Vec<Rect> = ink.iter().map(|&i| all[i].upright).collect();
     let mut usual = Usual::of(&boxes, letters, stroke);
-    let mut reach = (TORN * stroke).max(LEAST_TORN);
-    let torn = |i: usize, j: usize| is_one(&all[i], &all[j], reach) && !is_apart(i, j);
-    let mut found = joined(all, ink, usual, (reach, &torn));
+    let mut reach = torn(stroke);
+    let sure = |i: usize, j: usize| is_one(&all[i], &all[j], reach) && !is_apart(i, j);
+    let mut found = joined(all, ink, usual, (reach, &sure));
     let count = |found: &[Piece], usual| found.iter().filter(|p| !p.is_mote(usual)).count();
     let sure = found.len();
     let in_pieces = count(&found, usual) as f64 > MANY * parts as f64;
@@ -279,9 +279,14 @@ pub(super) fn ties(pieces: &[Piece], all: &[Component], usual: Usual) -> Vec<Vec
     ties
 }
 
+/// How far apart the parts of a torn stroke of such a width are at most, px.
+pub(super) fn torn(stroke: f64) -> f64 {
+    (TORN * stroke).max(LEAST_TORN)
+}
+
 /// Whether two pieces are of one letter, whatever its name: one lies over the other, and less than `torn` px are
 /// between them.
-fn is_one(one: &Component, other: &Component, torn: f64) -> bool {
+pub(super) fn is_one(one: &Component, other: &Component, torn: f64) -> bool {
     let (a, b) = (one.upright, other.upright);
     let over = a.x1.min(b.x1) - a.x0.max(b.x0);
     over > a.width().min(b.width()) / 2.0 && one.is_near(other, torn)
