@@ -8,6 +8,12 @@ use kurbo::{Affine, Point, Rect};
 use rayon::prelude::*;
 use std::iter;
 
+/// Coverage from which connected ink counts: below the half level, so that thin strokes hold together, and above
+/// printed guides in a light colour.
+pub(super) const LOW: f32 = 0.33;
+/// Coverage that a piece of ink must reach somewhere.
+pub(super) const SEED: f32 = 0.5;
+
 /// Ink from column `start` to before `end` of row `y`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Run {

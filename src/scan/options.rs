@@ -5,8 +5,7 @@ use crate::types::Direction;
 use serde::{Deserialize, Serialize};
 
 /// How the cells lie on the page.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Layout {
     /// Equal cells in rows and columns, with or without printed lines between them.
     Grid(usize, usize),
@@ -29,8 +28,7 @@ pub enum Order {
 }
 
 /// Where the size of an em comes from.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Scale {
     /// Pixels an em.
     PixelsPerEm(f64),
@@ -45,8 +43,7 @@ pub enum Scale {
 }
 
 /// How a page is cut.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Options {
     /// How the cells lie.
     pub layout: Layout,

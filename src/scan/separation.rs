@@ -6,16 +6,13 @@
 //! scanner and dark specks in a stroke go to the ink around them. Nothing is lost: the parts of a pixel sum up to it.
 
 use super::chamfer::distances;
-use super::components::{Component, components};
+use super::components::{Component, LOW, SEED, components};
 use super::error::Fault;
 use super::ink::{Ink, Inks, more, paper};
 use crate::numeric::cast::single;
 use crate::types::{Colours, Gray, Sheet};
 use serde::{Deserialize, Serialize};
 
-/// Coverage from which ink of a plate holds together, and that a piece of it must reach somewhere.
-const LOW: f32 = 0.33;
-const SEED: f32 = 0.5;
 /// Coverage from which a pixel shows its ink's own colour.
 const CORE: f32 = 0.7;
 /// Light, in 255ths, by which one ink must miss a pixel's colour before two are thought of: paper, scanners and

@@ -4,16 +4,11 @@
 //! them what their lattice tells: the pieces pass for parts of the letters that they touch.
 
 use super::sieve::{LATTICE_COVER, LINE};
-use crate::scan::components::{Component, components};
+use crate::scan::components::{Component, LOW, SEED, components};
 use crate::types::Gray;
 
-/// Coverage from which connected ink counts: below the half level, so that thin strokes hold together,
-/// and above printed guides in a light colour.
-const LOW: f32 = 0.33;
-/// The same where printed lines are broken at [`LOW`] and whole at this.
+/// Coverage from which ink counts where printed lines are broken at [`LOW`] and whole at this.
 const FAINT: f32 = 0.24;
-/// Coverage that a piece of ink must reach somewhere.
-const SEED: f32 = 0.5;
 /// Standard deviations of noise that these levels keep from the paper.
 const NOISE: f32 = 6.0;
 /// Length from which a thin or hollow piece may be a broken lattice's, as a share of the longer side of all ink.

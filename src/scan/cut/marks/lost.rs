@@ -44,12 +44,10 @@ pub(in crate::scan::cut) fn restore(
     claims: &[(usize, Vec<usize>)],
 ) {
     let usual = usual_dot(layer, all).unwrap_or(f64::INFINITY);
-    let shape = |s: &Slot| s.shape;
-    let shapes: Vec<Shape> = layer.slots.iter().map(shape).collect();
     let claimed = |s: &Slot| claims.iter().any(|c| c.0 == s.index);
-    let found = layer.slots.iter().zip(&shapes).enumerate();
-    let found = found.filter_map(|(k, (slot, shape))| {
-        let (body, dots) = dots(shape, &slot.parts, all).filter(|_| shape.dots > 0)?;
+    let found = layer.slots.iter().enumerate();
+    let found = found.filter_map(|(k, slot)| {
+        let (body, dots) = dots(&slot.shape, &slot.parts, all).filter(|_| slot.shape.dots > 0)?;
         Some((k, body, dots.is_empty() && !claimed(slot)))
     });
     let dotted: Vec<(usize, Rect, bool)> = found.collect();
@@ -59,15 +57,16 @@ pub(in crate::scan::cut) fn restore(
     }
     let mut moves = Vec::new();
     for &(to, body, _) in lacking {
-        for (from, (slot, shape)) in layer.slots.iter().zip(&shapes).enumerate() {
+        let lacks = &layer.slots[to].shape;
+        for (from, slot) in layer.slots.iter().enumerate() {
             let main = largest(all, &slot.parts);
             let Some(main) = main.filter(|_| from != to && !claimed(slot)) else {
                 continue;
             };
             let is_own = |i: &usize| {
                 let (c, own) = (&all[*i], all[main].upright);
-                let here = is_beyond(c, body, &shapes[to]) && (c.area as f64) < EXTRA * usual;
-                *i != main && here && !wants(shape, c, own)
+                let here = is_beyond(c, body, lacks) && (c.area as f64) < EXTRA * usual;
+                *i != main && here && !wants(&slot.shape, c, own)
             };
             let given = slot.parts.iter().filter(|i| is_own(i));
             moves.extend(given.map(|&i| (gap(all[i].upright, body), i, from, to)));

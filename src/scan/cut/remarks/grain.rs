@@ -1,6 +1,7 @@
 //! Whether ink is as grainy as a pencil's.
 
 use super::Warning;
+use crate::numeric::median::range;
 use crate::scan::clean::Page;
 use crate::scan::grain::InkGrain;
 use crate::types::Gray;
@@ -70,8 +71,7 @@ fn share(gray: &Gray) -> f32 {
 fn is_grain(rows: [&[f32]; 5], x: usize) -> bool {
     let mut near = rows.iter().flat_map(|row| &row[x - 2..=x + 2]);
     let beside = rows[1..4].iter().flat_map(|row| &row[x - 1..=x + 1]);
-    let ends = |(a, b): (f32, f32), v: &f32| (a.min(*v), b.max(*v));
-    let (least, most) = beside.fold((f32::MAX, f32::MIN), ends);
+    let (least, most) = range(beside);
     most - least > ROUGH && near.all(|v| *v > PAPER)
 }
 
