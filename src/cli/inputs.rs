@@ -9,8 +9,15 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 /// Digests of files as they were when they were first asked for.
 #[derive(Debug, Default)]
 pub(crate) struct Digests {
-    /// None for what could not be read.
-    known: Mutex<BTreeMap<PathBuf, Option<String>>>,
+    known: Mutex<BTreeMap<PathBuf, Known>>,
+}
+
+#[derive(Debug, Clone)]
+struct Known {
+    /// The first digest; none of what could not be read.
+    first: Option<String>,
+    /// Whether it was another one later.
+    changed: bool,
 }
 
 impl Digests {
@@ -35,22 +42,30 @@ impl Digests {
     pub(crate) fn changed(&self) -> bool {
         let known = self.known().clone();
         let now = Self::default();
-        known.iter().any(|(path, was)| now.of(path).ok() != *was)
+        known
+            .iter()
+            .any(|(path, was)| now.of(path).ok() != was.first)
     }
 
-    fn known(&self) -> MutexGuard<'_, BTreeMap<PathBuf, Option<String>>> {
+    fn known(&self) -> MutexGuard<'_, BTreeMap<PathBuf, Known>> {
         self.known.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// A file that is read twice may have changed in between: what came of it is that of its first state, or of none.
     fn remember(&self, path: &Path, digest: Option<String>) {
-        self.known().entry(path.to_owned()).or_insert(digest);
+        let mut all = self.known();
+        let known = all.entry(path.to_owned()).or_insert_with(|| Known {
+            first: digest.clone(),
+            changed: false,
+        });
+        known.changed |= known.first != digest;
     }
 
     /// The digest of a file, or why there is none.
     pub(crate) fn of(&self, path: &Path) -> Result<String, String> {
-        if let Some(Some(known)) = self.known().get(path) {
-            return Ok(known.clone());
+        let known = self.known().get(path).and_then(|k| k.first.clone());
+        if let Some(known) = known {
+            return Ok(known);
         }
         let digest = regular(path).and_then(|()| {
             let digest = File::open(path).and_then(digest_of);
@@ -58,6 +73,15 @@ impl Digests {
         });
         self.remember(path, digest.as_ref().ok().cloned());
         digest
+    }
+
+    /// The digest of a file that has been the same whenever it was read, or why there is none.
+    pub(crate) fn steady(&self, path: &Path) -> Result<String, String> {
+        let digest = self.of(path)?;
+        match self.known().get(path) {
+            Some(known) if known.changed => Err("it has changed meanwhile".to_owned()),
+            _ => Ok(digest),
+        }
     }
 }
 

@@ -150,7 +150,7 @@ impl Inputs for Opened {
     }
 
     fn digest(&self, path: &Path) -> Result<String, String> {
-        self.digests.of(&self.use_path(path))
+        self.digests.steady(&self.use_path(path))
     }
 }
 
@@ -221,5 +221,33 @@ fn draw(name: &str, text: String, error: ProjectError) -> String {
     match handler.with_width(100).render_report(&mut out, &shown) {
         Ok(()) => out,
         Err(fmt::Error) => format!("{shown}\n"),
+    }
+}
+
+#[cfg(test)]
+#[expect(
+    clippy::disallowed_methods,
+    reason = "the tests play the user, who writes files"
+)]
+mod tests {
+    use super::*;
+    use std::fs;
+
+    #[test]
+    fn what_came_of_a_picture_that_changed_meanwhile_has_no_digest() {
+        let dir = tempfile::tempdir().unwrap();
+        let (file, page) = (dir.path().join("font.toml"), Path::new("page.png"));
+        let text = "[font]\nfamily = \"A\"\n[[sheet]]\nimage = \"page.png\"\nlayout = \"free\"\nglyphs = \"A\"\n";
+        fs::write(&file, text).unwrap();
+        fs::write(dir.path().join(page), "one").unwrap();
+        let opened = Opened::new(&file).unwrap();
+        let first = opened.digest(page).unwrap();
+        opened.read(page).unwrap();
+        assert_eq!(opened.digest(page).as_ref(), Ok(&first));
+        fs::write(dir.path().join(page), "two").unwrap();
+        opened.read(page).unwrap();
+        assert!(opened.digest(page).is_err());
+        // what is remembered of the build is its first state
+        assert_eq!(opened.digest_of(&dir.path().join(page)), Some(first));
     }
 }

@@ -39,7 +39,7 @@ pub(super) fn keep(
     project: &Project,
     world: World<'_>,
 ) {
-    // the digest of the picture as it was read: it may have changed since it was asked for
+    // a picture that has changed since it was looked for has no key
     let key = key(source, image, project, world).ok();
     let content = batch.problems.is_empty().then(|| record::write(batch));
     if let Some((key, content)) = key.zip(content.flatten()) {

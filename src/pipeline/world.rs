@@ -16,10 +16,11 @@ pub trait Inputs: Sync {
     /// Why there is none.
     fn read(&self, path: &Path) -> Result<Vec<u8>, String>;
 
-    /// A digest of the content, that of the last reading where there was one.
+    /// A digest of the content, under which is kept what came of it.
     ///
     /// # Errors
-    /// Why there is none.
+    /// Why there is none. A file that changes between readings must have none, since nobody can tell of which of its
+    /// states something came.
     fn digest(&self, path: &Path) -> Result<String, String> {
         self.read(path).map(|bytes| digest(&bytes))
     }
