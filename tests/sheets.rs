@@ -249,7 +249,7 @@ fn anchors_kerning_and_features_may_be_set_by_hand() {
 }
 
 #[test]
-fn what_the_font_says_of_itself_redoes_no_page() {
+fn what_the_font_says_of_itself_and_of_repeated_letters_redoes_no_page() {
     let desk = Desk::letters();
     let kept = |table: &str| {
         desk.edit(|text| text.replacen("[font]\n", &format!("[font]\n{table}"), 1));
@@ -259,7 +259,9 @@ fn what_the_font_says_of_itself_redoes_no_page() {
     assert_eq!(kept(""), 2, "a page and a build");
     let version = "version = \"2.0\"\nweight = 700\n";
     assert_eq!(kept(version), 3, "a build more");
-    assert_eq!(kept("units_per_em = 2000\n"), 5, "letters are placed anew");
+    desk.edit(|text| format!("repeated = \"alternates\"\n{text}"));
+    assert_eq!(kept(""), 4, "a build more");
+    assert_eq!(kept("units_per_em = 2000\n"), 6, "letters are placed anew");
 }
 
 /// The steps of its edges are no detail of its letters.

@@ -58,6 +58,7 @@ fn key(
     let mut table = source.table.clone();
     table.image = vec![image.to_owned()];
     earlier.sheets = vec![table];
+    earlier.repeated = <_>::default();
     earlier.cells = source.corrected(project);
     earlier.compose = <_>::default();
     earlier.spacing = <_>::default();
