@@ -1,5 +1,6 @@
 //! What a conversion keeps of its source, chooses from it, and names where it cannot.
 
+use crate::common::desk::Desk;
 use crate::convert::{converted, font, glyph, patched, path, table, variable, written};
 use crate::ufo::by_hand;
 use khatt::read::{self, ReadError, Reading};
@@ -335,4 +336,14 @@ fn anchors_of_any_name_attach() {
     let file = converted(&Font::new(font().info, glyphs).expect("a font"), "ttf");
     let gpos = FontRef::new(&file).expect("a font").gpos().expect("GPOS");
     assert!(gpos.lookup_list().expect("lookups").lookup_count() >= 5);
+}
+
+#[test]
+fn every_glyph_that_no_quadratic_meets_is_named_in_order() {
+    let desk = Desk::with("in.otf", written("otf"));
+    let args = ["convert", "in.otf", "-o", "out.ttf", "--quadratic", "rate"];
+    let said = desk.fails(&[&args[..], &["--tolerance", "0.01"]].concat());
+    let places = ["O", "beh-ar", "l.alt"].map(|name| said.find(&format!("glyph {name}: ")));
+    assert!(places[0].is_some() && places.is_sorted(), "{said}");
+    assert!(places[2].is_some(), "{said}");
 }

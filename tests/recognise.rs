@@ -18,7 +18,7 @@ use std::path::Path;
 /// The demo font with every outline changed, as OTF.
 fn recut(demo: &Demo, map: Affine) -> Vec<u8> {
     let change = |g: &Glyph| Ok::<Outline, Infallible>(g.outline.transformed(map));
-    let Ok(font) = demo.built.font.try_map_outlines(change);
+    let font = demo.built.font.try_map_outlines(change).expect("outlines");
     let otf = write::format("otf").expect("a format");
     let files = (otf.write)(&font).expect("a font");
     files.0.into_values().next().expect("one file")

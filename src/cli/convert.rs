@@ -1,10 +1,11 @@
 //! `khatt convert`: a font or drawings in one format become another.
 
-use super::failure::{Failure, chain};
+use super::failure::{Complaint, Failure, chain};
 use super::{Common, Khatt, Outcome, files, staged};
 use clap::builder::PossibleValuesParser;
 use clap::error::ErrorKind;
 use clap::{Args, CommandFactory};
+use khatt::pipeline::Problem;
 use khatt::pipeline::convert::{Options, Outlines, convert};
 use khatt::quadratic::{Method, rate::Strictness};
 use khatt::read::{self, Reading};
@@ -75,8 +76,10 @@ impl Convert {
         if target.name == "svg" {
             lost.extend(unsaid(&font));
         }
+        let name = files::name(&self.input);
+        let complaint = |p: &Problem| Complaint::new(format!("{name}: {}", chain(p)), None);
         let files = convert(&font, target, &options)
-            .map_err(|e| Failure::at(files::name(&self.input), &e))?;
+            .map_err(|problems| problems.iter().map(complaint).collect::<Failure>())?;
         let inputs = slice::from_ref(&self.input);
         staged::write(&[(self.output.clone(), files)], inputs)?;
         for line in lost.iter().filter(|_| !common.quiet) {

@@ -5,7 +5,6 @@ use crate::quadratic::{self, merge};
 use crate::types::{Files, Font, Glyph, Outline};
 use crate::write::{Curves, Format};
 use kurbo::PathEl;
-use rayon::prelude::*;
 
 /// How outlines change their kind.
 #[derive(Debug, Clone, PartialEq)]
@@ -43,18 +42,11 @@ impl Default for Options {
 /// The font in the format's curves, written.
 ///
 /// # Errors
-/// An outline cannot be converted within the tolerance, or the format cannot hold the font.
-pub fn convert(font: &Font, format: &Format, options: &Options) -> Result<Files, Problem> {
+/// Every outline that cannot be converted within the tolerance, or the format cannot hold the font.
+pub fn convert(font: &Font, format: &Format, options: &Options) -> Result<Files, Vec<Problem>> {
     let units = options.tolerance * f64::from(font.info.units_per_em) / 1000.0;
-    let one = |g: &Glyph| outline(g, format.curves, units, options);
-    let outlines: Vec<Outline> = font
-        .glyphs()
-        .par_iter()
-        .map(one)
-        .collect::<Result<_, _>>()?;
-    let mut next = outlines.into_iter();
-    let changed = font.try_map_outlines(|_| Ok::<_, Problem>(next.next().unwrap_or_default()))?;
-    Ok((format.write)(&changed)?)
+    let changed = font.try_map_outlines(|g| outline(g, format.curves, units, options))?;
+    (format.write)(&changed).map_err(|e| vec![e.into()])
 }
 
 fn outline(

@@ -86,7 +86,7 @@ fn quadratic(project: &Project, font: &Font, world: World<'_>) -> Result<Font, V
     let units = table.tolerance_em * f64::from(font.info.units_per_em);
     font.try_map_outlines(|glyph| {
         let quadratic = table.convert.convert(&glyph.outline, units);
-        quadratic.map_err(|why| Problem::quadratic(glyph, why).into())
+        quadratic.map_err(|why| Problem::quadratic(glyph, why))
     })
 }
 

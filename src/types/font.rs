@@ -2,6 +2,7 @@
 
 use super::{Glyph, Name, Outline};
 use kurbo::{Affine, BezPath};
+use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 use thiserror::Error;
 
@@ -241,16 +242,24 @@ impl Font {
     /// The same font with every outline replaced by `change`'s answer.
     ///
     /// # Errors
-    /// The first error of `change`.
-    pub fn try_map_outlines<E>(
+    /// All errors of `change`, in the glyphs' order.
+    pub fn try_map_outlines<E: Send>(
         &self,
-        mut change: impl FnMut(&Glyph) -> Result<Outline, E>,
-    ) -> Result<Self, E> {
-        let mut font = self.clone();
-        for glyph in &mut font.glyphs {
-            glyph.outline = change(glyph)?;
+        change: impl Fn(&Glyph) -> Result<Outline, E> + Sync,
+    ) -> Result<Self, Vec<E>> {
+        let outlines: Vec<Result<Outline, E>> = self.glyphs.par_iter().map(&change).collect();
+        let (mut font, mut errors) = (self.clone(), Vec::new());
+        for (glyph, outline) in font.glyphs.iter_mut().zip(outlines) {
+            match outline {
+                Ok(outline) => glyph.outline = outline,
+                Err(why) => errors.push(why),
+            }
         }
-        Ok(font)
+        if errors.is_empty() {
+            Ok(font)
+        } else {
+            Err(errors)
+        }
     }
 
     /// The same font with every glyph changed; names, characters and order stay.

@@ -158,7 +158,8 @@ fn best_constant(truth: &[Truth]) -> f64 {
 }
 
 fn write_all(font: &Font, stem: &Path) -> Result<(), Box<dyn Error>> {
-    let quadratic = font.try_map_outlines(|g| Method::default().convert(&g.outline, 0.5))?;
+    let quadratic = font.try_map_outlines(|g| Method::default().convert(&g.outline, 0.5));
+    let quadratic = quadratic.map_err(|errors| format!("{errors:?}"))?;
     let rounded = round::font(font);
     for format in write::FORMATS {
         let source = if format.curves == write::Curves::Quadratic {
@@ -251,7 +252,8 @@ fn kerning(path: &Path) -> Result<(), Box<dyn Error>> {
         .iter()
         .find(|f| f.name == "ttf")
         .ok_or("no TTF")?;
-    let quadratic = font.try_map_outlines(|g| Method::default().convert(&g.outline, 0.5))?;
+    let quadratic = font.try_map_outlines(|g| Method::default().convert(&g.outline, 0.5));
+    let quadratic = quadratic.map_err(|errors| format!("{errors:?}"))?;
     let files = (ttf.write)(&quadratic)?.0;
     let file = files.values().next().ok_or("no file")?;
     let table = FontRef::new(file)?.data_for_tag(Tag::new(b"GPOS"));
