@@ -546,3 +546,18 @@ fn the_cell_of_a_space_is_empty() {
         }
     }
 }
+
+#[test]
+fn corrections_of_the_project_go_before_those_of_its_file_however_a_glyph_is_spelled() {
+    let desk = Desk::project(&LETTERS.replace('e', "é"), &page(&[]));
+    desk.edit(|text| format!("cells_file = \"cells.toml\"\n{text}[cells.eacute]\nrotation = 1\n"));
+    desk.write("cells.toml", "[\"é\"]\nignore = true\n");
+    assert!(bounds_in(&font(&desk), 'é').is_some());
+    // the other way round in the alphabet
+    desk.edit(|text| text.replace("[cells.eacute]", "[cells.\"é\"]"));
+    desk.write("cells.toml", "[eacute]\nignore = true\n");
+    assert!(bounds_in(&font(&desk), 'é').is_some());
+    desk.edit(|text| format!("{text}[cells.eacute]\nignore = true\n"));
+    let said = desk.fails(&BUILD);
+    assert!(said.contains("two tables"), "{said}");
+}

@@ -20,12 +20,16 @@ pub(super) fn gathered(project: &Project, world: World<'_>) -> Result<Project, P
     if let Some(path) = project.cells_file.take() {
         let bytes = world.file(&path)?;
         let read = toml::from_str(&String::from_utf8_lossy(&bytes));
-        let mut cells: Cells = read.map_err(|e| Problem::File {
+        let cells: Cells = read.map_err(|e| Problem::File {
             file: path.display().to_string(),
             why: e.to_string().trim_end().to_owned(),
         })?;
-        cells.append(&mut project.cells);
-        project.cells = cells;
+        // a glyph has several spellings
+        let name = |key: &String| Some(names::identify(&Label(key.clone())).ok()?.name);
+        let own: BTreeSet<Name> = project.cells.keys().filter_map(name).collect();
+        let others = cells.into_iter();
+        let others = others.filter(|(key, _)| name(key).is_none_or(|n| !own.contains(&n)));
+        project.cells.extend(others);
     }
     Ok(project)
 }
@@ -38,12 +42,16 @@ impl Corrections {
     /// Those of a project.
     ///
     /// # Errors
-    /// A table says two things at once, or names no glyph.
+    /// A table says two things at once, or names no glyph or that of another table.
     pub(super) fn of(project: &Project) -> Result<Self, Vec<Problem>> {
         let (mut out, mut problems) = (Self::default(), Vec::new());
         for (key, table) in project.cells.clone() {
             let name = names::identify(&Label(key.clone())).map_err(|e| e.to_string());
             match name.and_then(|n| Ok((n.name, table.region()?))) {
+                Ok((name, _)) if out.0.contains_key(&name) => problems.push(Problem::Correction {
+                    why: format!("two tables are of the glyph {name}; keep one"),
+                    name: key,
+                }),
                 Ok((name, region)) => drop(out.0.insert(name, (table, region))),
                 Err(why) => problems.push(Problem::Correction { name: key, why }),
             }
