@@ -561,3 +561,18 @@ fn corrections_of_the_project_go_before_those_of_its_file_however_a_glyph_is_spe
     let said = desk.fails(&BUILD);
     assert!(said.contains("two tables"), "{said}");
 }
+
+#[test]
+fn what_is_no_file_of_corrections_is_told_as_that() {
+    let desk = corrected(&page(&[]), "");
+    desk.edit(|text| format!("cells_file = \"cells.toml\"\n{text}"));
+    desk.write("cells.toml", "[o]\nbox = \"left\"\n");
+    let said = desk.fails(&BUILD);
+    assert!(
+        said.contains("cells.toml") && said.contains("--write-overrides"),
+        "{said}"
+    );
+    assert!(!said.contains("paths start from"), "{said}");
+    desk.remove("cells.toml");
+    assert!(desk.fails(&BUILD).contains("paths start from"));
+}

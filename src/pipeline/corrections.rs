@@ -20,7 +20,7 @@ pub(super) fn gathered(project: &Project, world: World<'_>) -> Result<Project, P
     if let Some(path) = project.cells_file.take() {
         let bytes = world.file(&path)?;
         let read = toml::from_str(&String::from_utf8_lossy(&bytes));
-        let cells: Cells = read.map_err(|e| Problem::File {
+        let cells: Cells = read.map_err(|e| Problem::CellsFile {
             file: path.display().to_string(),
             why: e.to_string().trim_end().to_owned(),
         })?;

@@ -85,6 +85,14 @@ pub enum Problem {
         /// what is wrong
         why: String,
     },
+    /// The file of corrections is none.
+    #[error("{file}: {why}")]
+    CellsFile {
+        /// the file, as the project names it
+        file: String,
+        /// what is wrong
+        why: String,
+    },
     /// A cell that should hold something is empty.
     #[error("{0}: the cell is empty")]
     Empty(Place),
@@ -200,6 +208,9 @@ impl Problem {
     pub fn help(&self) -> Option<&'static str> {
         Some(match self {
             Self::File { .. } => "paths start from the project file's folder",
+            Self::CellsFile { .. } => {
+                "its tables are [NAME], as `khatt cut PROJECT.toml --write-overrides FILE` writes them"
+            }
             Self::Empty(_) => {
                 "draw the letter clear of its neighbours, or leave it out: ignore = true under [cells.NAME], or _ in `glyphs`"
             }
