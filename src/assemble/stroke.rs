@@ -369,7 +369,8 @@ pub(super) struct Warp {
 impl Warp {
     /// Where the point goes.
     pub(super) fn apply(&self, p: Point) -> Point {
-        let inside = (self.side.inward(p.x) - self.cut) / self.reach;
+        let reach = self.reach.max(f64::MIN_POSITIVE);
+        let inside = (self.side.inward(p.x) - self.cut) / reach;
         let along = 1.0 - smooth(inside);
         let (low, high) = self.edges;
         let thick = (high - low).max(f64::MIN_POSITIVE);
@@ -515,5 +516,21 @@ mod tests {
         assert!((moved(-20.0, 60.0) + 4.0).abs() < 1e-12);
         assert!(moved(100.0, 0.0).abs() < 1e-12);
         assert!(moved(0.0, 200.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_warp_without_reach_moves_what_lies_beyond_the_cut_alone() {
+        let warp = Warp {
+            side: Side::Left,
+            cut: 0.0,
+            reach: 0.0,
+            edges: (0.0, 60.0),
+            shifts: (10.0, 10.0),
+            shears: (0.1, 0.1),
+        };
+        for (x, wanted) in [(-5.0, 10.0), (0.0, 10.0), (1.0, 0.0)] {
+            let moved = warp.apply(Point::new(x, 0.0));
+            assert!((moved.y - wanted).abs() < 1e-12, "{x}: {moved}");
+        }
     }
 }
