@@ -4,7 +4,7 @@ use crate::common::demo::{self, Demo};
 use crate::common::desk::Desk;
 use crate::common::dots;
 use crate::common::pictures::{edge, png};
-use khatt::pipeline::project::Labels;
+use khatt::pipeline::project::{CellTable, Labels};
 use khatt::pipeline::reference::{Script, samples};
 use khatt::pipeline::{World, match_letters};
 use khatt::recognise::centerline;
@@ -27,6 +27,16 @@ fn recut(demo: &Demo, map: Affine) -> Vec<u8> {
 /// What is remarked on the Latin demo sheet when `spoil` has changed its labels; the reference is a narrow
 /// italic cut of the font.
 fn remarks(spoil: impl Fn(&mut Vec<String>)) -> Vec<String> {
+    let (cells, remarks) = corrected(spoil, &[]);
+    assert_eq!(cells, 89, "cells of the sheet");
+    remarks
+}
+
+/// The same with corrections of letters; and how many cells there are.
+fn corrected(
+    spoil: impl Fn(&mut Vec<String>),
+    corrections: &[(&str, CellTable)],
+) -> (usize, Vec<String>) {
     let demo = demo::built("latin");
     let reference = recut(demo, Affine::new([0.85, 0.0, 0.2, 1.0, 0.0, 0.0]));
     let read = |path: &Path| match path.to_str() {
@@ -41,10 +51,34 @@ fn remarks(spoil: impl Fn(&mut Vec<String>)) -> Vec<String> {
     let mut labels: Vec<String> = text.split_whitespace().map(str::to_owned).collect();
     spoil(&mut labels);
     project.sheets[0].glyphs = Labels::Text(labels.join(" "));
+    let owned = |(name, table): &(&str, CellTable)| ((*name).to_owned(), table.clone());
+    project.cells.extend(corrections.iter().map(owned));
     let world = World::of(&read);
     let (cells, remarks) = match_letters(&project, world).expect("a page");
-    assert_eq!(cells.len(), 89, "cells of the sheet");
-    remarks.iter().map(ToString::to_string).collect()
+    let remarks = remarks.iter().map(ToString::to_string);
+    (cells.len(), remarks.collect())
+}
+
+#[test]
+fn letters_are_looked_at_where_corrections_say_that_they_are() {
+    let demo = demo::built("latin");
+    let at = |name: &str| {
+        let drawn = demo.built.letters.iter().find(|l| l.label.0 == name);
+        let r = drawn.expect("a letter of the demo").in_sheet;
+        CellTable {
+            bounds: Some([r.x0, r.y0, r.x1, r.y1]),
+            ..CellTable::default()
+        }
+    };
+    let boxes = [("b", at("b")), ("R", at("R"))];
+    let found = corrected(|labels| labels.swap(17, 27), &boxes);
+    assert_eq!(found, (89, vec![]));
+    let ignored = CellTable {
+        ignore: true,
+        ..CellTable::default()
+    };
+    let found = corrected(|_| (), &[("R", ignored)]);
+    assert_eq!(found, (88, vec![]), "nobody misses what is ignored");
 }
 
 #[test]

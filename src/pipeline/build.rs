@@ -59,13 +59,13 @@ impl Built {
 pub fn build(project: &Project, world: World<'_>) -> Result<Built, Vec<Problem>> {
     let (project, mut doubts) = matching::resolve(project, world)?;
     let project = &project;
+    let corrections = Corrections::of(project)?;
     let Drawings {
         letters,
         words,
         pages,
-    } = drawings(project, world)?;
-    doubts.extend(matching::doubts(project, &letters, world)?);
-    let corrections = Corrections::of(project)?;
+    } = drawings(project, &corrections, world)?;
+    doubts.extend(matching::doubts(project, &corrections, &letters, world)?);
     let draw = |like: &Letter, cell: Cell| {
         let page = (like.sheet.as_str(), like.table);
         let options = corrections.trace(&cell.label, &project.trace);
@@ -114,9 +114,13 @@ struct Drawings {
 
 /// # Errors
 /// Everything that is wrong with the project, its pages and their cells.
-fn drawings(project: &Project, world: World<'_>) -> Result<Drawings, Vec<Problem>> {
-    let named = labels(project, world)?;
-    let sources = sources(project, &named)?;
+fn drawings(
+    project: &Project,
+    corrections: &Corrections,
+    world: World<'_>,
+) -> Result<Drawings, Vec<Problem>> {
+    let named = labels(project, corrections, world)?;
+    let sources = sources((project, corrections), &named)?;
     let mut batches = batches(&sources, project, world).into_iter();
     let pages = sources.iter().map(|source| {
         let own = batches.by_ref().take(source.images().len());
@@ -230,7 +234,9 @@ pub fn sheet_letters(
         let why = format!("the project has {count} sheets");
         return Err(Problem::Sheet { sheet, why }.into());
     };
-    let source = [Source::new(&project, (number - 1, table, labels))?];
+    let corrections = Corrections::of(&project)?;
+    let source = (number - 1, table, labels.as_slice());
+    let source = [Source::new((&project, &corrections), source)?];
     let batches = batches(&source, &project, world);
     source[0].join(batches).map(drop)
 }
@@ -244,8 +250,9 @@ pub fn sheets_without_result(
     world: World<'_>,
 ) -> Result<Vec<usize>, Vec<Problem>> {
     let (project, _) = matching::resolve(project, world)?;
-    let named = labels(&project, world)?;
-    let sources = sources(&project, &named)?;
+    let corrections = Corrections::of(&project)?;
+    let named = labels(&project, &corrections, world)?;
+    let sources = sources((&project, &corrections), &named)?;
     let missing = sources.iter().filter(|source| {
         let mut images = source.images().into_iter();
         images.any(|i| {
@@ -266,8 +273,10 @@ pub fn pages<T>(
     work: impl Fn(Page) -> Result<T, Vec<Problem>>,
 ) -> Result<Vec<T>, Vec<Problem>> {
     let (project, _) = matching::resolve(project, world)?;
-    let named = labels(&project, world)?;
-    let pages = sources(&project, &named)?.into_iter().map(|source| {
+    let corrections = Corrections::of(&project)?;
+    let named = labels(&project, &corrections, world)?;
+    let sources = sources((&project, &corrections), &named)?.into_iter();
+    let pages = sources.map(|source| {
         let images = source.images().into_iter();
         let batches = images.map(|image| source.read(image, world).map(|_, page| work(page)));
         source.join(batches.collect())
@@ -276,18 +285,23 @@ pub fn pages<T>(
 }
 
 /// The labels of every table; corrections are all of labels that there are.
-fn labels(project: &Project, world: World<'_>) -> Result<Vec<Vec<Label>>, Vec<Problem>> {
+fn labels(
+    project: &Project,
+    corrections: &Corrections,
+    world: World<'_>,
+) -> Result<Vec<Vec<Label>>, Vec<Problem>> {
     let named = labels::of(project, world)?;
-    let unused = Corrections::of(project)?.unused(named.iter().flatten());
+    let unused = corrections.unused(named.iter().flatten());
     unless(unused, named)
 }
 
 /// Where the pages of each table come from.
 fn sources<'a>(
-    project: &'a Project,
+    (project, corrections): (&'a Project, &'a Corrections),
     named: &'a [Vec<Label>],
 ) -> Result<Vec<Source<'a>>, Vec<Problem>> {
     let tables = project.sheets.iter().zip(named).enumerate();
-    let sources = tables.map(|(n, (table, labels))| Source::new(project, (n, table, labels)));
+    let sources =
+        tables.map(|(n, (table, labels))| Source::new((project, corrections), (n, table, labels)));
     all(sources.collect())
 }

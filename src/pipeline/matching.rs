@@ -1,12 +1,14 @@
 //! Which letters a project's cells hold, and whether its labels say so.
 
+use super::corrections::Corrections;
 use super::doubt::Doubt;
 use super::letter::Letter;
 use super::problem::{Place, Problem};
 use super::project::{Content, Labels, Layout, Project, SheetTable};
 use super::reference::{Script, samples, spelling};
+use super::source::Source;
 use super::world::World;
-use super::{corrections, labels, source};
+use super::{corrections, labels};
 use crate::assemble::names;
 use crate::recognise::{Alphabet, Finding, Guess, Look, Reading, check, once};
 use crate::types::{Cell, Label};
@@ -31,14 +33,21 @@ pub fn match_letters(
     project: &Project,
     world: World<'_>,
 ) -> Result<(Vec<Matched>, Vec<Doubt>), Vec<Problem>> {
+    let project = &corrections::gathered(project, world)?;
     let alphabet = alphabet(project, world)?;
+    let (corrections, none) = (Corrections::of(project)?, Corrections::default());
     let (mut matched, mut remarks) = (Vec::new(), Vec::new());
-    for (_, sheet) in of_letters(project) {
+    for (number, sheet) in of_letters(project) {
         let labels = sheet_labels(sheet, world)?;
-        let cells = source::cells(sheet, &labels, project, world)?;
+        let auto = sheet.glyphs.is_auto();
+        // whose cell is whose is not known where labels are to be found
+        let corrections = if auto { &none } else { &corrections };
+        let source = Source::new((project, corrections), (number, sheet, &labels))?;
+        let cells = source.cells(world)?;
         let guesses = guesses(&cells, seen(project), &alphabet);
-        if !sheet.glyphs.is_auto() {
+        if !auto {
             let indices = cells.iter().map(|c| c.index);
+            let labels = corrections.kept(&labels);
             remarks.extend(findings(&sheet.name(), &labels, indices.zip(&guesses)));
         }
         let places = cells.iter().map(|c| Place::of(&sheet.name(), c));
@@ -70,7 +79,8 @@ pub(super) fn resolve(
         let sheet = &project.sheets[i];
         if sheet.glyphs.is_auto() {
             let labels = sheet_labels(sheet, world)?;
-            let cells = source::cells(sheet, &labels, &project, world)?;
+            let none = Corrections::default();
+            let cells = Source::new((&project, &none), (i, sheet, &labels))?.cells(world)?;
             let guesses = guesses(&cells, seen(&project), &alphabet);
             let (labels, unsure) = name(labels.len(), &cells, &guesses);
             let remark = |finding| Doubt {
@@ -125,6 +135,7 @@ fn name(count: usize, cells: &[Cell], guesses: &[Vec<Guess>]) -> (Vec<String>, V
 /// The reference cannot be read, or is none.
 pub(super) fn doubts(
     project: &Project,
+    corrections: &Corrections,
     letters: &[Letter],
     world: World<'_>,
 ) -> Result<Vec<Doubt>, Problem> {
@@ -136,7 +147,7 @@ pub(super) fn doubts(
     for (table, sheet) in of_letters(project) {
         let drawn = letters.iter().filter(|l| l.table == table);
         let drawn: Vec<&Letter> = drawn.collect();
-        let labels = sheet_labels(sheet, world)?;
+        let labels = corrections.kept(&sheet_labels(sheet, world)?);
         let method = project.matching.method;
         let look = |l: &&Letter| Look::new(&l.picture.gray(), Some(l.guides), method);
         let guesses = guesses(&drawn, look, &alphabet);

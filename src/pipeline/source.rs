@@ -32,7 +32,7 @@ pub(super) struct Source<'a> {
     pub(super) number: usize,
     pub(super) table: &'a SheetTable,
     pub(super) labels: &'a [Label],
-    corrections: Corrections,
+    corrections: &'a Corrections,
     project: &'a Project,
     /// What was printed, where the pages are a template's.
     printing: Option<Printing<'a>>,
@@ -42,10 +42,9 @@ impl<'a> Source<'a> {
     /// # Errors
     /// What the table or the corrections say does not fit.
     pub(super) fn new(
-        project: &'a Project,
+        (project, corrections): (&'a Project, &'a Corrections),
         (number, table, labels): (usize, &'a SheetTable, &'a [Label]),
     ) -> Result<Self, Vec<Problem>> {
-        let corrections = Corrections::of(project)?;
         let mut printing = None;
         if table.layout == Layout::Template {
             if let Some(problem) = corrections.unfit(labels.iter()) {
@@ -76,30 +75,53 @@ impl<'a> Source<'a> {
 
     /// The pages of a picture file, their cells corrected, none of them without a drawing.
     pub(super) fn read(&self, image: Option<&Path>, world: World<'_>) -> Batch<Page> {
-        let Some((printing, image)) = self.printing.as_ref().zip(image) else {
-            let labels = self.corrections.kept(self.labels);
-            let pins = self.corrections.pins(&labels);
-            let page = page::read(self.table, (&labels, &pins), self.project, world);
-            let wanted: Vec<(usize, Label)> = labels.into_iter().enumerate().collect();
-            let page = page.and_then(|page| self.checked(page, &wanted));
-            return match page {
-                Ok(page) => Batch {
-                    seen: vec![(1, page.name.clone())],
-                    made: vec![(1, page)],
-                    problems: Vec::new(),
-                },
-                Err(problems) => Batch::failed(problems),
-            };
-        };
-        let batch = printing.read(image, world);
-        batch.map(|number, page| self.checked(page, &printing.wanted(number)))
+        let labels = || self.corrections.kept(self.labels).into_iter().enumerate();
+        self.cut(image, world).map(|number, page| {
+            let printing = self.printing.as_ref();
+            let wanted = printing.map_or_else(|| labels().collect(), |p| p.wanted(number));
+            self.checked(page, &wanted)
+        })
     }
 
-    /// The page corrected, where no name is without a drawing.
+    /// The cells of the table's pages, corrected, also where names have no drawing and drawings have no name.
+    ///
+    /// # Errors
+    /// A page cannot be read or cut.
+    pub(super) fn cells(&self, world: World<'_>) -> Result<Vec<Cell>, Vec<Problem>> {
+        let pages = self.images().into_iter().map(|i| self.cut(i, world));
+        let pages = self.join(pages.collect())?.into_iter();
+        Ok(pages.flat_map(|page| page.cut.cells).collect())
+    }
+
+    /// The pages of a picture file as they are cut, their cells corrected.
+    fn cut(&self, image: Option<&Path>, world: World<'_>) -> Batch<Page> {
+        let corrections = self.corrections;
+        let pages = match self.printing.as_ref().zip(image) {
+            Some((printing, image)) => printing.read(image, world),
+            None => {
+                let labels = corrections.kept(self.labels);
+                let pins = corrections.pins(&labels);
+                match page::read(self.table, (&labels, &pins), self.project, world) {
+                    Ok(page) => Batch {
+                        seen: vec![(1, page.name.clone())],
+                        made: vec![(1, page)],
+                        problems: Vec::new(),
+                    },
+                    Err(problems) => Batch::failed(problems),
+                }
+            }
+        };
+        pages.map(|_, mut page| {
+            corrections.apply(&mut page.cut, self.project.font.units_per_em);
+            page.cut.cells.retain(|c| !corrections.ignores(&c.label));
+            page.table = self.number;
+            Ok(page)
+        })
+    }
+
+    /// The page without what lies in cells of spaces, where no name is without a drawing.
     fn checked(&self, mut page: Page, wanted: &[(usize, Label)]) -> Result<Page, Vec<Problem>> {
-        let corrections = &self.corrections;
-        corrections.apply(&mut page.cut, self.project.font.units_per_em);
-        page.cut.cells.retain(|c| !corrections.ignores(&c.label));
+        let corrections = self.corrections;
         clear_spaces(&mut page.cut);
         let wanted = wanted.iter().filter(|w| !corrections.ignores(&w.1));
         let mut problems = self.gaps(&page, wanted);
@@ -112,7 +134,6 @@ impl<'a> Source<'a> {
                 ),
             });
         }
-        page.table = self.number;
         unless(problems, page)
     }
 
@@ -163,26 +184,6 @@ impl<'a> Source<'a> {
         let (made, _, problems) = batch::join(batches);
         unless(problems, made.into_values().collect())
     }
-}
-
-/// The cells of a table's pages, also where names have no drawing and drawings have no name.
-///
-/// # Errors
-/// A page cannot be read or cut.
-pub(super) fn cells(
-    table: &SheetTable,
-    labels: &[Label],
-    project: &Project,
-    world: World<'_>,
-) -> Result<Vec<Cell>, Vec<Problem>> {
-    if table.layout == Layout::Template {
-        let printing = Printing::new(project, table, labels)?;
-        let images = table.image.iter();
-        let pages = printing.join(images.map(|i| printing.read(i, world)).collect())?;
-        return Ok(pages.into_iter().flat_map(|p| p.cut.cells).collect());
-    }
-    let page = page::read(table, (labels, &[]), project, world)?;
-    Ok(page.cut.cells)
 }
 
 /// Takes out what lies in the cells of spaces, and warns of it; that they are empty is right.
