@@ -576,3 +576,20 @@ fn what_is_no_file_of_corrections_is_told_as_that() {
     desk.remove("cells.toml");
     assert!(desk.fails(&BUILD).contains("paths start from"));
 }
+
+#[test]
+fn drawings_of_sizes_that_have_no_middle_are_refused() {
+    let desk = Desk::letters();
+    desk.write("more.png", page(&[]));
+    let more = "[[sheet]]\nimage = \"more.png\"\nlayout = { grid = [3, 3] }\nglyphs = \"H p i B j C q k r\"\n\
+        pixels_per_em = 15\n[output]";
+    desk.edit(|text| {
+        let text = text.replace("[output]", more);
+        format!("repeated = \"median\"\n{text}")
+    });
+    let said = desk.fails(&BUILD);
+    assert!(
+        said.contains("page.png, cell 1 “H”") && said.contains("more.png, cell 1 “H”"),
+        "{said}"
+    );
+}

@@ -5,6 +5,7 @@
 //! shape: of two drawings the edge runs halfway, of three it follows the two that agree.
 
 use super::letter::Letter;
+use super::problem::Problem;
 use crate::numeric::cast::{index, single};
 use crate::numeric::coverage::Coverage;
 use crate::numeric::median::median;
@@ -15,8 +16,9 @@ use kurbo::{Affine, Line, ParamCurveNearest, Point, Vec2};
 const MARGIN: f64 = 12.0;
 /// Distances beyond this share of the em count as this: drawings differ by less.
 const REACH_EM: f64 = 0.06;
-/// Pixels of a drawing in the middle of others at most, as of a page.
-const LARGEST: usize = 300_000_000;
+/// Drawings laid upon each other may be so many times as wide or high as the largest of their own pictures: one that
+/// is larger has another scale than its page.
+const LARGEST: f64 = 4.0;
 /// Half the width of the edge's ramp from paper to ink, px.
 const SOFT: f64 = 1.0;
 
@@ -26,13 +28,17 @@ struct Laid {
     baseline: f64,
 }
 
-/// A cell with the middle drawing, in the place of the first; `None` where one of them holds no ink, or they differ in size
-/// so much that it would be larger than a page.
-pub(super) fn middle(drawings: &[&Letter]) -> Option<Cell> {
-    let first = drawings.first()?;
+/// A cell with the middle drawing, in the place of the first; `None` where one of them holds no ink.
+///
+/// # Errors
+/// They differ in size so much that it would be far larger than any of them.
+pub(super) fn middle(drawings: &[&Letter]) -> Result<Option<Cell>, Problem> {
+    let Some(first) = drawings.first() else {
+        return Ok(None);
+    };
     let px_per_em = first.guides.px_per_em;
     let laid: Option<Vec<Laid>> = drawings.iter().map(|d| lay(d, px_per_em)).collect();
-    let laid = laid?;
+    let Some(laid) = laid else { return Ok(None) };
     let points = || laid.iter().flat_map(|l| &l.rings).flatten();
     let low = points().fold(Vec2::new(f64::MAX, f64::MAX), |m, p| {
         Vec2::new(m.x.min(p.x), m.y.min(p.y))
@@ -40,15 +46,25 @@ pub(super) fn middle(drawings: &[&Letter]) -> Option<Cell> {
     let high = points().fold(Vec2::new(f64::MIN, f64::MIN), |m, p| {
         Vec2::new(m.x.max(p.x), m.y.max(p.y))
     });
+    let largest = |side: fn(&Letter) -> usize| drawings.iter().map(|d| side(d)).max();
+    let beyond =
+        |extent: f64, largest: Option<usize>| largest.is_none_or(|px| extent > LARGEST * px as f64);
+    let extent = high - low;
+    if beyond(extent.x, largest(|d| d.picture.width))
+        || beyond(extent.y, largest(|d| d.picture.height))
+    {
+        let scale = |d: &&&Letter| d.guides.px_per_em;
+        let coarsest = drawings.iter().min_by(|a, b| scale(a).total_cmp(&scale(b)));
+        return Err(Problem::Sizes {
+            first: Box::new(first.spot()),
+            second: coarsest.unwrap_or(first).spot(),
+        });
+    }
     let corner = low - Vec2::new(MARGIN, MARGIN);
     let (width, height) = (
-        index((high.x - low.x + 2.0 * MARGIN).ceil()),
-        index((high.y - low.y + 2.0 * MARGIN).ceil()),
+        index((extent.x + 2.0 * MARGIN).ceil()),
+        index((extent.y + 2.0 * MARGIN).ceil()),
     );
-    // drawings of very different resolutions could be as large as memory
-    if width.saturating_mul(height) > LARGEST {
-        return None;
-    }
     let reach = REACH_EM * px_per_em;
     let fields: Vec<Vec<f64>> = laid
         .iter()
@@ -64,8 +80,8 @@ pub(super) fn middle(drawings: &[&Letter]) -> Option<Cell> {
         let here = median(fields.iter().map(|f| f[y * width + x])).unwrap_or_default();
         single((0.5 + here / (2.0 * SOFT)).clamp(0.0, 1.0))
     });
-    let up = median(laid.iter().map(|l| l.baseline))? - corner.y;
-    Some(Cell {
+    let up = median(laid.iter().map(|l| l.baseline)).unwrap_or_default() - corner.y;
+    Ok(Some(Cell {
         gray,
         guides: Guides {
             baseline_px: height as f64 - up,
@@ -77,7 +93,7 @@ pub(super) fn middle(drawings: &[&Letter]) -> Option<Cell> {
         plates: Vec::new(),
         in_sheet: first.in_sheet,
         to_sheet: Affine::IDENTITY,
-    })
+    }))
 }
 
 fn lay(letter: &Letter, px_per_em: f64) -> Option<Laid> {
@@ -173,7 +189,8 @@ mod tests {
 
     /// Width and height of the middle of these, em, and where it stands above the baseline.
     fn measured(drawings: &[Letter]) -> [f64; 3] {
-        let cell = middle(&drawings.iter().collect::<Vec<_>>()).unwrap();
+        let cell = middle(&drawings.iter().collect::<Vec<_>>());
+        let cell = cell.unwrap().unwrap();
         let gray = &cell.gray;
         let (cx, cy) = (gray.width() / 2, gray.height() / 2);
         let sum =
@@ -203,6 +220,6 @@ mod tests {
             );
             assert!(below.abs() < 0.03, "{below} below the baseline");
         }
-        assert!(middle(&[]).is_none());
+        assert!(middle(&[]).unwrap().is_none());
     }
 }

@@ -93,6 +93,14 @@ pub enum Problem {
         /// what is wrong
         why: String,
     },
+    /// Drawings of one glyph differ in size too much to have a middle.
+    #[error("{second}: so much larger than {first} that no drawing lies in the middle of them")]
+    Sizes {
+        /// the smaller one
+        first: Box<Place>,
+        /// the larger one
+        second: Place,
+    },
     /// A cell that should hold something is empty.
     #[error("{0}: the cell is empty")]
     Empty(Place),
@@ -210,6 +218,9 @@ impl Problem {
             Self::File { .. } => "paths start from the project file's folder",
             Self::CellsFile { .. } => {
                 "its tables are [NAME], as `khatt cut PROJECT.toml --write-overrides FILE` writes them"
+            }
+            Self::Sizes { .. } => {
+                "correct pixels_per_em, or what else says how large the letters of a page are, or take repeated = \"best\""
             }
             Self::Empty(_) => {
                 "draw the letter clear of its neighbours, or leave it out: ignore = true under [cells.NAME], or _ in `glyphs`"

@@ -43,7 +43,7 @@ pub(super) struct Settled {
 /// Settles what is drawn more than once; `draw` traces a cell.
 ///
 /// # Errors
-/// What `draw` says.
+/// What `draw` says, or drawings have no middle.
 pub(super) fn settle(
     mut letters: Vec<Letter>,
     repeated: Repeated,
@@ -81,7 +81,8 @@ pub(super) fn settle(
         }
         let plain = all.iter().all(|&i| letters[i].plates.is_empty());
         let cell = (repeated == Repeated::Median && plain)
-            .then(|| average::middle(&all.iter().map(|&i| &letters[i]).collect::<Vec<_>>()));
+            .then(|| average::middle(&all.iter().map(|&i| &letters[i]).collect::<Vec<_>>()))
+            .transpose()?;
         if let Some(cell) = cell.flatten() {
             let first = all[0];
             letters[first] = draw(&letters[first], cell)?;
