@@ -1,8 +1,9 @@
 //! Outputs that appear all at once or not at all.
 //!
-//! Everything is first written under temporary names beside its place. Only when all of it lies on the
-//! disk do new and old change places, each pair in one step; when one of these steps fails, the earlier
-//! ones are taken back. What is left under a temporary name is deleted at the end.
+//! Everything is first written under temporary names beside its place. Only when all of it is written do
+//! new and old change places, each pair in one step; when one of these steps fails, the earlier ones are
+//! taken back. What is left under a temporary name is deleted at the end. When the system brings what was
+//! written to the disk is left to it: a loss of power may undo a build, or part of it.
 
 mod folder;
 mod places;
@@ -27,7 +28,7 @@ const PREFIX: &str = ".khatt-";
 /// system dates both, so that the machines that share a folder may be of different opinions.
 const ABANDONED: Duration = Duration::from_hours(24);
 
-/// An output on the disk under a temporary name.
+/// An output under a temporary name.
 #[derive(Debug)]
 struct Item {
     target: PathBuf,
@@ -159,11 +160,21 @@ fn exchange(a: &Path, b: &Path) -> io::Result<()> {
             done => return Ok(done?),
         }
     }
+    exchange_in_steps(a, b)
+}
+
+/// The same in three steps, none of which is done where one fails.
+fn exchange_in_steps(a: &Path, b: &Path) -> io::Result<()> {
     let aside = Builder::new().prefix(&own_prefix()).tempdir_in(parent(b))?;
     let old = aside.path().join("old");
     fs::rename(b, &old)?;
-    fs::rename(a, b).inspect_err(|_| fs::rename(&old, b).unwrap_or_default())?;
-    fs::rename(&old, a)
+    let last = || fs::rename(&old, a).inspect_err(|_| fs::rename(b, a).unwrap_or_default());
+    let done = fs::rename(a, b).and_then(|()| last());
+    if done.is_err() && fs::rename(&old, b).is_err() {
+        // it is the user's, and is not deleted
+        drop(aside.keep());
+    }
+    done
 }
 
 fn refuse_folder(target: &Path) -> Result<(), Failure> {
@@ -278,5 +289,32 @@ pub(crate) fn parent(path: &Path) -> &Path {
     match path.parent() {
         Some(parent) if !parent.as_os_str().is_empty() => parent,
         _ => Path::new("."),
+    }
+}
+
+#[cfg(test)]
+#[expect(
+    clippy::disallowed_methods,
+    reason = "the tests play the user, who writes files"
+)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_output_is_where_it_was_when_the_last_step_fails() {
+        let dir = tempfile::tempdir().unwrap();
+        let old = dir.path().join("old");
+        fs::write(&old, "of the user").unwrap();
+        // a folder's name, which no file can take
+        let new = dir.path().join("new/");
+        fs::create_dir(&new).unwrap();
+        assert!(exchange_in_steps(&new, &old).is_err());
+        assert_eq!(fs::read_to_string(&old).unwrap(), "of the user");
+        assert!(new.is_dir());
+        assert_eq!(fs::read_dir(dir.path()).unwrap().count(), 2);
+        fs::remove_dir(&new).unwrap();
+        fs::write(dir.path().join("new"), "ours").unwrap();
+        exchange_in_steps(&dir.path().join("new"), &old).unwrap();
+        assert_eq!(fs::read_to_string(&old).unwrap(), "ours");
     }
 }
