@@ -244,13 +244,6 @@ fn gain_is_measured() {
         );
         assert!(gain.spread_mm.abs() < 0.01, "spread {}", gain.spread_mm);
         assert!((gain.level() - 0.5).abs() < 0.06);
-        for [width, seen] in &gain.ladder_mm {
-            assert!(
-                (width - seen).abs() < 0.03,
-                "a line of {width} mm seems {seen:.3} mm"
-            );
-        }
-        assert!(gain.tone.windows(2).all(|t| t[0] < t[1]), "{:?}", gain.tone);
     }
 }
 

@@ -78,7 +78,7 @@ const TICK: f64 = 2.5;
 /// Chord error of circles and strokes. mm
 const ACCURACY: f64 = 0.005;
 /// Widths of the ladder's lines. mm
-pub(super) const LADDER: [f64; 8] = [0.1, 0.15, 0.2, 0.3, 0.4, 0.6, 0.8, 1.0];
+const LADDER: [f64; 8] = [0.1, 0.15, 0.2, 0.3, 0.4, 0.6, 0.8, 1.0];
 /// Edge of the two slanted squares and their slant: steep enough to sample an edge at every phase. mm, radians
 pub(super) const SQUARE: (f64, f64) = (6.0, 5.0 * std::f64::consts::PI / 180.0);
 /// Tints of the step wedge. percent
@@ -177,8 +177,8 @@ fn qr(text: &str, square: Rect) -> Result<BezPath, TemplateError> {
 /// Where the strip's patterns stand: two slanted squares' centres, the ladder's left edge, the wedge's.
 pub(super) struct Strip {
     pub(super) squares: [Point; 2],
-    pub(super) ladder: Vec<Rect>,
-    pub(super) wedge: Vec<Rect>,
+    ladder: Vec<Rect>,
+    wedge: Vec<Rect>,
 }
 
 pub(super) fn strip(layout: &Layout) -> Strip {

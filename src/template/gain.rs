@@ -1,12 +1,12 @@
 //! Ink gain: how printer, paper and scanner blur and spread what is black, from the strip at the page's foot.
 
-use super::draw::{LADDER, SQUARE, strip};
+use super::draw::{SQUARE, strip};
 use super::find::{Found, sample};
 use super::layout::Layout;
 use crate::numeric::angles;
 use crate::numeric::cast::index;
 use crate::types::Sheet;
-use kurbo::{Affine, Point, Rect, Vec2};
+use kurbo::Point;
 use serde::{Deserialize, Serialize};
 
 /// What the strip says.
@@ -18,10 +18,6 @@ pub struct Gain {
     pub spread_mm: f64,
     /// Coverage that the scan shows at a true edge: a half without spread.
     pub edge_level: f64,
-    /// Printed width of the ladder's lines and the width that the scan shows, mm.
-    pub ladder_mm: Vec<[f64; 2]>,
-    /// Coverage that the scan shows where 10, 20 … 90 % is printed.
-    pub tone: Vec<f64>,
 }
 
 /// How far from an edge its profile is taken. mm
@@ -60,35 +56,11 @@ pub fn gain(sheet: &Sheet, layout: &Layout, found: &Found) -> Option<Gain> {
         .collect();
     let edges = edges?;
     let mean = |of: fn(&Edge) -> f64| edges.iter().map(of).sum::<f64>() / edges.len() as f64;
-    let (paper, ink) = levels(&at, strip.squares[0]);
-    let shade = |p: Point| (at(p) - paper) / (ink - paper);
-    let ladder = strip
-        .ladder
-        .iter()
-        .zip(LADDER)
-        .map(|(r, w)| [w, width(&shade, *r, step)]);
-    let tone = strip.wedge.iter().map(|r| patch(&shade, r.inset(-0.8)));
     Some(Gain {
         blur_mm: mean(|e| e.variance).max(0.0).sqrt(),
         spread_mm: mean(|e| e.half),
         edge_level: mean(|e| e.level),
-        ladder_mm: ladder.collect(),
-        tone: tone.collect(),
     })
-}
-
-/// Paper beside and ink inside a square.
-fn levels(at: &impl Fn(Point) -> f64, centre: Point) -> (f64, f64) {
-    let frame = Affine::translate(centre.to_vec2()) * angles::rotation(SQUARE.1);
-    let ink = patch(&at, Rect::from_center_size(centre, (2.0, 2.0)));
-    let sides = [(0.0, 4.1), (4.1, 0.0), (0.0, -4.1), (-4.1, 0.0)];
-    let paper = sides.map(|s| {
-        patch(
-            &at,
-            Rect::from_center_size(frame * Point::from(s), (0.4, 0.4)),
-        )
-    });
-    (paper.iter().sum::<f64>() / 4.0, ink)
 }
 
 /// How an edge looks.
@@ -160,28 +132,4 @@ fn level_at_edge(shade: &[[f64; 2]]) -> Option<f64> {
         (xy + (p[0] - d) * (p[1] - v), xx + (p[0] - d) * (p[0] - d))
     });
     (n > 2).then(|| v - d * xy / xx.max(1e-12))
-}
-
-/// Mean over a rectangle of the page.
-fn patch(value: &impl Fn(Point) -> f64, r: Rect) -> f64 {
-    let n = 12;
-    let at = |i: usize| {
-        let (u, v) = ((i % n) as f64 + 0.5, (i / n) as f64 + 0.5);
-        value(r.origin() + Vec2::new(u * r.width(), v * r.height()) / n as f64)
-    };
-    (0..n * n).map(at).sum::<f64>() / (n * n) as f64
-}
-
-/// Width of an upright line: its coverage added up across it, mm.
-fn width(shade: &impl Fn(Point) -> f64, line: Rect, step: f64) -> f64 {
-    let (from, to) = (line.x0 - 0.8, line.x1 + 0.8);
-    let count = index((to - from) / step).max(1);
-    let across = |k: usize| {
-        let x = from + (k as f64 + 0.5) * (to - from) / count as f64;
-        (0..20)
-            .map(|i| shade(Point::new(x, line.y0 + 1.0 + 0.2 * f64::from(i))))
-            .sum::<f64>()
-            / 20.0
-    };
-    (0..count).map(across).sum::<f64>() * (to - from) / count as f64
 }
