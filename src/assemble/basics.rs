@@ -4,8 +4,8 @@ use super::{Draft, Options};
 use crate::types::{Glyph, Info, Name, Outline};
 use kurbo::{Rect, Shape};
 
-/// Part of the mean letter's advance that a space takes where letters were drawn, and of the em where
-/// none were: what text fonts have.
+/// Part of the mean small letter's advance that a space takes where such were drawn, and of the em where
+/// none were, as in an Arabic font: what text fonts have.
 const SPACE_OF_LETTER: f64 = 0.5;
 const SPACE_OF_EM: f64 = 0.25;
 

@@ -8,7 +8,7 @@ use super::watch::Stage;
 use super::world::World;
 use crate::scan::{self, ColourDetail, Cut, Options, Pin, Reading, Turn, Warning};
 use crate::template::{self, Gain};
-use crate::types::{Label, Sheet};
+use crate::types::{Label, MM_PER_INCH, Sheet};
 use std::collections::BTreeSet;
 
 /// A page and what it was cut into.
@@ -28,9 +28,6 @@ pub struct Page {
 
 /// The letters of a page, and the page without its cells.
 pub(super) type Traced = (Vec<Letter>, Page);
-
-/// Millimetres an inch.
-const MM_PER_INCH: f64 = 25.4;
 
 /// Letters that stand no worse than this are the right way up.
 const STANDING: f64 = 0.33;

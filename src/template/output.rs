@@ -4,15 +4,14 @@ use super::TemplateError;
 use super::draw::Page;
 use crate::numeric::cast::single;
 use crate::numeric::svg::path_data;
+use crate::types::MM_PER_INCH;
 use kurbo::PathEl;
 use pdf_writer::{Content, Finish, Pdf, Rect, Ref};
 use resvg::tiny_skia::{Color, Pixmap};
 use usvg::{Options, Transform, Tree};
 
-/// Millimetres an inch.
-const INCH: f64 = 25.4;
 /// PDF units a millimetre.
-const POINTS: f64 = 72.0 / INCH;
+const POINTS: f64 = 72.0 / MM_PER_INCH;
 
 /// The page as an SVG file whose units are mm.
 #[must_use]
@@ -95,7 +94,7 @@ fn drawing(page: &Page) -> Vec<u8> {
 pub fn png(page: &Page, dpi: f64) -> Result<Vec<u8>, TemplateError> {
     let fail = |e: String| TemplateError::Drawing(e);
     let tree = Tree::from_str(&svg(page), &Options::default()).map_err(|e| fail(e.to_string()))?;
-    let scale = dpi / INCH;
+    let scale = dpi / MM_PER_INCH;
     let (w, h) = (
         pixels(page.size.width * scale),
         pixels(page.size.height * scale),
@@ -105,7 +104,7 @@ pub fn png(page: &Page, dpi: f64) -> Result<Vec<u8>, TemplateError> {
     let fit = single(f64::from(w) / f64::from(tree.size().width()));
     resvg::render(&tree, Transform::from_scale(fit, fit), &mut map.as_mut());
     let file = map.encode_png().map_err(|e| fail(e.to_string()))?;
-    Ok(with_resolution(&file, pixels(1000.0 * dpi / INCH)))
+    Ok(with_resolution(&file, pixels(1000.0 * dpi / MM_PER_INCH)))
 }
 
 /// The PNG file with its pixels a metre, in the chunk `pHYs` (PNG 2003 sec. 11.3.5.3).

@@ -41,4 +41,5 @@ pub use glyph::{Anchor, Component, Glyph, Layer, Name, NameError};
 pub use outline::{Frame, Outline, OutlineError};
 pub use png::Png;
 pub use raster::{Bitmap, Gray, RasterError};
+pub(crate) use sheet::MM_PER_INCH;
 pub use sheet::{Cell, Colours, Direction, Guides, Label, Plate, Shade, Sheet};

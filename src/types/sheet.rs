@@ -4,7 +4,10 @@ use super::Gray;
 use kurbo::{Affine, Rect};
 use serde::{Deserialize, Serialize};
 
-/// A scanned page, its light evened out.
+/// Millimetres an inch.
+pub(crate) const MM_PER_INCH: f64 = 25.4;
+
+/// A scanned page.
 #[derive(Debug, Clone)]
 pub struct Sheet {
     /// Ink coverage, px, y down.

@@ -9,7 +9,7 @@ use super::ufo::files::load;
 use crate::types::Files;
 use norad::designspace::{Axis, DesignSpaceDocument, Dimension, Instance, Source};
 use norad::{Font, Glyph, PointType};
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use thiserror::Error;
 
 /// Tag and name of the axis.
@@ -221,9 +221,7 @@ fn apart(styles: &[Style<'_>]) -> Vec<String> {
     let names = styles.iter().flat_map(|s| s.font.default_layer().iter());
     let names: BTreeSet<&str> = names.map(|g| g.name().as_str()).collect();
     let differs = |name: &str| {
-        let found = styles.iter().map(|s| (s, s.font.get_glyph(name)));
-        let found: BTreeMap<u32, _> = found.map(|(s, glyph)| (s.weight, (s, glyph))).collect();
-        let mut all = found.into_values();
+        let mut all = styles.iter().map(|s| (s, s.font.get_glyph(name)));
         let (first, glyph) = all.next()?;
         let found = all.find_map(|(other, twin)| {
             let what = match (glyph, twin) {

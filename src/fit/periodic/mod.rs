@@ -30,7 +30,7 @@ use super::wls::solve::{Ends as Outer, Problem};
 use super::{FitError, Fitter};
 use crate::numeric::bspline::Basis;
 use crate::numeric::cast::index;
-use crate::numeric::minimise::{Descent, Limits, bfgs};
+use crate::numeric::minimise::{Limits, bfgs};
 use crate::numeric::turns::{Ends, Walk};
 use crate::types::{Fitted, Span, Verdict};
 use knots::FAR;
@@ -340,8 +340,8 @@ impl<'a> Task<'a> {
         None
     }
 
-    /// At most `steps` of BFGS.
-    fn descend(&self, state: State, steps: usize, progress: f64) -> (State, Descent) {
+    /// At most `steps` of BFGS, and the values on the way.
+    fn descend(&self, state: State, steps: usize, progress: f64) -> (State, Vec<f64>) {
         self.descend_by(&self.weights, state, steps, progress)
     }
 
@@ -351,7 +351,7 @@ impl<'a> Task<'a> {
         state: State,
         steps: usize,
         progress: f64,
-    ) -> (State, Descent) {
+    ) -> (State, Vec<f64>) {
         let penalty = Penalty {
             weight: self.options.alpha * self.tolerance * self.tolerance,
             width: self.options.beta,
@@ -362,8 +362,8 @@ impl<'a> Task<'a> {
         let width = state.spline.pieces() as f64;
         let mut f = Distances::new(self.points, weights, penalty, state);
         let limits = Limits { steps, progress };
-        let descent = bfgs(&mut f, &mut x, width, limits);
-        (f.into_state(), descent)
+        let values = bfgs(&mut f, &mut x, width, limits);
+        (f.into_state(), values)
     }
 
     /// How far each point lies from its foot.
@@ -418,13 +418,9 @@ mod tests {
         let ends = end_points(&task.walk, Ends::Closed, REACH, Some(14));
         let start = task.start(&ends).unwrap();
         let before = task.error(&start);
-        let (state, descent) = task.descend(start, 300, FINE);
-        assert!(
-            descent.values.windows(2).all(|w| w[1] < w[0]),
-            "{:?}",
-            descent.values
-        );
-        assert!(descent.values.len() > 10 && task.error(&state) < before);
+        let (state, values) = task.descend(start, 300, FINE);
+        assert!(values.windows(2).all(|w| w[1] < w[0]), "{:?}", values);
+        assert!(values.len() > 10 && task.error(&state) < before);
         assert_eq!(state.spline.pieces(), 14);
     }
 

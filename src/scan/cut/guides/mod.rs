@@ -17,6 +17,7 @@ use crate::scan::cut::largest;
 use crate::scan::error::Fault;
 use crate::scan::letters::{Head, Kind};
 use crate::scan::options::{Options, Scale};
+use crate::types::MM_PER_INCH;
 use baselines::{Letter, OVERSHOOT, near, ruled};
 use ends::ends;
 use joins::joins;
@@ -24,8 +25,6 @@ use kurbo::Rect;
 use slopes::slopes;
 use strays::unruled;
 
-/// Millimetres an inch.
-const MM_PER_INCH: f64 = 25.4;
 /// Heights that letters usually have, as shares of the em, where a user gives no scale: H, x, and alef.
 const USUAL: [(Head, f64); 3] = [(Head::Cap, 0.7), (Head::X, 0.5), (Head::Alef, 0.65)];
 /// Where no letter of a known height is there: highest to lowest ink, as a share of the em.
