@@ -1,12 +1,13 @@
 //! Substitutions: joining forms, ligatures and alternates, as a feature file.
 //!
 //! The features follow from the names alone. A form replaces the glyph that has the character; a
-//! ligature replaces its parts in the forms that they take inside it; a glyph with a feature's tag as
+//! ligature replaces its letters in the forms that text gives them; a glyph with a feature's tag as
 //! suffix (`a.ss01`) replaces the one without.
 
 use super::{Draft, Note};
 use crate::types::Form;
 use std::collections::BTreeMap;
+use std::iter::once;
 use unicode_joining_type::{JoiningType, get_joining_type};
 use unicode_normalization::UnicodeNormalization;
 
@@ -16,31 +17,65 @@ const BY_SUFFIX: &[&str] = &[
     "smcp", "subs", "sups", "swsh", "titl", "tnum", "zero",
 ];
 
+/// Features that go before all others: what joins, then ligatures.
+const FIRST: &[&str] = &["rlig", "liga"];
+
 /// The feature text and what could not be made.
 pub(super) fn text(drafts: &[Draft]) -> (String, Vec<Note>) {
     let glyphs = Glyphs::of(drafts);
     let mut out = language_systems(drafts);
     for form in Form::ALL {
-        let rules = glyphs.forms(form);
-        feature(&mut out, form.tag(), "", &rules);
+        let single = glyphs.forms(form);
+        let rules = Rules {
+            single,
+            ..Rules::default()
+        };
+        feature(&mut out, form.tag(), &rules);
     }
-    let (required, standard, mut notes) = glyphs.ligatures();
-    feature(&mut out, "rlig", "    lookupflag IgnoreMarks;\n", &required);
-    feature(&mut out, "liga", "", &standard);
-    let (alternates, unused) = glyphs.alternates();
-    notes.extend(unused);
-    for (tag, rules) in alternates {
-        feature(&mut out, &tag, "", &rules);
+    let mut features = BTreeMap::new();
+    let mut notes = glyphs.ligatures(&mut features);
+    notes.extend(glyphs.alternates(&mut features));
+    for &tag in FIRST {
+        if let Some(rules) = features.remove(tag) {
+            feature(&mut out, tag, &rules);
+        }
+    }
+    for (tag, rules) in features {
+        feature(&mut out, &tag, &rules);
     }
     (out, notes)
 }
 
-fn feature(out: &mut String, tag: &str, flag: &str, rules: &[String]) {
-    if rules.is_empty() {
-        return;
+/// Substitutions of a feature, ligatures first: what they take are glyphs without its suffix.
+#[derive(Default)]
+struct Rules {
+    /// Ligatures of letters that join, whose marks stand between them.
+    joining: Vec<String>,
+    ligatures: Vec<String>,
+    single: Vec<String>,
+}
+
+/// Features by their tags.
+type Features = BTreeMap<String, Rules>;
+
+fn feature(out: &mut String, tag: &str, rules: &Rules) {
+    let text =
+        |rules: &[String]| -> String { rules.iter().map(|r| format!("    sub {r};\n")).collect() };
+    let mut body = text(&rules.ligatures) + &text(&rules.single);
+    if !rules.joining.is_empty() {
+        let all = if body.is_empty() {
+            ""
+        } else {
+            "    lookupflag 0;\n"
+        };
+        body = format!(
+            "    lookupflag IgnoreMarks;\n{}{all}{body}",
+            text(&rules.joining)
+        );
     }
-    let body: String = rules.iter().map(|r| format!("    sub {r};\n")).collect();
-    *out += &format!("\nfeature {tag} {{\n{flag}{body}}} {tag};\n");
+    if !body.is_empty() {
+        *out += &format!("\nfeature {tag} {{\n{body}}} {tag};\n");
+    }
 }
 
 /// The scripts of the drawn letters, the default first as the syntax asks.
@@ -65,20 +100,68 @@ pub(super) fn is_arabic(c: char) -> bool {
     matches!(u32::from(c), 0x0600..=0x06FF | 0x0750..=0x077F | 0x0870..=0x08FF | 0xFB50..=0xFDFF | 0xFE70..=0xFEFF)
 }
 
-/// The letters of a Latin ligature that has a character of its own: ﬁ.
-fn unfolded(draft: &Draft) -> Option<Vec<char>> {
-    let [c @ ('ﬀ'..='ﬄ' | 'ﬆ')] = draft.id.chars[..] else {
-        return None;
-    };
-    Some(std::iter::once(c).nfkc().collect())
+/// The letters of a ligature: its name's parts, or those of the one character that it has: ﬁ, ﷲ.
+fn letters(draft: &Draft) -> Option<Vec<char>> {
+    match draft.id.chars[..] {
+        [c @ ('ﬀ'..='ﬄ' | 'ﬆ' | '\u{FDF0}'..='\u{FDF9}' | '\u{FDFC}')] => {
+            Some(once(c).nfkc().collect())
+        }
+        [_, _, ..] => Some(draft.id.chars.clone()),
+        _ => None,
+    }
 }
 
-/// Whether a character changes its form beside its neighbours.
-fn joins(c: char) -> bool {
+/// Whether a character joins the one after it.
+fn joins_next(c: char) -> bool {
+    use JoiningType as J;
     matches!(
         get_joining_type(c),
-        JoiningType::DualJoining | JoiningType::RightJoining | JoiningType::LeftJoining
+        J::DualJoining | J::LeftJoining | J::JoinCausing
     )
+}
+
+/// Whether a character joins the one before it.
+fn joins_last(c: char) -> bool {
+    use JoiningType as J;
+    matches!(
+        get_joining_type(c),
+        J::DualJoining | J::RightJoining | J::JoinCausing
+    )
+}
+
+/// The form that each letter of a ligature has where the ligature as a whole has a form; the letter at an end that
+/// cannot join as the form says.
+fn forms(chars: &[char], whole: Form) -> Result<Vec<Form>, char> {
+    let is_mark = |c: char| get_joining_type(c) == JoiningType::Transparent;
+    let letters: Vec<char> = chars.iter().copied().filter(|c| !is_mark(*c)).collect();
+    let first = letters
+        .first()
+        .filter(|c| whole.joins_before() && !joins_last(**c));
+    let last = letters
+        .last()
+        .filter(|c| whole.joins_after() && !joins_next(**c));
+    if let Some(&end) = first.or(last) {
+        return Err(end);
+    }
+    let between = letters
+        .windows(2)
+        .map(|pair| joins_next(pair[0]) && joins_last(pair[1]));
+    let joints = once(whole.joins_before())
+        .chain(between)
+        .chain([whole.joins_after()]);
+    let joints: Vec<bool> = joints.collect();
+    let mut forms = joints.windows(2).map(|sides| match sides {
+        [true, true] => Form::Medi,
+        [true, _] => Form::Fina,
+        [_, true] => Form::Init,
+        _ => Form::Isol,
+    });
+    let form = |&c: &char| if is_mark(c) { None } else { forms.next() };
+    Ok(chars
+        .iter()
+        .map(form)
+        .map(Option::unwrap_or_default)
+        .collect())
 }
 
 /// The font's glyphs by what they stand for.
@@ -114,86 +197,120 @@ impl<'a> Glyphs<'a> {
         self.formed.iter().filter_map(rule).collect()
     }
 
-    /// Rules of `rlig` (joining scripts) and `liga` (others), and the ligatures whose parts are missing.
-    fn ligatures(&self) -> (Vec<String>, Vec<String>, Vec<Note>) {
-        let (mut required, mut standard, mut notes) = (Vec::new(), Vec::new(), Vec::new());
-        let plain = |d: &&Draft| d.id.alternates().next().is_none();
-        let plain = || self.drafts.iter().filter(plain);
-        let named = plain()
-            .filter(|d| d.id.chars.len() > 1)
-            .map(|d| (d, d.id.chars.clone()));
-        let encoded = plain().filter_map(|d| Some((d, unfolded(d)?)));
-        let encoded = encoded.filter(|(_, chars)| plain().all(|d| d.id.chars != *chars));
-        for (draft, chars) in named.chain(encoded) {
-            let name = &draft.id.name;
-            match self.parts(draft, &chars) {
-                Ok(parts) => {
-                    let rules = if chars.iter().any(|&c| joins(c)) { &mut required } else { &mut standard };
-                    rules.push(format!("{} by {name}", parts.join(" ")));
-                }
+    /// Adds the ligatures without suffix: `rlig` (joining scripts) and `liga` (others). Tells those that nothing
+    /// makes.
+    fn ligatures(&self, features: &mut Features) -> Vec<Note> {
+        let plain = || {
+            self.drafts
+                .iter()
+                .filter(|d| d.id.alternates().next().is_none())
+        };
+        let mut notes = Vec::new();
+        for draft in plain() {
+            let Some(letters) = letters(draft) else {
+                continue;
+            };
+            let is_encoded = draft.id.chars != letters;
+            if is_encoded && plain().any(|d| d.id.chars == letters) {
+                continue;
+            }
+            let tag = if is_joining(&letters) { "rlig" } else { "liga" };
+            match self.ligature(draft, &letters, features.entry(tag.to_owned()).or_default()) {
                 // it has a character of its own
-                Err(_) if draft.id.chars != chars => {}
-                Err(missing) => notes.push(Note {
-                    glyph: name.to_string(),
-                    message: format!(
-                        "the ligature is never used: the font has no glyph for its part {missing} (U+{:04X}); draw it or skip the ligature",
-                        u32::from(missing)
-                    ),
-                }),
+                Err(_) if is_encoded => {}
+                made => notes.extend(made.err()),
             }
         }
-        (required, standard, notes)
+        notes
     }
 
-    /// The glyphs that a ligature replaces, or the character that no glyph has.
-    fn parts(&self, ligature: &Draft, chars: &[char]) -> Result<Vec<&'a str>, char> {
-        let form = ligature.id.form().unwrap_or(Form::Isol);
-        let last = chars.len() - 1;
-        let part = |(i, &c): (usize, &char)| {
-            let before = i > 0 || form.joins_before();
-            let after = i < last || form.joins_after();
-            let inside = match (before, after) {
-                (true, true) => Form::Medi,
-                (true, false) => Form::Fina,
-                (false, true) => Form::Init,
-                (false, false) => Form::Isol,
-            };
-            self.formed
-                .get(&(c, inside))
-                .or_else(|| self.encoded.get(&c))
-                .copied()
-                .ok_or(c)
+    /// Adds the rule that makes a ligature of its letters.
+    fn ligature(&self, draft: &Draft, letters: &[char], rules: &mut Rules) -> Result<(), Note> {
+        let never = |why: String| Note {
+            glyph: draft.id.name.to_string(),
+            message: format!("the ligature is never used: {why}"),
         };
-        chars.iter().enumerate().map(part).collect()
+        let form = draft.id.form().unwrap_or_default();
+        let forms = forms(letters, form).map_err(|end| {
+            never(format!(
+                "{end} does not join as .{} says; correct the suffix",
+                form.tag()
+            ))
+        })?;
+        let part = |(&c, form): (&char, Form)| {
+            let found = self.formed.get(&(c, form)).or_else(|| self.encoded.get(&c));
+            found.copied().ok_or(c)
+        };
+        let parts: Result<Vec<&str>, char> = letters.iter().zip(forms).map(part).collect();
+        let parts = parts.map_err(|missing| {
+            never(format!(
+                "the font has no glyph for its part {missing} (U+{:04X}); draw it or skip the ligature",
+                u32::from(missing)
+            ))
+        })?;
+        let rules = if is_joining(letters) {
+            &mut rules.joining
+        } else {
+            &mut rules.ligatures
+        };
+        rules.push(format!("{} by {}", parts.join(" "), draft.id.name));
+        Ok(())
     }
 
-    /// Feature tag → rules for the glyphs that carry it as a suffix, and those whose plain glyph is missing.
-    fn alternates(&self) -> (BTreeMap<String, Vec<String>>, Vec<Note>) {
-        let mut out: BTreeMap<String, Vec<String>> = BTreeMap::new();
+    /// Adds the glyphs that carry a feature's tag as a suffix. Tells those that no feature uses.
+    fn alternates(&self, features: &mut Features) -> Vec<Note> {
         let mut notes = Vec::new();
         for draft in self.drafts {
-            for tag in draft.id.alternates().filter(|t| is_tag(t)) {
-                let suffixes = draft.id.suffixes.iter();
-                let rest: Vec<&String> = suffixes.filter(|s| *s != tag).collect();
-                let is_plain = |d: &&Draft| {
-                    d.id.chars == draft.id.chars && d.id.suffixes.iter().eq(rest.iter().copied())
-                };
-                let from = self.drafts.iter().find(is_plain);
-                let name = draft.id.name.to_string();
-                match from {
-                    Some(from) => {
-                        let rule = format!("{} by {name}", from.id.name);
-                        out.entry(tag.to_owned()).or_default().push(rule);
-                    }
-                    None => notes.push(Note {
-                        glyph: name,
-                        message: format!("the alternate is never used: the font has no glyph that {tag} could replace by it; draw that"),
-                    }),
+            let suffixes: Vec<&str> = draft.id.alternates().collect();
+            let mut is_used = suffixes.is_empty();
+            for tag in suffixes.iter().filter(|s| is_tag(s)) {
+                if let Some(from) = self.without(draft, tag) {
+                    let rule = format!("{} by {}", from.id.name, draft.id.name);
+                    features
+                        .entry((*tag).to_owned())
+                        .or_default()
+                        .single
+                        .push(rule);
+                    is_used = true;
                 }
             }
+            if is_used {
+                continue;
+            }
+            let tag = suffixes.iter().find(|s| is_tag(s));
+            notes.extend(tag.map(|tag| unused(draft, tag)));
         }
-        (out, notes)
+        notes
     }
+
+    /// The glyph that has the same name but for one suffix.
+    fn without(&self, draft: &Draft, suffix: &str) -> Option<&'a Draft> {
+        let rest = || draft.id.suffixes.iter().filter(|s| *s != suffix);
+        let mut all = self.drafts.iter();
+        all.find(|d| d.id.chars == draft.id.chars && d.id.suffixes.iter().eq(rest()))
+    }
+}
+
+/// Why no feature uses an alternate.
+fn unused(draft: &Draft, tag: &str) -> Note {
+    Note {
+        glyph: draft.id.name.to_string(),
+        message: format!(
+            "the alternate is never used: the font has no glyph that {tag} could replace by it; draw that"
+        ),
+    }
+}
+
+/// Whether any of these characters changes its form beside its neighbours.
+fn is_joining(chars: &[char]) -> bool {
+    use JoiningType as J;
+    let joins = |c: &char| {
+        matches!(
+            get_joining_type(*c),
+            J::DualJoining | J::RightJoining | J::LeftJoining
+        )
+    };
+    chars.iter().any(joins)
 }
 
 fn is_tag(suffix: &str) -> bool {

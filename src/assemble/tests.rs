@@ -71,6 +71,71 @@ fn features_follow_from_names() {
     assert!(built.notes.is_empty(), "{:?}", built.notes);
 }
 
+/// Arabic letters, each in all forms that it takes.
+fn arabic(letters: &str) -> Vec<String> {
+    let joins_on = |c: char| get_joining_type(c) == JoiningType::DualJoining;
+    let forms = |c: char| {
+        let forms = ["", ".fina", ".init", ".medi"].into_iter();
+        let forms = forms.take(if joins_on(c) { 4 } else { 2 });
+        forms.map(move |form| format!("uni{:04X}{form}", u32::from(c)))
+    };
+    letters.chars().flat_map(forms).collect()
+}
+
+/// The font of these letters and labels.
+fn with(letters: &str, labels: &[&str]) -> Assembled {
+    let letters = arabic(letters);
+    let all = letters
+        .iter()
+        .map(String::as_str)
+        .chain(labels.iter().copied());
+    build(&all.collect::<Vec<&str>>())
+}
+
+#[test]
+fn a_ligature_takes_its_letters_in_the_forms_that_text_gives_them() {
+    for (label, rule) in [
+        ("الله", "uni0627 uni0644.init uni0644.medi uni0647.fina by"),
+        (
+            "الله.fina",
+            "uni0627.fina uni0644.init uni0644.medi uni0647.fina by",
+        ),
+        ("ريال", "uni0631 uni064A.init uni0627.fina uni0644 by"),
+        ("له.init", "uni0644.init uni0647.medi by"),
+        ("له.medi", "uni0644.medi uni0647.medi by"),
+        ("uni0644064E0647", "uni0644.init uni064E uni0647.fina by"),
+        ("ﷲ", "uni0627 uni0644.init uni0644.medi uni0647.fina by"),
+    ] {
+        let built = with("الهري", &["uni064E", label]);
+        assert!(
+            built.font.features.contains(&format!("sub {rule} ")),
+            "{label}: {}",
+            built.font.features
+        );
+        assert!(built.notes.is_empty(), "{label}: {:?}", built.notes);
+    }
+    let built = with("ال", &["لا.init"]);
+    assert_eq!(
+        built.notes[0].message,
+        "the ligature is never used: ا does not join as .init says; correct the suffix"
+    );
+    assert!(
+        !built.font.features.contains("rlig"),
+        "{}",
+        built.font.features
+    );
+    let both = with("اله", &["الله", "ﷲ"]).font;
+    assert!(
+        both.features.contains("by uni0627064406440647;"),
+        "{}",
+        both.features
+    );
+    assert!(
+        both.glyphs().iter().any(|g| g.codepoints == ['ﷲ']),
+        "it can be typed"
+    );
+}
+
 #[test]
 fn a_form_stands_in_for_a_missing_letter() {
     let font = build(&["beh-ar.fina", "beh-ar.init", "beh-ar.init.ss01"]).font;

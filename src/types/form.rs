@@ -1,9 +1,10 @@
 //! The forms of letters that join.
 
 /// The shape that a letter takes beside its neighbours.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Form {
     /// Joined on neither side.
+    #[default]
     Isol,
     /// Joined to the letter before it.
     Fina,
