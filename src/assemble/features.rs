@@ -4,7 +4,7 @@
 //! ligature replaces its letters in the forms that text gives them; a glyph with a feature's tag as
 //! suffix (`a.ss01`) replaces the one without.
 
-use super::{Draft, Note};
+use super::{Draft, Note, nearest};
 use crate::types::Form;
 use std::collections::BTreeMap;
 use std::iter::once;
@@ -13,8 +13,9 @@ use unicode_normalization::UnicodeNormalization;
 
 /// Features that a glyph asks for by its suffix, besides `ss01`…`ss20` and `cv01`…`cv99`.
 const BY_SUFFIX: &[&str] = &[
-    "aalt", "c2sc", "calt", "case", "dlig", "hist", "lnum", "onum", "ordn", "pnum", "salt", "sinf",
-    "smcp", "subs", "sups", "swsh", "titl", "tnum", "zero",
+    "aalt", "c2pc", "c2sc", "calt", "case", "dlig", "dnom", "hist", "lnum", "numr", "onum", "ordn",
+    "ornm", "pcap", "pnum", "salt", "sinf", "smcp", "subs", "sups", "swsh", "titl", "tnum", "unic",
+    "zero",
 ];
 
 /// Features that go before all others: what joins, then ligatures.
@@ -277,8 +278,7 @@ impl<'a> Glyphs<'a> {
             if is_used {
                 continue;
             }
-            let tag = suffixes.iter().find(|s| is_tag(s));
-            notes.extend(tag.map(|tag| unused(draft, tag)));
+            notes.push(unused(draft));
         }
         notes
     }
@@ -292,12 +292,23 @@ impl<'a> Glyphs<'a> {
 }
 
 /// Why no feature uses an alternate.
-fn unused(draft: &Draft, tag: &str) -> Note {
+fn unused(draft: &Draft) -> Note {
+    let message = if let Some(unknown) = draft.id.alternates().find(|s| !is_tag(s)) {
+        let forms = Form::ALL.iter().map(|f| f.tag());
+        let meant = nearest::suffix(unknown, forms.chain(BY_SUFFIX.iter().copied()));
+        let meant = meant.map_or(String::new(), |near| format!("; did you mean {near}?"));
+        format!(
+            "khatt makes no feature of it: “.{unknown}” is no joining form and no feature that replaces single glyphs{meant}"
+        )
+    } else {
+        let tag = draft.id.alternates().next().unwrap_or_default();
+        format!(
+            "the alternate is never used: the font has no glyph that {tag} could replace by it; draw that"
+        )
+    };
     Note {
         glyph: draft.id.name.to_string(),
-        message: format!(
-            "the alternate is never used: the font has no glyph that {tag} could replace by it; draw that"
-        ),
+        message,
     }
 }
 

@@ -53,11 +53,8 @@ impl Identity {
 
     /// The suffixes that name no joining form: which alternate it is.
     pub fn alternates(&self) -> impl Iterator<Item = &str> {
-        let is_form = |s: &str| Form::ALL.iter().any(|f| f.tag() == s);
-        self.suffixes
-            .iter()
-            .map(String::as_str)
-            .filter(move |s| !is_form(s))
+        let suffixes = self.suffixes.iter().map(String::as_str);
+        suffixes.filter(|s| Form::said(s).is_none())
     }
 }
 

@@ -75,6 +75,14 @@ fn listed(base: &str) -> Option<String> {
     near.map(|(_, n)| n.clone())
 }
 
+/// The known suffixes that differ least from an unknown one, by one letter at most, as a message names them.
+pub(super) fn suffix(unknown: &str, known: impl Iterator<Item = &'static str>) -> Option<String> {
+    let lower = unknown.to_lowercase();
+    let near = known.filter(|k| strsim::levenshtein(k, &lower) <= 1);
+    near.map(|k| format!("“.{k}”"))
+        .reduce(|all, k| format!("{all} or {k}"))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -137,6 +137,67 @@ fn a_ligature_takes_its_letters_in_the_forms_that_text_gives_them() {
 }
 
 #[test]
+fn a_suffix_that_says_nothing_is_told_with_the_nearest() {
+    let labels = ["A", "A.alt", "A.ss21", "A.numr", "A.frac", "f", "f.swsh"];
+    let notes = build(&labels).notes;
+    let of = |glyph: &str| {
+        notes
+            .iter()
+            .find(|n| n.glyph == glyph)
+            .map(|n| n.message.as_str())
+    };
+    let of = |glyph: &str| of(glyph).unwrap_or_else(|| panic!("{glyph}: {notes:?}"));
+    assert_eq!(notes.len(), 3, "{notes:?}");
+    assert!(
+        of("A.alt").ends_with("did you mean “.aalt” or “.calt” or “.salt”?"),
+        "{notes:?}"
+    );
+    assert!(
+        of("A.ss21").ends_with("is no joining form and no feature that replaces single glyphs"),
+        "{notes:?}"
+    );
+    assert!(
+        of("A.frac").contains("“.frac” is no joining form"),
+        "{notes:?}"
+    );
+    for (wrong, right) in [("int", "init"), ("fin", "fina"), ("Medi", "medi")] {
+        let label = format!("beh-ar.{wrong}");
+        let notes = build(&["beh-ar", &label]).notes;
+        assert!(
+            notes[0]
+                .message
+                .ends_with(&format!("did you mean “.{right}”?")),
+            "{notes:?}"
+        );
+    }
+}
+
+#[test]
+fn forms_may_be_written_out() {
+    let labels = [
+        "beh-ar",
+        "beh-ar.initial",
+        "beh-ar.medial",
+        "beh-ar.final",
+        "seen-ar.isolated",
+    ];
+    let built = build(&labels);
+    for form in ["initial", "medial", "final"] {
+        let rule = format!("sub beh-ar by beh-ar.{form};");
+        assert!(
+            built.font.features.contains(&rule),
+            "{}",
+            built.font.features
+        );
+    }
+    assert_eq!(
+        built.font.glyph("seen-ar.isolated").unwrap().codepoints,
+        ['س']
+    );
+    assert!(built.notes.is_empty(), "{:?}", built.notes);
+}
+
+#[test]
 fn a_form_stands_in_for_a_missing_letter() {
     let font = build(&["beh-ar.fina", "beh-ar.init", "beh-ar.init.ss01"]).font;
     assert_eq!(font.glyph("beh-ar.fina").unwrap().codepoints, ['\u{628}']);

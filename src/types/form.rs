@@ -18,10 +18,20 @@ impl Form {
     /// All four, in the order in which one of them stands in for a missing isolated form.
     pub const ALL: [Self; 4] = [Self::Isol, Self::Fina, Self::Init, Self::Medi];
 
-    /// The form that one of a name's suffixes is the tag of.
+    /// The form that one of a name's suffixes says.
     pub(crate) fn of(suffixes: &[String]) -> Option<Self> {
-        let is = |f: &Self| suffixes.iter().any(|s| s == f.tag());
-        Self::ALL.into_iter().find(is)
+        suffixes.iter().find_map(|s| Self::said(s))
+    }
+
+    /// The form that a suffix says: its tag, or its name written out.
+    pub(crate) fn said(suffix: &str) -> Option<Self> {
+        Some(match suffix {
+            "isol" | "isolated" => Self::Isol,
+            "fina" | "final" => Self::Fina,
+            "init" | "initial" => Self::Init,
+            "medi" | "medial" => Self::Medi,
+            _ => return None,
+        })
     }
 
     /// The OpenType feature and the suffix of that form.
