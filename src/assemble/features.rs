@@ -4,9 +4,9 @@
 //! ligature replaces its letters in the forms that text gives them; a glyph with a feature's tag as
 //! suffix (`a.ss01`) replaces the one without.
 
-use super::{Draft, Note, nearest};
+use super::{Draft, Note, names, nearest};
 use crate::types::Form;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::iter::once;
 use unicode_joining_type::{JoiningType, get_joining_type};
 use unicode_normalization::UnicodeNormalization;
@@ -21,6 +21,10 @@ const BY_SUFFIX: &[&str] = &[
 /// Features that go before all others: what joins, then ligatures.
 const FIRST: &[&str] = &["rlig", "liga"];
 
+/// Letters of which the standard says that they join on both sides, and that most languages have at the ends of words
+/// alone.
+const ENDING: &str = "ىںٯ";
+
 /// The feature text and what could not be made.
 pub(super) fn text(drafts: &[Draft]) -> (String, Vec<Note>) {
     let glyphs = Glyphs::of(drafts);
@@ -34,7 +38,8 @@ pub(super) fn text(drafts: &[Draft]) -> (String, Vec<Note>) {
         feature(&mut out, form.tag(), &rules);
     }
     let mut features = BTreeMap::new();
-    let mut notes = glyphs.ligatures(&mut features);
+    let mut notes = glyphs.incomplete();
+    notes.extend(glyphs.ligatures(&mut features));
     notes.extend(glyphs.alternates(&mut features));
     for &tag in FIRST {
         if let Some(rules) = features.remove(tag) {
@@ -196,6 +201,33 @@ impl<'a> Glyphs<'a> {
             (f == form && *from != to).then(|| format!("{from} by {to}"))
         };
         self.formed.iter().filter_map(rule).collect()
+    }
+
+    /// Letters of which some joining forms are there and others are not.
+    fn incomplete(&self) -> Vec<Note> {
+        let note = |c: char| {
+            if get_joining_type(c) != JoiningType::DualJoining {
+                return None;
+            }
+            let all = [Form::Init, Form::Medi, Form::Fina].into_iter();
+            let (has, lacks): (Vec<Form>, Vec<Form>) =
+                all.partition(|&f| self.formed.contains_key(&(c, f)));
+            let is_ending = has == [Form::Fina] && ENDING.contains(c);
+            let list = |forms: &[Form]| {
+                let tags: Vec<String> = forms.iter().map(|f| format!(".{}", f.tag())).collect();
+                tags.join(" and ")
+            };
+            (!has.is_empty() && !lacks.is_empty() && !is_ending).then(|| Note {
+                glyph: names::name_of(&[c]),
+                message: format!(
+                    "it has {} but no {}: there it stands unjoined within words; draw what is missing",
+                    list(&has),
+                    list(&lacks)
+                ),
+            })
+        };
+        let letters: BTreeSet<char> = self.formed.keys().map(|k| k.0).collect();
+        letters.into_iter().filter_map(note).collect()
     }
 
     /// Adds the ligatures without suffix: `rlig` (joining scripts) and `liga` (others). Tells those that nothing
