@@ -1,7 +1,7 @@
 //! Written fonts, read back by two independent readers and set by a shaper.
 
 use crate::common::desk::Desk;
-use crate::common::read::{face, set, skrifa_outline, ttf_parser_outline};
+use crate::common::read::{face, set, set_with, skrifa_outline, ttf_parser_outline};
 use khatt::assemble::{self, Drawn};
 use khatt::quadratic::Method;
 use khatt::types::{Files, Font, Info, Label, Outline};
@@ -209,6 +209,43 @@ fn arabic_joins() {
         );
         assert_eq!(names("fi"), ["f_i"], "{format}");
     }
+}
+
+/// Boxes with these labels as a font.
+fn boxes(drawn: &[(&str, [f64; 4])]) -> Font {
+    let one = |(label, [x0, y0, x1, y1]): &(&str, [f64; 4])| Drawn {
+        label: Label((*label).to_owned()),
+        outline: Outline::new(vec![Rect::new(*x0, *y0, *x1, *y1).to_path(0.1)]).expect("closed"),
+        plates: Vec::new(),
+        advance: None,
+    };
+    let drawn = drawn.iter().map(one).collect();
+    let built = assemble::font(drawn, Info::default(), &assemble::Options::default());
+    built.expect("a font of these letters").font
+}
+
+#[test]
+fn ligatures_and_small_capitals_are_found_in_text() {
+    let labels = LABELS.iter().copied();
+    let more = ["الله", "reh-ar", "f.smcp", "i.smcp"];
+    let all: Vec<_> = labels
+        .chain(more)
+        .map(|l| (l, [0.0, 0.0, 400.0, 60.0]))
+        .collect();
+    let bytes = single(&boxes(&all), "otf");
+    assert_eq!(set(&bytes, "الله"), ["uni0627064406440647"]);
+    assert_eq!(set(&bytes, "رالله"), ["uni0627064406440647", "reh-ar"]);
+    let joined = [
+        "heh-ar.fina",
+        "lam-ar.medi",
+        "lam-ar.init",
+        "alef-ar.fina",
+        "beh-ar.init",
+    ];
+    assert_eq!(set(&bytes, "بالله"), joined);
+    assert_eq!(set(&bytes, "fi"), ["f_i"]);
+    let small = set_with(&bytes, "fi", &["smcp"]);
+    assert_eq!(small, ["f.smcp", "i.smcp"]);
 }
 
 #[test]

@@ -18,8 +18,11 @@ const BY_SUFFIX: &[&str] = &[
     "zero",
 ];
 
-/// Features that go before all others: what joins, then ligatures.
-const FIRST: &[&str] = &["rlig", "liga"];
+/// Features that go before all others: what joins, then capitals of all kinds, whose letters no ligature may have
+/// taken, then ligatures.
+const FIRST: &[&str] = &[
+    "rlig", "c2pc", "c2sc", "case", "pcap", "smcp", "unic", "liga",
+];
 
 /// Letters of which the standard says that they join on both sides, and that most languages have at the ends of words
 /// alone.

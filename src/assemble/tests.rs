@@ -226,6 +226,17 @@ fn a_letter_without_some_of_its_forms_is_told() {
 }
 
 #[test]
+fn capitals_of_all_kinds_come_before_ligatures() {
+    let built = build(&["f", "i", "f_i", "f.smcp", "i.smcp", "f.ss01"]);
+    let text = built.font.features;
+    let at = |tag: &str| {
+        text.find(&format!("feature {tag} {{"))
+            .unwrap_or_else(|| panic!("{tag}: {text}"))
+    };
+    assert!(at("smcp") < at("liga") && at("liga") < at("ss01"), "{text}");
+}
+
+#[test]
 fn a_form_stands_in_for_a_missing_letter() {
     let font = build(&["beh-ar.fina", "beh-ar.init", "beh-ar.init.ss01"]).font;
     assert_eq!(font.glyph("beh-ar.fina").unwrap().codepoints, ['\u{628}']);

@@ -1,6 +1,6 @@
 //! Fonts as readers and shapers see them.
 
-use harfrust::{ShapeOptions, ShaperData, UnicodeBuffer};
+use harfrust::{Feature, ShapeOptions, ShaperData, UnicodeBuffer};
 use khatt::read::Pen;
 use kurbo::BezPath;
 use skrifa::outline::{DrawSettings, OutlinePen};
@@ -60,13 +60,21 @@ pub(crate) fn drawn(face: &Face<'_>, c: char) -> BezPath {
 
 /// Glyph, advance and shift of a text as a shaper sets it, in visual order.
 pub(crate) fn placed(bytes: &[u8], text: &str) -> Vec<(usize, i32, i32, i32)> {
+    placed_with(bytes, text, &[])
+}
+
+/// The same with these features turned on.
+fn placed_with(bytes: &[u8], text: &str, features: &[&str]) -> Vec<(usize, i32, i32, i32)> {
     let font = FontRef::new(bytes).expect("a font");
     let data = ShaperData::new(&font);
     let mut buffer = UnicodeBuffer::new();
     buffer.push_str(text);
     buffer.guess_segment_properties();
     let shaper = data.shaper(&font).build();
-    let shaped = shaper.shape(buffer, ShapeOptions::default());
+    let features = features.iter().map(|f| f.parse().expect("a feature"));
+    let features: Vec<Feature> = features.collect();
+    let options = ShapeOptions::default().features(&features);
+    let shaped = shaper.shape(buffer, options);
     let glyphs = shaped.glyph_infos().iter().zip(shaped.glyph_positions());
     let one = |(i, p): (&harfrust::GlyphInfo, &harfrust::GlyphPosition)| {
         (i.glyph_id as usize, p.x_advance, p.x_offset, p.y_offset)
@@ -76,11 +84,16 @@ pub(crate) fn placed(bytes: &[u8], text: &str) -> Vec<(usize, i32, i32, i32)> {
 
 /// The names of the glyphs that a text is set with, in visual order.
 pub(crate) fn set(bytes: &[u8], text: &str) -> Vec<String> {
+    set_with(bytes, text, &[])
+}
+
+/// The same with these features turned on.
+pub(crate) fn set_with(bytes: &[u8], text: &str, features: &[&str]) -> Vec<String> {
     let face = face(bytes);
     let name = |id: usize| {
         let id = u16::try_from(id).expect("a glyph of the font");
         face.glyph_name(ttf_parser::GlyphId(id)).map(str::to_owned)
     };
-    let glyphs = placed(bytes, text).into_iter();
+    let glyphs = placed_with(bytes, text, features).into_iter();
     glyphs.map(|g| name(g.0).unwrap_or_default()).collect()
 }
