@@ -18,6 +18,9 @@ const BY_SUFFIX: &[&str] = &[
     "zero",
 ];
 
+/// Features that ligatures alone ask for.
+const OF_LIGATURES: &[&str] = &["clig", "hlig", "liga", "rlig"];
+
 /// Features that go before all others: what joins, then capitals of all kinds, whose letters no ligature may have
 /// taken, then ligatures.
 const FIRST: &[&str] = &[
@@ -313,7 +316,15 @@ impl<'a> Glyphs<'a> {
             if is_used {
                 continue;
             }
-            notes.push(unused(draft));
+            let made = match (&suffixes[..], letters(draft)) {
+                ([tag], Some(letters)) if self.makes(draft, tag) => self.ligature(
+                    draft,
+                    &letters,
+                    features.entry((*tag).to_owned()).or_default(),
+                ),
+                _ => Err(unused(draft)),
+            };
+            notes.extend(made.err());
         }
         notes
     }
@@ -323,6 +334,11 @@ impl<'a> Glyphs<'a> {
         let rest = || draft.id.suffixes.iter().filter(|s| *s != suffix);
         let mut all = self.drafts.iter();
         all.find(|d| d.id.chars == draft.id.chars && d.id.suffixes.iter().eq(rest()))
+    }
+
+    /// Whether a feature makes a ligature that has no glyph without that suffix.
+    fn makes(&self, draft: &Draft, suffix: &str) -> bool {
+        (is_tag(suffix) || OF_LIGATURES.contains(&suffix)) && self.without(draft, suffix).is_none()
     }
 }
 

@@ -237,6 +237,36 @@ fn capitals_of_all_kinds_come_before_ligatures() {
 }
 
 #[test]
+fn a_ligature_with_a_suffix_alone_is_its_features() {
+    let built = with(
+        "لح",
+        &[
+            "s",
+            "t",
+            "f",
+            "i",
+            "s_t.dlig",
+            "f_i.liga",
+            "لح.init.dlig",
+            "t.dlig",
+        ],
+    );
+    let text = built.font.features;
+    let dlig = "feature dlig {\n    lookupflag IgnoreMarks;\n    sub uni0644.init uni062D.medi by uni0644062D.init.dlig;\n    \
+                lookupflag 0;\n    sub s t by s_t.dlig;\n    sub t by t.dlig;\n} dlig;";
+    assert!(text.contains(dlig), "{text}");
+    assert!(
+        text.contains("feature liga {\n    sub f i by f_i.liga;\n} liga;"),
+        "{text}"
+    );
+    assert!(built.notes.is_empty(), "{:?}", built.notes);
+    let notes = build(&["s", "s_t.dlig", "s.liga"]).notes;
+    let told: Vec<&str> = notes.iter().map(|n| n.glyph.as_str()).collect();
+    assert_eq!(told, ["s_t.dlig", "s.liga"], "{notes:?}");
+    assert!(notes[0].message.contains("its part t"), "{notes:?}");
+}
+
+#[test]
 fn a_form_stands_in_for_a_missing_letter() {
     let font = build(&["beh-ar.fina", "beh-ar.init", "beh-ar.init.ss01"]).font;
     assert_eq!(font.glyph("beh-ar.fina").unwrap().codepoints, ['\u{628}']);
