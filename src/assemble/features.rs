@@ -10,6 +10,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::iter::once;
 use unicode_joining_type::{JoiningType, get_joining_type};
 use unicode_normalization::UnicodeNormalization;
+use unicode_normalization::char::{canonical_combining_class, decompose_canonical};
 
 /// Features that a glyph asks for by its suffix, besides `ss01`…`ss20` and `cv01`…`cv99`.
 const BY_SUFFIX: &[&str] = &[
@@ -35,6 +36,7 @@ const ENDING: &str = "ىںٯ";
 pub(super) fn text(drafts: &[Draft]) -> (String, Vec<Note>) {
     let glyphs = Glyphs::of(drafts);
     let mut out = language_systems(drafts);
+    out += &glyphs.soft_dots();
     for form in Form::ALL {
         let single = glyphs.forms(form);
         let rules = Rules {
@@ -207,6 +209,49 @@ impl<'a> Glyphs<'a> {
             (f == form && *from != to).then(|| format!("{from} by {to}"))
         };
         self.formed.iter().filter_map(rule).collect()
+    }
+
+    /// i, j and į without their dots under a mark above, as the standard asks; marks below may stand between.
+    fn soft_dots(&self) -> String {
+        let is_above = |c: char| canonical_combining_class(c) == 230 && !is_arabic(c);
+        let above = self.encoded.iter().filter(|e| is_above(*e.0));
+        let above: Vec<&str> = above.map(|e| *e.1).collect();
+        let above = format!("[{}]", above.join(" "));
+        let dotless = |(&c, from): (&char, &&'a str)| {
+            let mut parts = Vec::new();
+            decompose_canonical(c, |part| parts.push(part));
+            let (first, signs) = parts.split_first()?;
+            let bare = match first {
+                'i' => 'ı',
+                'j' => 'ȷ',
+                _ => return None,
+            };
+            if signs.iter().any(|c| is_above(*c)) {
+                return None;
+            }
+            let to = once(&bare).chain(signs);
+            let to = to.map(|c| self.encoded.get(c).copied());
+            Some((*from, to.collect::<Option<Vec<&str>>>()?))
+        };
+        let rules: Vec<(&str, Vec<&str>)> = self.encoded.iter().filter_map(dotless).collect();
+        if above == "[]" || rules.is_empty() {
+            return String::new();
+        }
+        let (mut parted, mut body) = (String::new(), String::new());
+        for (from, to) in rules {
+            if let [to] = to[..] {
+                body += &format!("    sub {from}' {above} by {to};\n");
+            } else {
+                parted += &format!("    sub {from} by {};\n", to.join(" "));
+                body += &format!("    sub {from}' lookup parted {above};\n");
+            }
+        }
+        if !parted.is_empty() {
+            parted = format!("\nlookup parted {{\n{parted}}} parted;\n");
+        }
+        format!(
+            "{parted}\nfeature ccmp {{\n    lookupflag UseMarkFilteringSet {above};\n{body}}} ccmp;\n"
+        )
     }
 
     /// Letters of which some joining forms are there and others are not.

@@ -267,6 +267,37 @@ fn a_ligature_with_a_suffix_alone_is_its_features() {
 }
 
 #[test]
+fn soft_dots_go_under_marks() {
+    let letters = [
+        "i",
+        "j",
+        "ı",
+        "uni0237",
+        "uni012F",
+        "uni0328",
+        "uni0323",
+        "acutecomb",
+    ];
+    let text = build(&letters).font.features;
+    for rule in [
+        "lookup parted {\n    sub uni012F by dotlessi uni0328;\n} parted;",
+        "    lookupflag UseMarkFilteringSet [acutecomb];\n    sub i' [acutecomb] by dotlessi;\n",
+        "    sub j' [acutecomb] by uni0237;\n",
+        "    sub uni012F' lookup parted [acutecomb];\n",
+    ] {
+        assert!(text.contains(rule), "{text}");
+    }
+    for without in [
+        &["i", "ı"][..],
+        &["i", "acutecomb"],
+        &["i", "ı", "uni0323", "uni0651"],
+    ] {
+        let text = build(without).font.features;
+        assert!(!text.contains("ccmp"), "{without:?}: {text}");
+    }
+}
+
+#[test]
 fn a_form_stands_in_for_a_missing_letter() {
     let font = build(&["beh-ar.fina", "beh-ar.init", "beh-ar.init.ss01"]).font;
     assert_eq!(font.glyph("beh-ar.fina").unwrap().codepoints, ['\u{628}']);
