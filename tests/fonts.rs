@@ -1,7 +1,7 @@
 //! Written fonts, read back by two independent readers and set by a shaper.
 
 use crate::common::desk::Desk;
-use crate::common::read::{face, set, set_with, skrifa_outline, ttf_parser_outline};
+use crate::common::read::{face, placed, set, set_with, skrifa_outline, ttf_parser_outline};
 use khatt::assemble::{self, Drawn};
 use khatt::quadratic::Method;
 use khatt::types::{Files, Font, Info, Label, Outline};
@@ -246,6 +246,46 @@ fn ligatures_and_small_capitals_are_found_in_text() {
     assert_eq!(set(&bytes, "fi"), ["f_i"]);
     let small = set_with(&bytes, "fi", &["smcp"]);
     assert_eq!(small, ["f.smcp", "i.smcp"]);
+}
+
+#[test]
+fn marks_stand_on_those_of_their_side_and_soft_dots_go() {
+    let square = [0.0, 0.0, 100.0, 100.0];
+    let all = [
+        ("beh-ar", [0.0, 0.0, 400.0, 200.0]),
+        ("shadda-ar", [0.0, 300.0, 100.0, 400.0]),
+        ("kasra-ar", [0.0, -200.0, 100.0, -100.0]),
+        ("uni06E2", [0.0, 300.0, 100.0, 400.0]),
+        ("i", [0.0, 0.0, 100.0, 600.0]),
+        ("j", [0.0, -200.0, 100.0, 600.0]),
+        ("dotlessi", square),
+        ("uni0237", square),
+        ("uni012F", square),
+        ("uni0328", [0.0, -100.0, 50.0, 0.0]),
+        ("uni0323", [0.0, -200.0, 100.0, -100.0]),
+        ("acutecomb", [0.0, 600.0, 100.0, 700.0]),
+    ];
+    let font = boxes(&all);
+    for format in ["ttf", "otf"] {
+        let bytes = single(&font, format);
+        for (text, glyphs) in [
+            ("j\u{301}", &["uni0237", "acutecomb"][..]),
+            ("i\u{323}\u{301}", &["dotlessi", "uni0323", "acutecomb"]),
+            ("į\u{301}", &["dotlessi", "uni0328", "acutecomb"]),
+            ("ij", &["i", "j"]),
+        ] {
+            assert_eq!(set(&bytes, text), glyphs, "{format} {text}");
+        }
+        let name = |id: usize| font.glyphs()[id].name.as_str();
+        let placed = placed(&bytes, "ب\u{651}\u{650}\u{6e2}");
+        let height = |mark: &str| placed.iter().find(|g| name(g.0) == mark).map(|g| g.3);
+        let (low, high) = (height("shadda-ar"), height("uni06E2"));
+        assert_eq!(
+            high.zip(low).map(|(high, low)| high - low),
+            Some(140),
+            "{placed:?}"
+        );
+    }
 }
 
 #[test]

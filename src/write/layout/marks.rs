@@ -122,7 +122,8 @@ impl<'a> Marks<'a> {
                 let rules: String = glyphs.filter_map(|(g, _)| rule(g)).collect();
                 if !rules.is_empty() {
                     let label = format!("{tag}_{}_{label}", carrier.word());
-                    body += &format!("    lookup {label} {{\n{rules}    }} {label};\n");
+                    let flag = self.filter(name, carrier);
+                    body += &format!("    lookup {label} {{\n{flag}{rules}    }} {label};\n");
                 }
             }
         }
@@ -131,6 +132,27 @@ impl<'a> Marks<'a> {
         } else {
             format!("\nfeature {tag} {{\n{body}}} {tag};\n")
         }
+    }
+
+    /// Where marks carry marks, those of other anchors are passed over: one above does not stand on one below.
+    fn filter(&self, anchor: &str, carrier: Class) -> String {
+        if carrier != Class::Mark {
+            return String::new();
+        }
+        let has = |g: &Glyph| {
+            g.anchors
+                .iter()
+                .any(|a| a.name.strip_prefix('_').unwrap_or(&a.name) == anchor)
+        };
+        let marks = self
+            .classed
+            .iter()
+            .filter(|(g, class)| *class == Class::Mark && has(g));
+        let names: Vec<&str> = marks.map(|(g, _)| g.name.as_str()).collect();
+        format!(
+            "        lookupflag UseMarkFilteringSet [{}];\n",
+            names.join(" ")
+        )
     }
 
     pub(super) fn definitions(&self) -> String {

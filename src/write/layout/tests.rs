@@ -111,6 +111,53 @@ fn a_feature_file_that_stands_alone_stands_beside_ours() {
     assert!(joined.contains("feature ss01"), "{joined}");
 }
 
+/// The font with anchors on these glyphs, by glyph.
+fn anchored(font: &Font, anchors: &[(&str, &str)]) -> Font {
+    font.map_glyphs(|glyph| {
+        let own = anchors
+            .iter()
+            .filter(|(name, _)| *name == glyph.name.as_str());
+        let own = own.map(|(_, anchor)| Anchor {
+            name: (*anchor).to_owned(),
+            at: Point::ZERO,
+        });
+        Glyph {
+            anchors: own.collect(),
+            ..glyph.clone()
+        }
+    })
+}
+
+#[test]
+fn marks_pass_over_those_of_other_anchors() {
+    let marks = [
+        ("beh", Some('ب')),
+        ("shadda", Some('\u{651}')),
+        ("kasra", Some('\u{650}')),
+    ];
+    let anchors = [
+        ("beh", "top"),
+        ("shadda", "_top"),
+        ("shadda", "top"),
+        ("kasra", "_bottom"),
+        ("kasra", "bottom"),
+    ];
+    let font = anchored(&font(&marks, ""), &anchors);
+    let text = text(&font);
+    for (anchor, mark) in [("top", "shadda"), ("bottom", "kasra")] {
+        let lookup = format!(
+            "lookup mkmk_mark_{anchor} {{\n        lookupflag UseMarkFilteringSet [{mark}];\n"
+        );
+        assert!(text.contains(&lookup), "{text}");
+    }
+    assert!(
+        text.contains("lookup mark_base_top {\n        pos base"),
+        "{text}"
+    );
+    let gdef = compile(&font).unwrap().gdef.unwrap();
+    assert!(gdef.mark_glyph_sets_def.is_some());
+}
+
 #[test]
 fn numbers_that_no_table_holds_are_errors() {
     let mut kerned = font(&[("a", Some('a'))], "");
