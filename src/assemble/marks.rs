@@ -20,8 +20,8 @@ const COLUMN: f64 = 0.1;
 /// Samples on a segment when a column's height is taken.
 const SAMPLES: u32 = 16;
 
-/// Tatweel carries marks though it is no letter.
-const TATWEEL: char = '\u{640}';
+/// What carries marks though it is no letter: tatweel, and the dotted circle that shows a mark alone.
+const CARRIERS: [char; 2] = ['\u{640}', '\u{25CC}'];
 
 /// Where a mark goes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -65,7 +65,7 @@ pub(super) fn of_draft(draft: &Draft, em: f64) -> Vec<Anchor> {
     let Some(ink) = draft.outline.bounds() else {
         return Vec::new();
     };
-    let carries = |c: &char| c.is_alphabetic() || *c == TATWEEL;
+    let carries = |c: &char| c.is_alphabetic() || CARRIERS.contains(c);
     if draft.is_mark() {
         let place = draft.id.chars.first().and_then(|&c| place(c));
         return place.map_or_else(Vec::new, |p| of_mark(p, ink, em));
@@ -150,6 +150,21 @@ fn heights(draft: &Draft, x: f64, half: f64) -> Option<(f64, f64)> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use kurbo::Shape;
+
+    #[test]
+    fn a_dotted_circle_carries_marks() {
+        let circle = Rect::new(0.0, 100.0, 400.0, 500.0).to_path(0.1);
+        for (label, carries) in [("uni25CC", true), ("uni0640", true), ("plus", false)] {
+            let anchors = of_draft(&Draft::drawn(label, vec![circle.clone()]), 1000.0);
+            let names: Vec<&str> = anchors.iter().map(|a| a.name.as_str()).collect();
+            assert_eq!(
+                names,
+                if carries { &["top", "bottom"][..] } else { &[] },
+                "{label}"
+            );
+        }
+    }
 
     #[test]
     fn marks_know_their_side() {

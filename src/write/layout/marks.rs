@@ -2,6 +2,7 @@
 
 use crate::types::{Anchor, Font, Glyph, label};
 use std::collections::{BTreeMap, BTreeSet};
+use unicode_normalization::char::canonical_combining_class;
 
 /// The class of a glyph in GDEF.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -22,10 +23,13 @@ impl Class {
     }
 }
 
-/// A glyph's class, as its anchors tell it: none for one that has none.
+/// A glyph's class, as its anchors tell it: none for one that has none. What only stands for combining characters is a
+/// mark without them, too.
 pub(in crate::write) fn class(glyph: &Glyph) -> Option<Class> {
     let any = |is: &dyn Fn(&str) -> bool| glyph.anchors.iter().any(|a| is(&a.name));
-    if any(&|n| n.starts_with('_')) {
+    let combines = |c: &char| canonical_combining_class(*c) != 0;
+    let is_combining = !glyph.codepoints.is_empty() && glyph.codepoints.iter().all(combines);
+    if is_combining || any(&|n| n.starts_with('_')) {
         Some(Class::Mark)
     } else if any(&|n| part(n).is_some()) {
         Some(Class::Ligature)
@@ -97,9 +101,9 @@ impl<'a> Marks<'a> {
         Self { attaching, classed }
     }
 
-    /// Whether any glyph attaches to others.
-    pub(super) fn attach(&self) -> bool {
-        !self.attaching.is_empty()
+    /// Whether there are any, attaching to others or not.
+    pub(super) fn are_there(&self) -> bool {
+        self.classed.iter().any(|(_, class)| *class == Class::Mark)
     }
 
     pub(super) fn classes(&self) -> String {

@@ -38,7 +38,7 @@ pub fn text(font: &Font) -> String {
         out += &marks::cursive(font);
     }
     let marks = Marks::of(font);
-    if marks.attach() {
+    if marks.are_there() {
         out += &marks.classes();
         if !own.has_feature("mark") {
             out += &marks.feature("mark", &[Class::Base, Class::Ligature]);

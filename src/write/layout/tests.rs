@@ -159,6 +159,22 @@ fn marks_pass_over_those_of_other_anchors() {
 }
 
 #[test]
+fn a_combining_character_is_a_mark_without_anchors_too() {
+    for (anchors, bases) in [(&[][..], ""), (&[("a", "exit")], "[a]")] {
+        let font = anchored(
+            &font(&[("a", Some('a')), ("uni0338", Some('\u{338}'))], ""),
+            anchors,
+        );
+        let text = text(&font);
+        assert!(
+            text.contains(&format!("GlyphClassDef {bases}, , [uni0338], ;")),
+            "{text}"
+        );
+        assert!(compile(&font).is_ok(), "{text}");
+    }
+}
+
+#[test]
 fn numbers_that_no_table_holds_are_errors() {
     let mut kerned = font(&[("a", Some('a'))], "");
     kern(&mut kerned, &[("a", "a", -40000.0)]);
