@@ -131,6 +131,20 @@ impl Info {
         }
     }
 
+    /// Height and thickness of the line that strikes text out, font units. Small letters tell its height, or capitals; where none is drawn it
+    /// has the place that it has in most Arabic fonts.
+    pub(crate) fn strikeout(&self) -> (f64, f64) {
+        const SHARES: (f64, f64) = (0.26, 0.05);
+        let em = f64::from(self.units_per_em);
+        let letters = self.metrics.x_height.max(0.7 * self.metrics.cap_height);
+        let height = if letters > 0.0 {
+            0.6 * letters
+        } else {
+            SHARES.0 * em
+        };
+        (height, SHARES.1 * em)
+    }
+
     /// The PostScript name: printable ASCII without brackets, slashes, percent and space, 63 at most.
     pub(crate) fn postscript_name(&self) -> String {
         let keep = |text: &str| -> String {
@@ -303,6 +317,23 @@ impl Font {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn text_is_struck_out_through_its_letters() {
+        for (x_height, cap_height, height) in [
+            (500.0, 700.0, 300.0),
+            (0.0, 700.0, 294.0),
+            (0.0, 0.0, 260.0),
+        ] {
+            let mut info = Info::default();
+            (info.metrics.x_height, info.metrics.cap_height) = (x_height, cap_height);
+            assert!(
+                (info.strikeout().0 - height).abs() < 1e-6,
+                "{:?}",
+                info.strikeout()
+            );
+        }
+    }
 
     #[test]
     fn postscript_names_are_legal() {

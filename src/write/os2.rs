@@ -89,8 +89,6 @@ const CODE_PAGES: &[(char, u32)] = &[
 const SCRIPT_SIZE: (f64, f64) = (0.65, 0.6);
 const SUBSCRIPT_DROP: f64 = 0.075;
 const SUPERSCRIPT_RISE: f64 = 0.35;
-/// Thickness of the line that strikes text out, part of the em.
-const STRIKEOUT: f64 = 0.05;
 
 /// The table.
 pub(super) fn table(
@@ -103,6 +101,7 @@ pub(super) fn table(
     let part = |share: f64| to_i16(share * em, || "a part of the em".to_owned());
     let m = info.metrics;
     let height = |v: f64, what: &str| to_i16(v, || what.to_owned());
+    let strikeout = info.strikeout();
     let all = around(extents);
     let chars: BTreeSet<char> = font
         .glyphs()
@@ -120,8 +119,8 @@ pub(super) fn table(
         y_superscript_x_size: part(SCRIPT_SIZE.0)?,
         y_superscript_y_size: part(SCRIPT_SIZE.1)?,
         y_superscript_y_offset: part(SUPERSCRIPT_RISE)?,
-        y_strikeout_size: part(STRIKEOUT)?,
-        y_strikeout_position: height(0.6 * m.x_height.max(m.cap_height * 0.7), "the strikeout")?,
+        y_strikeout_size: height(strikeout.1, "the strikeout")?,
+        y_strikeout_position: height(strikeout.0, "the strikeout")?,
         ul_unicode_range_1: ranges[0],
         ul_unicode_range_2: ranges[1],
         ul_unicode_range_3: ranges[2],
