@@ -131,7 +131,14 @@ impl Info {
         }
     }
 
-    /// Height and thickness of the line that strikes text out, font units. Small letters tell its height, or capitals; where none is drawn it
+    /// Height of the underline's upper edge and the line's thickness, font units: what most text fonts have.
+    pub(crate) fn underline(&self) -> (f64, f64) {
+        const SHARES: (f64, f64) = (-0.1, 0.05);
+        let em = f64::from(self.units_per_em);
+        (SHARES.0 * em, SHARES.1 * em)
+    }
+
+    /// The same of the line that strikes text out. Small letters tell its height, or capitals; where none is drawn it
     /// has the place that it has in most Arabic fonts.
     pub(crate) fn strikeout(&self) -> (f64, f64) {
         const SHARES: (f64, f64) = (0.26, 0.05);

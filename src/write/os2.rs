@@ -5,6 +5,7 @@ use super::numbers::{around, to_i16, to_u16};
 use crate::types::{Font, Info};
 use kurbo::Rect;
 use std::collections::BTreeSet;
+use write_fonts::read::{FontData, FontRead};
 use write_fonts::tables::os2::{Os2, SelectionFlags};
 use write_fonts::types::Tag;
 
@@ -89,6 +90,12 @@ const CODE_PAGES: &[(char, u32)] = &[
 const SCRIPT_SIZE: (f64, f64) = (0.65, 0.6);
 const SUBSCRIPT_DROP: f64 = 0.075;
 const SUPERSCRIPT_RISE: f64 = 0.35;
+
+/// The table that came with the font, where it did.
+pub(super) fn carried(font: &Font) -> Option<Os2> {
+    let table = font.carried.get(b"OS/2")?;
+    Os2::read(FontData::new(table)).ok()
+}
 
 /// The table.
 pub(super) fn table(

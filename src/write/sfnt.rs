@@ -20,9 +20,6 @@ use write_fonts::types::{FWord, Fixed, LongDateTime, Tag, UfWord, Version16Dot16
 use write_fonts::validate::Validate;
 use write_fonts::{FontBuilder, FontWrite, dump_table};
 
-/// Depth and thickness of the underline, parts of the em: what most text fonts have.
-const UNDERLINE: (f64, f64) = (-0.1, 0.05);
-
 /// A font file in the making: everything but the outlines.
 pub(super) struct Common {
     pub(super) head: Head,
@@ -253,8 +250,18 @@ fn description(info: &Info) -> Head {
 /// A table of names numbers them from behind the 258 of every Macintosh font, in 16 bits.
 const NAMED: usize = (1 << 16) - 258;
 
+/// Height of the underline's upper edge and the line's thickness, font units.
+pub(super) fn underline(font: &Font) -> (f64, f64) {
+    let own = carried::<StoredPost<'_>>(font, b"post");
+    let own = own.map(|own| (own.underline_position(), own.underline_thickness()));
+    let units = |v: FWord| f64::from(v.to_i16());
+    own.map_or_else(
+        || font.info.underline(),
+        |(height, thick)| (units(height), units(thick)),
+    )
+}
+
 fn post(font: &Font) -> Result<Post, WriteError> {
-    let em = f64::from(font.info.units_per_em);
     let names = || font.glyphs().iter().map(|g| g.name.as_str());
     let names = if font.glyphs().len() <= NAMED {
         Post::new_v2(names())
@@ -264,21 +271,23 @@ fn post(font: &Font) -> Result<Post, WriteError> {
             ..Post::default()
         }
     };
-    if let Some(own) = carried::<StoredPost<'_>>(font, b"post") {
-        return Ok(Post {
+    let word = |v: f64| to_i16(v, || "the underline".to_owned()).map(FWord::new);
+    let underline = underline(font);
+    let names = Post {
+        underline_position: word(underline.0)?,
+        underline_thickness: word(underline.1)?,
+        ..names
+    };
+    Ok(match carried::<StoredPost<'_>>(font, b"post") {
+        Some(own) => Post {
             italic_angle: own.italic_angle(),
-            underline_position: own.underline_position(),
-            underline_thickness: own.underline_thickness(),
             is_fixed_pitch: own.is_fixed_pitch(),
             ..names
-        });
-    }
-    let word = |v: f64| to_i16(v, || "the underline".to_owned()).map(FWord::new);
-    Ok(Post {
-        italic_angle: Fixed::from_f64(font.info.italic_angle),
-        underline_position: word(UNDERLINE.0 * em)?,
-        underline_thickness: word(UNDERLINE.1 * em)?,
-        ..names
+        },
+        None => Post {
+            italic_angle: Fixed::from_f64(font.info.italic_angle),
+            ..names
+        },
     })
 }
 

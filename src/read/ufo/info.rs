@@ -125,6 +125,11 @@ pub(super) fn unread(source: &norad::FontInfo, info: &Info) -> Option<String> {
         "styleMapStyleName" => is(v, &style.linked.to_lowercase()),
         "postscriptFontName" => is(v, &info.postscript_name()),
         "openTypeOS2VendorID" => is(v, &String::from_utf8_lossy(&info.vendor_id)),
+        "postscriptUnderlinePosition" => near(v, info.underline().0),
+        "postscriptUnderlineThickness" => near(v, info.underline().1),
+        "openTypeOS2StrikeoutPosition" => near(v, info.strikeout().0),
+        "openTypeOS2StrikeoutSize" => near(v, info.strikeout().1),
+        "openTypeOS2Type" => v.as_array().is_some_and(Vec::is_empty),
         "openTypeOS2Selection" => *v == Value::Array(vec![USE_TYPO_METRICS.into()]),
         key => READ.contains(&key),
     };

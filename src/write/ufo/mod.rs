@@ -9,12 +9,13 @@ pub(super) mod states;
 
 use super::WriteError;
 use super::colour::FOREGROUND;
-use super::layout;
+use super::sfnt::underline;
+use super::{layout, os2};
 use crate::numeric::angles::angle;
 use crate::types::formats::{
     CATEGORIES, COLOUR_KEYS, GLYPH_ORDER, KERNING_GROUPS, UFO_DATE, USE_TYPO_METRICS,
 };
-use crate::types::{Files, Font, Glyph, Info, Layer};
+use crate::types::{Files, Font, Glyph, Layer};
 use chrono::DateTime;
 use files::{bytes, failed};
 use kurbo::{BezPath, PathEl, Point, Vec2};
@@ -38,7 +39,7 @@ fn name(text: &str) -> Result<norad::Name, WriteError> {
 
 fn convert(font: &Font) -> Result<norad::Font, WriteError> {
     let mut ufo = norad::Font::new();
-    ufo.font_info = info(&font.info);
+    ufo.font_info = info(font);
     ufo.features = font.features.clone();
     for glyph in font.glyphs() {
         let glyph = convert_glyph(glyph)?;
@@ -126,8 +127,16 @@ fn category(glyph: &Glyph) -> Option<(String, Value)> {
     Some((glyph.name.to_string(), Value::from(class.word())))
 }
 
-fn info(info: &Info) -> FontInfo {
+fn info(font: &Font) -> FontInfo {
+    let info = &font.info;
     let m = info.metrics;
+    // compilers that are told nothing restrict embedding, and have lines of their own
+    let os2 = os2::carried(font);
+    let embedding = os2.as_ref().map_or(0, |own| own.fs_type);
+    let embedding = (0..16_u8).filter(|bit| embedding >> bit & 1 == 1).collect();
+    let strikeout = os2.map(|own| (own.y_strikeout_position.into(), own.y_strikeout_size.into()));
+    let strikeout = strikeout.unwrap_or_else(|| info.strikeout());
+    let underline = underline(font);
     let style = info.linked_style();
     let whole = |v: f64| super::numbers::to_i16(v, String::new).ok().map(i32::from);
     FontInfo {
@@ -157,6 +166,11 @@ fn info(info: &Info) -> FontInfo {
         open_type_os2_typo_line_gap: whole(m.line_gap),
         open_type_os2_weight_class: Some(u32::from(info.weight)),
         open_type_os2_selection: Some(vec![USE_TYPO_METRICS]),
+        open_type_os2_type: Some(embedding),
+        open_type_os2_strikeout_position: whole(strikeout.0),
+        open_type_os2_strikeout_size: whole(strikeout.1),
+        postscript_underline_position: Some(underline.0),
+        postscript_underline_thickness: Some(underline.1),
         open_type_os2_vendor_id: Some(String::from_utf8_lossy(&info.vendor_id).into_owned()),
         open_type_head_created: Some(date(info.created)),
         copyright: info.copyright.clone(),
@@ -269,6 +283,40 @@ fn mark_smooth(points: &mut [ContourPoint]) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::types::{Info, Name};
+    use write_fonts::dump_table;
+    use write_fonts::tables::os2::Os2;
+
+    #[test]
+    fn compilers_are_told_of_embedding_and_of_lines() {
+        let notdef = Glyph::new(Name::notdef(), Vec::new(), 500.0);
+        let mut font = Font::new(Info::default(), vec![notdef]).unwrap();
+        let told = |font: &Font| {
+            let info = info(font);
+            let strikeout = (
+                info.open_type_os2_strikeout_position,
+                info.open_type_os2_strikeout_size,
+            );
+            let underline = (
+                info.postscript_underline_position,
+                info.postscript_underline_thickness,
+            );
+            (info.open_type_os2_type, strikeout, underline)
+        };
+        let lines = ((Some(260), Some(50)), (Some(-100.0), Some(50.0)));
+        assert_eq!(told(&font), (Some(Vec::new()), lines.0, lines.1));
+        let own = Os2 {
+            fs_type: 0b1_0000_0100,
+            y_strikeout_position: 310,
+            y_strikeout_size: 20,
+            ..Os2::default()
+        };
+        font.carried.insert(*b"OS/2", dump_table(&own).unwrap());
+        assert_eq!(
+            told(&font),
+            (Some(vec![2, 8]), (Some(310), Some(20)), lines.1)
+        );
+    }
 
     #[test]
     fn dates() {
