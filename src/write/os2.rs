@@ -73,9 +73,11 @@ const RANGES: &[(u32, u32, u32)] = &[
     (0x10000, 0x10_FFFF, 57),
 ];
 
-/// A character that only fonts for a code page have, and the page's bit in ulCodePageRange1.
+/// Characters of which a font for a code page has one that others lack, and the page's bit in ulCodePageRange1. Of
+/// Western languages þ alone is in no other page, but it cannot be composed.
 const CODE_PAGES: &[(char, u32)] = &[
     ('\u{de}', 0),
+    ('\u{d1}', 0),
     ('\u{13d}', 1),
     ('\u{411}', 2),
     ('\u{386}', 3),
@@ -213,6 +215,8 @@ mod tests {
         assert_eq!(unicode_ranges(&chars), [1 | 1 << 13, 0, 0, 0]);
         assert_eq!(code_pages(&BTreeSet::from(['\u{631}'])), 1 << 6);
         assert_eq!(code_pages(&BTreeSet::new()), 1);
+        // what is composed of letters and accents has no þ
+        assert_eq!(code_pages(&BTreeSet::from(['Ñ', 'Ľ'])), 1 | 1 << 1);
         assert_eq!(average(&[0, 100, 201]), 151);
     }
 }
