@@ -91,6 +91,7 @@ pub fn build(project: &Project, world: World<'_>) -> Result<Built, Vec<Problem>>
         anchors: project.anchors.clone(),
         inks: palette::of(project, &pages),
         words,
+        heights: project.heights(),
         ..project.spacing.clone()
     };
     let mut assembled = assemble::font(drawn, info, &options).map_err(|e| vec![e.into()])?;

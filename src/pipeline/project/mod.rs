@@ -12,6 +12,7 @@ pub use parse::ProjectError;
 pub use sheet::{Content, Labels, Layout, SheetTable};
 
 use super::{Repeated, picture};
+use crate::assemble::metrics::Heights;
 use crate::write::{FORMATS, Format};
 use crate::{assemble, quadratic, recognise, template};
 use serde::{Deserialize, Serialize};
@@ -69,6 +70,20 @@ pub struct Project {
 }
 
 impl Project {
+    /// Vertical measures by hand: those of the whole font, else those by which a page says how large its letters are.
+    pub(crate) fn heights(&self) -> Heights {
+        let em = f64::from(self.font.units_per_em);
+        let given = &self.spacing.heights;
+        let said = |of: fn(&SheetTable) -> Option<f64>| {
+            self.sheets.iter().find_map(of).map(|units| units / em)
+        };
+        Heights {
+            x_height: given.x_height.or_else(|| said(|sheet| sheet.x_height)),
+            cap_height: given.cap_height.or_else(|| said(|sheet| sheet.cap_height)),
+            ..given.clone()
+        }
+    }
+
     /// The files that are read, relative to the project file.
     pub fn inputs(&self) -> impl Iterator<Item = &PathBuf> {
         let pages = self.sheets.iter().flat_map(|sheet| {

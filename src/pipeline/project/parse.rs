@@ -96,6 +96,20 @@ ttf = "build/KhattLatin.ttf"
     }
 
     #[test]
+    fn the_height_that_scales_a_page_is_the_fonts() {
+        let page = GOOD.replace("pixels_per_em = 504", "x_height = 400");
+        let font = format!("{page}[spacing.heights]\nx_height = 0.45\ncap_height = 0.7\n");
+        for (text, x, cap) in [
+            (GOOD, None, None),
+            (&page, Some(0.4), None),
+            (&font, Some(0.45), Some(0.7)),
+        ] {
+            let heights = Project::parse(text).unwrap().heights();
+            assert_eq!((heights.x_height, heights.cap_height), (x, cap));
+        }
+    }
+
+    #[test]
     fn lengths_of_fonts_have_ranges() {
         for (table, option, value) in [
             ("spacing.joining", "limit", "-1.0"),
