@@ -124,16 +124,19 @@ pub(super) fn add(
 
 /// What a large set lacks: the parts that are missing, or letters that have none, those of most letters first. Most
 /// fonts lack many of its letters on purpose.
-fn summary(set: &str, left: &[(char, Option<char>)]) -> Option<Note> {
+fn summary(set: &str, left: &[(char, Option<Lack>)]) -> Option<Note> {
     /// Parts that are named.
     const TOLD: usize = 12;
-    let mut parts: BTreeMap<char, usize> = BTreeMap::new();
+    let mut parts: BTreeMap<Lack, usize> = BTreeMap::new();
     for &(letter, part) in left {
-        *parts.entry(part.unwrap_or(letter)).or_default() += 1;
+        *parts.entry(part.unwrap_or(Lack::Part(letter))).or_default() += 1;
     }
-    let mut parts: Vec<(char, usize)> = parts.into_iter().collect();
+    let mut parts: Vec<(Lack, usize)> = parts.into_iter().collect();
     parts.sort_by_key(|&(_, letters)| Reverse(letters));
-    let part = |&(part, letters): &(char, usize)| format!("{} for {letters}", code(part));
+    let part = |&(lack, letters): &(Lack, usize)| match lack {
+        Lack::Part(part) => format!("{} for {letters}", code(part)),
+        Lack::Place(part) => format!("a place for {} in {letters}", code(part)),
+    };
     let mut told: Vec<String> = parts.iter().take(TOLD).map(part).collect();
     if parts.len() > TOLD {
         told.push(format!("{} more", parts.len() - TOLD));
@@ -159,9 +162,13 @@ pub(super) fn bodies(letter: char, form: Form) -> Vec<char> {
     recipes::recipe(letter, form).map_or_else(Vec::new, |r| r.bodies)
 }
 
-fn note(letter: char, missing: Option<char>) -> Note {
+fn note(letter: char, missing: Option<Lack>) -> Note {
     let message = match missing {
-        Some(part) => format!(
+        Some(Lack::Place(part)) => format!(
+            "neither drawn nor composed: no rule says where its part {} stands; draw the whole letter",
+            code(part)
+        ),
+        Some(Lack::Part(part)) => format!(
             "neither drawn nor composed: its part {} is missing; draw it, or the whole letter",
             code(part)
         ),
@@ -171,6 +178,15 @@ fn note(letter: char, missing: Option<char>) -> Note {
         glyph: names::name_of(&[letter]),
         message,
     }
+}
+
+/// What a letter cannot be composed for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Lack {
+    /// A part that nobody drew.
+    Part(char),
+    /// Where a mark stands that was drawn.
+    Place(char),
 }
 
 /// Drafts in the making.
@@ -189,8 +205,8 @@ struct Sign {
 }
 
 impl Work<'_> {
-    /// Composes a letter in every form that is missing and can be had; the first part that is not there.
-    fn letter(&mut self, letter: char) -> Option<char> {
+    /// Composes a letter in every form that is missing and can be had; what is lacked first.
+    fn letter(&mut self, letter: char) -> Option<Lack> {
         let mut missing = None;
         for &form in recipes::forms(letter) {
             if self.find(letter, form).is_some() {
@@ -201,7 +217,7 @@ impl Work<'_> {
             };
             match self.compose(&[letter], form, &recipe) {
                 Ok(draft) => self.drafts.extend(draft),
-                Err(part) => missing = missing.or(Some(part)),
+                Err(lack) => missing = missing.or(Some(lack)),
             }
         }
         missing
@@ -242,20 +258,21 @@ impl Work<'_> {
         super::find(self.drafts, &[letter], form)
     }
 
-    /// A letter of its parts, or the part that is missing.
+    /// A letter of its parts, or what it lacks.
     fn compose(
         &mut self,
         chars: &[char],
         form: Form,
         recipe: &Recipe,
-    ) -> Result<Option<Draft>, char> {
+    ) -> Result<Option<Draft>, Lack> {
         let loses_dot = recipe.signs.first().and_then(|&m| marks::place(m)) == Some(Place::Top);
         let body = recipe.bodies.iter().find_map(|&b| match b {
             'i' if loses_dot => self.dotless('i', 'ı'),
             'j' if loses_dot => self.dotless('j', 'ȷ'),
             _ => self.find(b, form),
         });
-        let body = body.ok_or_else(|| recipe.bodies.first().copied().unwrap_or_default())?;
+        let body =
+            body.ok_or_else(|| Lack::Part(recipe.bodies.first().copied().unwrap_or_default()))?;
         self.signed(body, chars, form, &recipe.signs)
     }
 
@@ -266,7 +283,7 @@ impl Work<'_> {
         chars: &[char],
         form: Form,
         signs: &[char],
-    ) -> Result<Option<Draft>, char> {
+    ) -> Result<Option<Draft>, Lack> {
         let label = Label(names::name_in(chars, form));
         let (Ok(id), Some(base)) = (names::identify(&label), self.drafts.get(body)) else {
             return Ok(None);
@@ -277,7 +294,15 @@ impl Work<'_> {
                 Some(dots) => self.dots(base, dots),
                 None => self.mark(base, sign, &above),
             };
-            above.push(placed.ok_or(sign)?);
+            let is_drawn = || recipes::dots(sign).is_none() && self.find_mark(sign).is_some();
+            let lack = || {
+                if is_drawn() {
+                    Lack::Place(sign)
+                } else {
+                    Lack::Part(sign)
+                }
+            };
+            above.push(placed.ok_or_else(lack)?);
         }
         let mut parts = super::parts(self.drafts, body);
         parts.extend(above.iter().flat_map(|s| s.parts.iter().copied()));

@@ -1,5 +1,5 @@
 use super::super::{Assembled, Drawn, font};
-use super::Options;
+use super::{Lack, Options, summary};
 use crate::assemble;
 use crate::types::{Component, Font, Glyph, Info, Label, Outline};
 use kurbo::{BezPath, Rect, Shape};
@@ -156,6 +156,21 @@ fn a_missing_part_is_named() {
         of("uni06AF")
     );
     assert!(of("uni067E").is_empty());
+}
+
+#[test]
+fn a_mark_whose_place_is_not_known_is_not_called_missing() {
+    let o = drawn("o", &[[0.0, 0.0, 400.0, 500.0]]);
+    let horn = drawn("uni031B", &[[0.0, 450.0, 80.0, 600.0]]);
+    let notes = build(vec![o, horn], &["ơ"]).notes;
+    let told = "neither drawn nor composed: no rule says where its part horncmb (U+031B) stands; draw the whole letter";
+    assert_eq!(
+        notes.iter().map(|n| n.message.as_str()).collect::<Vec<_>>(),
+        [told]
+    );
+    let left = [('ơ', Some(Lack::Place('\u{31b}'))), ('ớ', None)];
+    let told = summary("latin", &left).unwrap().message;
+    assert!(told.contains("a place for horncmb (U+031B) in 1"), "{told}");
 }
 
 /// e, i and j with dots that are pieces, two accents, one of them a sign of its own.
