@@ -36,9 +36,12 @@ impl Designspace {
         let document = Files::single(made.document.into_bytes());
         staged::write(&[(self.output.clone(), document)], &self.masters)?;
         if !made.apart.is_empty() && !common.quiet {
+            let glyphs = match made.apart.len() {
+                1 => "1 glyph is".to_owned(),
+                count => format!("{count} glyphs are"),
+            };
             eprintln!(
-                "{} glyphs are not built alike, so that the axis is discrete: no font between the masters can be made",
-                made.apart.len()
+                "{glyphs} not built alike, so that the axis is discrete: no font between the masters can be made"
             );
             made.apart.iter().for_each(|line| eprintln!("  {line}"));
         }

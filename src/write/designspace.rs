@@ -8,6 +8,7 @@ use super::WriteError;
 use super::ufo::files::load;
 use crate::types::Files;
 use norad::designspace::{Axis, DesignSpaceDocument, Dimension, Instance, Source};
+use norad::fontinfo::StyleMapStyle;
 use norad::{Font, Glyph, PointType};
 use std::collections::BTreeSet;
 use thiserror::Error;
@@ -79,6 +80,14 @@ pub enum FamilyError {
         /// weight class of both
         weight: u32,
     },
+    /// One UFO is upright, the other leans.
+    #[error("{italic} is an italic and {upright} is none; give italics a designspace of their own")]
+    Slopes {
+        /// the upright one
+        upright: String,
+        /// the italic
+        italic: String,
+    },
     /// It cannot be written.
     #[error(transparent)]
     Write(#[from] WriteError),
@@ -91,6 +100,7 @@ struct Style<'a> {
     family: String,
     name: String,
     weight: u32,
+    is_italic: bool,
 }
 
 /// The designspace of a family's masters, from the lightest to the boldest.
@@ -156,7 +166,11 @@ impl<'a> Style<'a> {
         let (Some(family), Some(name), Some(weight)) = says else {
             return Err(FamilyError::Nameless(path.to_owned()));
         };
+        let linked = info.style_map_style_name.as_ref();
+        let is_linked =
+            linked.is_some_and(|s| matches!(s, StyleMapStyle::Italic | StyleMapStyle::BoldItalic));
         Ok(Self {
+            is_italic: is_linked || info.italic_angle.is_some_and(|angle| angle != 0.0),
             path,
             family: family.clone(),
             name: name.clone(),
@@ -175,6 +189,14 @@ impl<'a> Style<'a> {
                 second,
                 other: next.family.clone(),
             });
+        }
+        if self.is_italic != next.is_italic {
+            let (upright, italic) = if next.is_italic {
+                (first, second)
+            } else {
+                (second, first)
+            };
+            return Err(FamilyError::Slopes { upright, italic });
         }
         if self.weight == next.weight {
             return Err(FamilyError::Weights {
