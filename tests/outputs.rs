@@ -302,3 +302,21 @@ fn processors_with_fused_multiply_add_build_as_others_do() {
     let same = |(name, bytes): (&String, &Vec<u8>)| *bytes == desk.files("out")[name];
     assert!(built.iter().all(same), "other bytes");
 }
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_path_may_be_no_text_and_have_colons() {
+    use std::ffi::OsStr;
+    use std::os::unix::ffi::OsStrExt;
+    let desk = Desk::letters();
+    let odd = OsStr::from_bytes(b"12:30 \xff.toml");
+    fs::copy(desk.path("font.toml"), desk.path("").join(odd)).expect("a project");
+    let mut command = desk.command(&["build", "--depfile", "out/a.d", "--sarif", "out/a.sarif"]);
+    let out = command.arg(odd).output().expect("the program runs");
+    assert!(out.status.success(), "{out:?}");
+    let rule = desk.read("out/a.d");
+    assert!(
+        String::from_utf8_lossy(&rule).contains(" 12\\:30\\ "),
+        "{rule:?}"
+    );
+}

@@ -211,7 +211,8 @@ fn anchors_kerning_and_features_may_be_set_by_hand() {
     let features = |text: &str| desk.write("own.fea", text);
     let own = "features = \"own.fea\"";
 
-    features("feature ss01 {\n    sub H by o;\n} ss01;\n");
+    // as editors on Windows begin a file
+    features("\u{feff}feature ss01 {\n    sub H by o;\n} ss01;\n");
     let more = "[anchors]\nH = { top = [50, 710] }\n[kerning]\n\"H o\" = -33\n";
     assert_eq!(build(own, more), (Some(0), String::new()));
     let ufo = norad::Font::load(desk.path("out/test.ufo")).expect("a UFO");

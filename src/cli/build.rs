@@ -219,11 +219,13 @@ impl Build {
     fn key(&self, opened: &Opened) -> Result<String, Failure> {
         let project = std::path::absolute(&self.project);
         let project = project.map_err(|e| Failure::at(self.project.display(), &e))?;
+        // a path need be no text
+        let named = |path: &Path| digest(path.as_os_str().as_encoded_bytes());
         let asked = json!([
-            project,
+            named(&project),
             opened.text(),
-            self.depfile,
-            self.sarif,
+            self.depfile.as_deref().map(named),
+            self.sarif.as_deref().map(named),
             self.locked,
             self.overwrite,
             self.report.timings,
@@ -318,12 +320,12 @@ fn per_decoding(times: &Times) -> Option<f64> {
     of(Stage::Load).map(|decoding| rest / decoding)
 }
 
-/// A rule for Make: its words have their spaces, `#` and `$` escaped.
+/// A rule for Make: its words have their spaces, colons, `#` and `$` escaped.
 fn rule<'a>(outputs: impl Iterator<Item = &'a Path>, inputs: &[PathBuf]) -> String {
     let word = |path: &Path| {
         let text = path.display().to_string();
         let text = text.replace(' ', "\\ ").replace('#', "\\#");
-        text.replace('$', "$$")
+        text.replace(':', "\\:").replace('$', "$$")
     };
     let outputs = outputs.map(word).collect::<Vec<_>>().join(" ");
     let inputs: Vec<String> = inputs.iter().map(|path| word(path)).collect();

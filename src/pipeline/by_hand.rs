@@ -37,8 +37,10 @@ pub(super) fn set(font: Font, project: &Project, world: World<'_>) -> Result<Fon
     if let Some(path) = &project.font.features {
         let bytes = world.file(path)?;
         let text = String::from_utf8_lossy(&bytes);
-        layout::check(&font, &path.display().to_string(), &text).map_err(|e| vec![e.into()])?;
-        font.features = layout::with_features(&font, &text);
+        // a byte order mark is no statement
+        let text = text.trim_start_matches('\u{feff}');
+        layout::check(&font, &path.display().to_string(), text).map_err(|e| vec![e.into()])?;
+        font.features = layout::with_features(&font, text);
     }
     Ok(font)
 }
