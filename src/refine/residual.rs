@@ -358,14 +358,12 @@ impl Residual<'_> {
     pub(super) fn shift(&self, p: Point) -> f64 {
         let w = self.seen.width();
         let ((cx, cy), [columns, rows]) = self.around(p, self.reach_px());
+        let across = self.bell(columns.start as f64 - cx);
         let (mut sum, mut total) = (0.0, 0.0);
         for (y, wy) in rows.clone().zip(self.bell(rows.start as f64 - cy)) {
             // a place outside the picture has none
             let row = self.off[y * w..(y + 1) * w].get(columns.clone());
-            let line = row
-                .into_iter()
-                .flatten()
-                .zip(self.bell(columns.start as f64 - cx));
+            let line = row.into_iter().flatten().zip(across.clone());
             let line = line.fold((0.0, 0.0), |(sum, total), (off, wx)| {
                 (sum + wx * f64::from(*off), total + wx)
             });
@@ -380,7 +378,7 @@ impl Residual<'_> {
     }
 
     /// Weights at distance `d`, `d` + 1, `d` + 2 … px of a place.
-    fn bell(&self, d: f64) -> impl Iterator<Item = f64> {
+    fn bell(&self, d: f64) -> impl Iterator<Item = f64> + Clone {
         let narrow = (self.spread * self.spread).recip();
         let first = libm::exp(-0.5 * d * d * narrow);
         // each is the one before it times what itself shrinks evenly
