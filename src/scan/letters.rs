@@ -3,6 +3,7 @@
 use crate::types::characters::spelled;
 use crate::types::{Form, Label};
 use unicode_normalization::UnicodeNormalization;
+use unicode_normalization::char::canonical_combining_class;
 
 /// Letters with a flat foot on the baseline, and the figures that never hang.
 const FLAT: &str = "12ABDEFHIKLMNPRTXYZfhiklmnrxzΑΒΓΔΕΗΙΚΛΜΝΠΡΤΧАБВГЕЖИКЛМНПРТХЧШгикмнптхчш";
@@ -97,6 +98,15 @@ pub(super) enum Pieces {
     Unknown,
 }
 
+/// On which side of its body a letter has its dots or its mark.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Side {
+    /// Above it alone.
+    Above,
+    /// Below it alone.
+    Below,
+}
+
 /// What letters are told apart by when they are measured together.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Kind {
@@ -143,6 +153,8 @@ pub(super) struct Shape {
     pub(super) head: Head,
     pub(super) kind: Kind,
     pub(super) pieces: Pieces,
+    /// Where its dots or its mark are, if all are on one side.
+    pub(super) side: Option<Side>,
     /// How many dots it has, where it has no other sign.
     pub(super) dots: usize,
     /// It has dots or a sign below.
@@ -177,6 +189,12 @@ impl Shape {
         };
         let dots = (1..).zip(DOTS).find(|(_, set)| plain && any(base, set));
         let dots = dots.map_or(0, |d| d.0);
+        let side_of = match pieces {
+            Pieces::DotAbove => Some(Side::Above),
+            Pieces::DotBelow => Some(Side::Below),
+            Pieces::Marked => letter.and_then(side_of_marks),
+            _ => None,
+        };
         let mark = letter.and_then(|c| c.nfd().nth(1));
         let below = any(mark, MARKS_BELOW) || plain && any(base, DOT_BELOW) || any(base, SIGNS);
         let full = letter.is_some_and(super::is_full);
@@ -220,6 +238,7 @@ impl Shape {
                 _ => Kind::Other,
             },
             pieces,
+            side: side_of,
             dots,
             joined,
             full,
@@ -243,9 +262,37 @@ impl Shape {
     }
 }
 
+/// On which side the marks of a letter lie, as Unicode parts them from it; `None` where there are none, or on both, or
+/// where the letter keeps a dot on the other side.
+fn side_of_marks(letter: char) -> Option<Side> {
+    let keeps_dot = letter.nfd().next().is_some_and(|c| DOT_ABOVE.contains(c));
+    let side = |mark| match canonical_combining_class(mark) {
+        202 | 220 if !keeps_dot => Some(Side::Below),
+        230 => Some(Side::Above),
+        _ => None,
+    };
+    let sides: Vec<Option<Side>> = letter.nfd().skip(1).map(side).collect();
+    let first = *sides.first()?;
+    first.filter(|_| sides.iter().all(|s| *s == first))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn labels_tell_on_which_side_dots_and_marks_are() {
+        let of = |s: &str| Shape::of(&Label(s.to_owned())).side;
+        for label in ["i", "uni0646.fina", "أ", "ئ.init", "é", "ǘ", "ĵ"] {
+            assert_eq!(of(label), Some(Side::Above), "{label}");
+        }
+        for label in ["ب", "jeem-ar.medi", "إ", "ç", "ạ", "question"] {
+            assert_eq!(of(label), Some(Side::Below), "{label}");
+        }
+        for label in ["ị", "ậ", "ڜ", "ك", "l", "uni06440627", "x.alt"] {
+            assert_eq!(of(label), None, "{label}");
+        }
+    }
 
     #[test]
     fn labels_tell_how_letters_stand() {

@@ -4,8 +4,9 @@ use super::{COMPACT, ENOUGH, LARGER, NEAR, SMALL, apart, groups, is_compact, is_
 use crate::numeric::median::median;
 use crate::scan::components::Component;
 use crate::scan::cut::{Layer, gap, largest};
-use crate::scan::letters::{Pieces, Shape};
+use crate::scan::letters::{Pieces, Shape, Side};
 use kurbo::Rect;
+use std::ptr;
 
 /// Dots are all that a letter has from this share of their usual area on: some are drawn smaller, or as one stroke.
 const WHOLE: f64 = 0.6;
@@ -86,20 +87,25 @@ fn rather(one: &Component, other: &Component, body: Rect) -> bool {
     times >= LARGER[0].0 || (times >= LARGER[1].0 && off(one) < off(other))
 }
 
-/// Whether a small piece lies apart under a letter that has its dots above it, or over one that has them below.
+/// Whether a small piece lies apart from its letter on the other side than its dots or its mark, or beside it.
+///
+/// Dots are not so far beside a letter, above or below; a mark may be, where it is the only piece.
 pub(super) fn opposite(c: &Component, shape: &Shape, parts: &[usize], all: &[Component]) -> bool {
+    let Some((side, (body, dots))) = shape.side.zip(dots(shape, parts, all)) else {
+        return false;
+    };
     let most = parts.iter().map(|&i| all[i].area).max().unwrap_or(0);
-    dots(shape, parts, all).is_some_and(|(body, dots)| {
-        let beyond = if shape.pieces == Pieces::DotAbove {
-            c.upright.y0 >= body.y1
-        } else {
-            c.upright.y1 <= body.y0
-        };
-        beyond
-            && !dots.is_empty()
-            && (c.area as f64) < SMALL * most as f64
-            && apart(c, parts, all, NEAR)
-    })
+    let at = c.upright;
+    let (beyond, level) = match side {
+        Side::Above => (at.y0 >= body.y1, at.y0 >= body.y0),
+        Side::Below => (at.y1 <= body.y0, at.y1 <= body.y1),
+    };
+    let off = (at.x0 - body.x1).max(body.x0 - at.x1);
+    let beside = level && off > at.size().max_side();
+    let has_others = dots.iter().any(|o| !ptr::eq(*o, c));
+    (has_others && (beyond || beside) || beside && shape.dots > 0)
+        && (c.area as f64) < SMALL * most as f64
+        && apart(c, parts, all, NEAR)
 }
 
 /// The usual area of a dot, px²: the median of those letters of one dot that have one piece where it may be.
@@ -116,24 +122,22 @@ pub(super) fn usual_dot(layer: &Layer, all: &[Component]) -> Option<f64> {
     median(areas.iter().copied()).filter(|_| areas.len() >= ENOUGH)
 }
 
-/// The box of a letter's body, and the pieces that lie on the side on which its name says that it has dots.
+/// The box of a letter's body, and the pieces that lie on the side on which its name says that it has dots or a mark.
 pub(super) fn dots<'a>(
     shape: &Shape,
     parts: &[usize],
     all: &'a [Component],
 ) -> Option<(Rect, Vec<&'a Component>)> {
-    let side = match shape.pieces {
-        Pieces::DotAbove => -1.0,
-        Pieces::DotBelow => 1.0,
-        _ => return None,
+    let down = match shape.side? {
+        Side::Above => -1.0,
+        Side::Below => 1.0,
     };
     let main = largest(all, parts)?;
     let body = all[main].upright;
     let rest = parts.iter().filter(|&&i| i != main).map(|&i| &all[i]);
     // dots that touch are one long piece, and pieces of the body lie beside it
     let long = if shape.dots > 1 { 2.0 } else { 1.0 };
-    let is_there = |o: &&Component| {
-        is_compact(o, long * COMPACT.0) && side * (o.centre.y - body.center().y) > 0.0
-    };
+    let may_be = |o: &Component| shape.pieces == Pieces::Marked || is_compact(o, long * COMPACT.0);
+    let is_there = |o: &&Component| may_be(o) && down * (o.centre.y - body.center().y) > 0.0;
     Some((body, rest.filter(is_there).collect()))
 }

@@ -17,7 +17,7 @@ pub(super) use small::{SMALL, groups};
 use super::{Layer, Reason, Slot, bounds, gap, largest};
 use crate::numeric::median::median;
 use crate::scan::components::Component;
-use crate::scan::letters::{Kind, Pieces};
+use crate::scan::letters::{Kind, Pieces, Shape};
 use dots::{Dots, opposite, surplus, usual_dot};
 use kurbo::{Rect, Vec2};
 use pieces::{is_scattered, one_of_many, strayed};
@@ -160,6 +160,7 @@ fn beside_letter(slot: &Slot, all: &[Component], usual: &Usual) -> Vec<usize> {
                     || astray(c, parts, all)
                     || is_surplus(c)
                     || opposite(c, &shape, parts, all)
+                    || blot_by_mark(c, &shape, (main, parts), all)
                     || !usual.with_specks
                         && shape.pieces == Pieces::Marked
                         && aside(c, (main, parts), all)
@@ -272,6 +273,20 @@ fn is_close(c: &Component, body: &Component) -> bool {
 /// Whether a compact piece is thicker than any piece of its letter's strokes could be.
 fn blot(c: &Component, body: &Component) -> bool {
     is_dot(c) && c.stroke() > BLOT * body.stroke()
+}
+
+/// The same of an Arabic letter that has another piece where its hamza or madda is, of strokes as thick as its own.
+fn blot_by_mark(
+    c: &Component,
+    shape: &Shape,
+    (body, parts): (&Component, &[usize]),
+    all: &[Component],
+) -> bool {
+    let marked = shape.kind == Kind::Arabic && shape.pieces == Pieces::Marked;
+    marked
+        && blot(c, body)
+        && dots::dots(shape, parts, all)
+            .is_some_and(|(_, signs)| signs.iter().any(|o| !blot(o, body)))
 }
 
 /// Whether a small compact piece lies outside a letter's body and clear of it: what a pen's lift parts from a stroke

@@ -394,3 +394,37 @@ fn dust_beside_a_grid_does_not_move_it() {
         assert_eq!(found, letters(&paper), "dust at {place}");
     }
 }
+
+/// The second letter's body lies from 206 to 212 and from 70 to 100.
+#[test]
+fn dots_and_marks_lie_where_names_say() {
+    let hamza = (202.0, 50.0, 16.0, 6.0);
+    let under = (202.0, 108.0, 16.0, 6.0);
+    for (name, sign, mote, kept) in [
+        // beside a letter whose dot is not drawn, and over it, though it is far to one side
+        ("i", None, (228.0, 84.0, 6.0, 6.0), false),
+        ("i", None, (214.0, 56.0, 6.0, 6.0), true),
+        ("ب", None, (190.0, 80.0, 6.0, 6.0), false),
+        // a mark may be beside its letter, where nothing else is
+        ("أ", None, (228.0, 84.0, 6.0, 6.0), true),
+        ("أ", Some(hamza), (228.0, 84.0, 6.0, 6.0), false),
+        ("أ", Some(hamza), (206.0, 108.0, 6.0, 6.0), false),
+        ("إ", Some(under), (206.0, 56.0, 6.0, 6.0), false),
+        ("é", Some(hamza), (206.0, 108.0, 6.0, 6.0), false),
+        // thicker than the strokes
+        ("أ", Some(hamza), (226.0, 48.0, 12.0, 12.0), false),
+        ("é", Some(hamza), (226.0, 48.0, 12.0, 12.0), true),
+    ] {
+        let mut paper = grid_page(0.0);
+        take_dot(&mut paper);
+        for (x, y, w, h) in sign.into_iter().chain([mote]) {
+            paper.bar(x, y + 20.0, w, h);
+        }
+        let names = NAMES.replacen('i', name, 1);
+        let cut = cut_page(&paper, &names, &options(Layout::Grid(4, 5))).unwrap();
+        let (x, y, w, h) = mote;
+        let found = cut.cells[1].in_sheet;
+        let seen = found.contains(Point::new(x + w / 2.0, y + 20.0 + h / 2.0));
+        assert_eq!(seen, kept, "{name}: {mote:?}: {found:?}");
+    }
+}
