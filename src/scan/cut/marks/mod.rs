@@ -153,7 +153,7 @@ fn beside_letter(slot: &Slot, all: &[Component], usual: &Usual) -> Vec<usize> {
                     || blot(c, main)
                     || apart(c, parts, all, 1.0)
                     || !usual.with_specks
-                        && (speck(c, main) || inner(c, main) && usual.stray.has_like(c))
+                        && (speck(c, main) || grain(c, main) && usual.stray.has_like(c))
             }
             Pieces::DotAbove | Pieces::DotBelow | Pieces::Marked => {
                 gap(c.upright, main.upright) > side(main).max(usual.side)
@@ -295,10 +295,15 @@ fn speck(c: &Component, body: &Component) -> bool {
     is_compact(c, ROUND) && beside(c, body) && !is_close(c, body)
 }
 
+/// Whether a small compact piece may be dust by a letter on a page with dust as large, in it or close to it, too.
+fn grain(c: &Component, body: &Component) -> bool {
+    is_small(c, body) && is_compact(c, ROUND) && !torn(c, body)
+}
+
 /// Whether a small compact piece lies between a letter's strokes and clear of them.
 fn inner(c: &Component, body: &Component) -> bool {
-    let small = (c.area as f64) < SMALL * body.area as f64;
-    small && is_compact(c, ROUND) && body.upright.contains(c.centre) && !is_close(c, body)
+    let inside = body.upright.contains(c.centre);
+    is_small(c, body) && is_compact(c, ROUND) && inside && !is_close(c, body)
 }
 
 /// Whether such a piece lies to the left or right of a letter whose sign, which is larger, lies over or under it.
@@ -320,7 +325,12 @@ fn centred(c: &Component, body: &Component) -> bool {
 
 /// Whether a small piece lies beside a letter, over or under it, where a sign within its box does not.
 fn beside(c: &Component, body: &Component) -> bool {
-    !body.upright.contains(c.centre) && (c.area as f64) < SMALL * body.area as f64
+    !body.upright.contains(c.centre) && is_small(c, body)
+}
+
+/// Whether a piece is no larger than a dot may be.
+fn is_small(c: &Component, body: &Component) -> bool {
+    (c.area as f64) < SMALL * body.area as f64
 }
 
 /// Whether a compact piece lies farther from all that is larger than so many times its length: what a pen's lift

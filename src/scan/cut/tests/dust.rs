@@ -395,7 +395,7 @@ fn dust_beside_a_grid_does_not_move_it() {
     }
 }
 
-/// The second letter's body lies from 206 to 212 and from 70 to 100.
+/// The second letter's body lies from 210 to 216 and from 70 to 100.
 #[test]
 fn dots_and_marks_lie_where_names_say() {
     let hamza = (202.0, 50.0, 16.0, 6.0);
@@ -426,5 +426,28 @@ fn dots_and_marks_lie_where_names_say() {
         let found = cut.cells[1].in_sheet;
         let seen = found.contains(Point::new(x + w / 2.0, y + 20.0 + h / 2.0));
         assert_eq!(seen, kept, "{name}: {mote:?}: {found:?}");
+    }
+}
+
+/// Beside the second letter, nearer than a piece that is parted from its stroke.
+#[test]
+fn dust_close_to_a_letter_is_told_by_dust_beside_the_others() {
+    let places = [(30.0, 30.0), (660.0, 30.0), (345.0, 25.0)];
+    for (count, height, kept) in [
+        (0, 6.0, true),
+        (2, 6.0, true),
+        (3, 6.0, false),
+        (3, 14.0, true),
+    ] {
+        let mut paper = grid_page(0.0);
+        take_dot(&mut paper);
+        paper.bar(219.0, 96.0, 6.0, height);
+        for &(x, y) in &places[..count] {
+            paper.bar(x, y, 6.0, 6.0);
+        }
+        let names = NAMES.replacen('i', "l", 1);
+        let cut = cut_page(&paper, &names, &options(Layout::Grid(4, 5))).unwrap();
+        let found = cut.cells[1].in_sheet;
+        assert_eq!(found.x1 > 221.0, kept, "{count}, {height}: {found:?}");
     }
 }
