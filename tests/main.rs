@@ -6,6 +6,7 @@ mod colours;
 mod common;
 mod compose;
 mod convert;
+mod damaged;
 mod demo;
 mod designspace;
 mod detectors;

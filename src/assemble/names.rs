@@ -6,10 +6,11 @@
 //! keeps a name as it was given; the characters follow from it. Arabic presentation forms (`ﺑ`, `uniFE91`) are the
 //! letter in that joining form.
 
+pub use crate::types::characters::name_of;
+
 use super::nearest;
 use crate::types::characters::{self, Spelled};
 use crate::types::{Form, Label, Name};
-use read_fonts::ps::agl;
 use thiserror::Error;
 
 /// Why a label names no glyph.
@@ -96,48 +97,12 @@ fn identity(name: &str, said: Spelled) -> Result<Identity, LabelError> {
     })
 }
 
-/// A name for these characters: the glyph list's for one that has a plain name there, else `uniXXXX`.
-#[must_use]
-pub fn name_of(chars: &[char]) -> String {
-    match chars {
-        [c] => agl_name(*c).unwrap_or_else(|| hexadecimal(chars)),
-        _ => hexadecimal(chars),
-    }
-}
-
 /// The name of these characters in a form, which the isolated one is without a suffix.
 pub(crate) fn name_in(chars: &[char], form: Form) -> String {
     match form {
         Form::Isol => name_of(chars),
         form => format!("{}.{}", name_of(chars), form.tag()),
     }
-}
-
-fn hexadecimal(chars: &[char]) -> String {
-    let digits = chars.iter().map(|&c| format!("{:04X}", u32::from(c)));
-    if chars.iter().all(|&c| u32::from(c) <= 0xFFFF) {
-        format!("uni{}", digits.collect::<String>())
-    } else {
-        let parts: Vec<String> = digits.map(|d| format!("u{d}")).collect();
-        parts.join("_")
-    }
-}
-
-/// The shortest of a character's names in the Adobe Glyph List. Its `afii…` and `SF…` numbers, and
-/// the names it gives letters beyond Greek, say less than the code does.
-fn agl_name(c: char) -> Option<String> {
-    /// After the Greek block the list's names were never in common use, up to general punctuation.
-    const RARE: std::ops::Range<u32> = 0x0400..0x1E00;
-    if RARE.contains(&u32::from(c)) {
-        return None;
-    }
-    let names = (0..).map_while(|n| {
-        let mut buffer = [0; agl::MAX_NAME_LEN + 1];
-        agl::char_to_nth_name(c, n, &mut buffer).map(str::to_owned)
-    });
-    names
-        .filter(|n| !n.starts_with("afii") && !n.starts_with("SF"))
-        .min_by_key(|n| (n.len(), n.clone()))
 }
 
 #[cfg(test)]

@@ -46,6 +46,35 @@ pub(crate) struct Convert {
     face: Option<String>,
 }
 
+/// Files of fonts that are not read: their endings, what they are, and what to do.
+const SOURCES: [(&[&str], &str, &str); 5] = [
+    (
+        &["glyphs", "glyphspackage"],
+        "a source of Glyphs",
+        "export it there as OTF or TTF, or as a UFO",
+    ),
+    (
+        &["designspace"],
+        "a designspace, a list of UFOs",
+        "convert one of the UFOs that it names, or make a variable font of it with fontmake",
+    ),
+    (
+        &["sfd", "sfdir"],
+        "a source of FontForge",
+        "generate OTF, TTF or a UFO there",
+    ),
+    (
+        &["vfb", "vfc", "vfj"],
+        "a source of FontLab",
+        "export it there as OTF or TTF, or as a UFO",
+    ),
+    (
+        &["pfa", "pfb", "eot"],
+        "a font of an older kind (Type 1 or EOT)",
+        "save it as OTF or TTF in a font editor",
+    ),
+];
+
 /// What no folder of drawings says of a font.
 fn unsaid(font: &Font) -> impl Iterator<Item = String> {
     let em = font.info.units_per_em;
@@ -114,6 +143,7 @@ impl Convert {
     fn read(&self) -> Result<Reading, Failure> {
         let name = files::name(&self.input);
         let fail = |e: &read::ReadError| Failure::new(format!("{name}: {}", chain(e)));
+        self.refuse_source(&name)?;
         let is_ufo = self.input.join("metainfo.plist").exists();
         let ending = self.input.extension().and_then(OsStr::to_str);
         let is_drawn = ending.is_some_and(|e| e.eq_ignore_ascii_case("svg"));
@@ -133,6 +163,17 @@ impl Convert {
             read::font(&bytes, self.face.as_deref(), &self.location)
         };
         reading.map_err(|e| fail(&e))
+    }
+
+    /// What other programs keep of a font, by its ending.
+    fn refuse_source(&self, name: &str) -> Outcome {
+        let ending = self.input.extension().and_then(OsStr::to_str);
+        let ending = ending.map(str::to_ascii_lowercase).unwrap_or_default();
+        let found = SOURCES.iter().find(|s| s.0.contains(&ending.as_str()));
+        found.map_or(Ok(()), |(_, what, remedy)| {
+            let why = format!("{name} is {what}, which is not read");
+            Err(Failure::new(why).help(*remedy))
+        })
     }
 
     /// Drawings and UFOs hold one font, and it does not vary.

@@ -18,18 +18,22 @@ impl<'a> Charstrings<'a> {
         let tables = [b"CFF2", b"CFF "].map(|tag| font.table_data(Tag::new(tag)));
         let data = tables.into_iter().flatten().next().unwrap_or_default();
         let all = CffFontRef::new(data.as_bytes(), 0, Some(upem));
-        Ok(Self(all.map_err(|e| ReadError::damaged("CFF", e))?))
+        Ok(Self(
+            all.map_err(|e| ReadError::table(Tag::new(b"CFF "), e))?,
+        ))
     }
 
     /// The contours of a glyph, font units, at a place among the variations.
-    pub(super) fn draw(&self, id: GlyphId, at: &[F2Dot14]) -> Result<Vec<BezPath>, ReadError> {
-        let damaged = |e| ReadError::damaged("CFF", format!("glyph {id}: {e}"));
+    ///
+    /// # Errors
+    /// Why it cannot be drawn.
+    pub(super) fn draw(&self, id: GlyphId, at: &[F2Dot14]) -> Result<Vec<BezPath>, String> {
         let part = self.0.subfont_index(id).unwrap_or(0);
-        let part = self.0.subfont(part, at).map_err(damaged)?;
+        let part = self.0.subfont(part, at).map_err(|e| e.to_string())?;
         let mut pen = Pen::default();
         let mut sink = NopFilterSink::new(&mut pen);
         let drawn = self.0.evaluate_charstring(&part, id, at, &mut sink);
-        drawn.map_err(damaged)?;
+        drawn.map_err(|e| e.to_string())?;
         let place = self.place(&part);
         Ok(pen.paths.into_iter().map(|p| place * p).collect())
     }

@@ -13,6 +13,7 @@ mod names;
 mod pen;
 mod sfnt;
 mod svg;
+mod tables;
 mod ufo;
 
 pub use pen::Pen;
@@ -21,8 +22,12 @@ pub use svg::svg;
 pub use ufo::ufo;
 
 use crate::types::{Font, FontError, Glyph, Name};
+use skrifa::{GlyphId, Tag};
 use std::collections::BTreeSet;
 use thiserror::Error;
+
+/// What to do about a damaged font file.
+const MEND: &str = "fetch the font again, or mend it in a font editor and export it anew";
 
 /// Why there is no font.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -35,6 +40,27 @@ pub enum ReadError {
         kind: &'static str,
         /// what is wrong with it
         message: String,
+    },
+    /// WOFF of the first version, which is not read.
+    #[error(
+        "it is WOFF 1, which is not read; take the TTF, OTF or WOFF2 of the font, or unpack it, as fontTools does"
+    )]
+    Woff,
+    /// A table of a font file that does not hold what it should.
+    #[error("its table {table} is damaged: {why}; {MEND}")]
+    Table {
+        /// its tag
+        table: String,
+        /// what is wrong with it
+        why: String,
+    },
+    /// A glyph of a font file whose outline cannot be drawn.
+    #[error("the outline of {glyph} is damaged: {why}; {MEND}")]
+    Outline {
+        /// its name and number
+        glyph: String,
+        /// what is wrong with it
+        why: String,
     },
     /// A file of a UFO that cannot be read.
     #[error(
@@ -92,6 +118,20 @@ impl ReadError {
         Self::Damaged {
             kind,
             message: error.to_string(),
+        }
+    }
+
+    fn table(tag: Tag, why: impl ToString) -> Self {
+        Self::Table {
+            table: tag.to_string().trim().to_owned(),
+            why: why.to_string(),
+        }
+    }
+
+    fn outline((name, id): (&Name, GlyphId), why: impl ToString) -> Self {
+        Self::Outline {
+            glyph: format!("{name} (glyph {id})"),
+            why: why.to_string(),
         }
     }
 }

@@ -1,7 +1,8 @@
 //! TTF, OTF, WOFF2 → Font, with every table that is not an outline carried along.
 
 use super::{Names, ReadError, Reading, cff::Charstrings, instance::Place, pen::Pen};
-use super::{collection, names, whole};
+use super::{collection, names, tables, whole};
+use crate::types::characters::name_of;
 use crate::types::formats::EPOCH_1904;
 use crate::types::{Component, Font, Glyph, Info, Metrics, Outline};
 use kurbo::{Affine, BezPath};
@@ -53,6 +54,9 @@ pub fn font(
     face: Option<&str>,
     location: &[(String, f64)],
 ) -> Result<Reading, ReadError> {
+    if bytes.starts_with(b"wOFF") {
+        return Err(ReadError::Woff);
+    }
     let plain: Cow<'_, [u8]> = if bytes.starts_with(b"wOF2") {
         let unpacked = wuff::decompress_woff2(bytes);
         Cow::Owned(unpacked.map_err(|e| ReadError::damaged("WOFF2", format!("{e:?}")))?)
@@ -60,6 +64,7 @@ pub fn font(
         Cow::Borrowed(bytes)
     };
     let source = collection::face(&plain, face)?;
+    tables::check(&source)?;
     let place = Place::of(&source, location)?;
     let mut names = Names::default();
     let glyphs = glyphs(&source, &place.location, &mut names)?;
@@ -100,23 +105,29 @@ fn glyphs(font: &FontRef<'_>, at: &Location, names: &mut Names) -> Result<Vec<Gl
         Some(OutlineGlyphFormat::Cff | OutlineGlyphFormat::Cff2) => Some(Charstrings::of(font)?),
         _ => None,
     };
+    let stored = font.loca(None).ok().zip(font.glyf().ok());
     let glyph = |n: u16| {
         let id = GlyphId::from(n);
         let next = in_order.next().filter(|(at, _)| *at == id);
         let next = next.map(|(_, name)| name).filter(|n| !n.is_synthesized());
-        let given = next.or_else(|| given.get(id));
-        let wanted = match given.as_ref().map(|s| s.as_str()) {
-            _ if n == 0 => ".notdef",
-            None | Some(".notdef") => "",
-            Some(name) => name,
-        };
-        let name = names.claim(wanted, usize::from(n));
+        let given = next.or_else(|| given.get(id).filter(|n| !n.is_synthesized()));
         let own = chars.remove(&id).unwrap_or_default();
-        let mut glyph = Glyph::new(name, own, advance(&metrics, id));
-        glyph.outline = match &charstrings {
-            Some(all) => closed(all.draw(id, at.coords())?.into_iter(), id)?,
-            None => outline(&outlines, id, at)?,
+        let wanted = match given.as_ref().map(|s| s.as_str()) {
+            _ if n == 0 => ".notdef".to_owned(),
+            None | Some(".notdef") => own.first().map_or_else(String::new, |&c| name_of(&[c])),
+            Some(name) => name.to_owned(),
         };
+        let name = names.claim(&wanted, usize::from(n));
+        let mut glyph = Glyph::new(name, own, advance(&metrics, id));
+        let drawn = match (&charstrings, &stored) {
+            (Some(all), _) => all.draw(id, at.coords()),
+            (None, Some((loca, glyf))) => {
+                tables::whole(loca, glyf, id).and_then(|()| outline(&outlines, id, at))
+            }
+            (None, None) => outline(&outlines, id, at),
+        };
+        let wrong = |why| ReadError::outline((&glyph.name, id), why);
+        glyph.outline = drawn.and_then(closed).map_err(wrong)?;
         Ok(glyph)
     };
     let mut glyphs = (0..count)
@@ -171,26 +182,29 @@ fn advance(metrics: &GlyphMetrics<'_>, id: GlyphId) -> f64 {
     metrics.advance_width(id).map_or(0.0, f64::from).max(0.0)
 }
 
-/// A glyph's outline, outer contours counter-clockwise; nothing where the file has none.
+/// A glyph's contours, the outer ones counter-clockwise, or why they cannot be drawn.
 fn outline(
     all: &OutlineGlyphCollection<'_>,
     id: GlyphId,
     at: &Location,
-) -> Result<Outline, ReadError> {
+) -> Result<Vec<BezPath>, String> {
     let Some(glyph) = all.get(id) else {
-        return Ok(Outline::EMPTY);
+        return match all.format() {
+            Some(OutlineGlyphFormat::Glyf) => Err("a part of it cannot be drawn".to_owned()),
+            _ => Ok(Vec::new()),
+        };
     };
     let mut pen = Pen::default();
     let drawn = glyph.draw(DrawSettings::unhinted(Size::unscaled(), at), &mut pen);
-    drawn.map_err(|e| ReadError::damaged("a font", format!("glyph {id}: {e}")))?;
-    closed(pen.paths.iter().map(BezPath::reverse_subpaths), id)
+    drawn.map_err(|e| e.to_string())?;
+    Ok(pen.paths.iter().map(BezPath::reverse_subpaths).collect())
 }
 
 /// The contours that draw something.
-fn closed(contours: impl Iterator<Item = BezPath>, id: GlyphId) -> Result<Outline, ReadError> {
+fn closed(contours: Vec<BezPath>) -> Result<Outline, String> {
+    let contours = contours.into_iter();
     let contours = contours.filter(|p| p.segments().next().is_some());
-    Outline::new(contours.collect())
-        .map_err(|e| ReadError::damaged("a font", format!("glyph {id}: {e}")))
+    Outline::new(contours.collect()).map_err(|e| e.to_string())
 }
 
 fn info(font: &FontRef<'_>, at: &Location) -> Info {
