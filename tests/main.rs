@@ -1,5 +1,6 @@
 //! All integration tests, linked once.
 
+mod by_hand;
 mod cells;
 mod cli;
 mod colours;

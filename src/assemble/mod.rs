@@ -39,7 +39,7 @@ use unicode_normalization::char::is_combining_mark;
 #[non_exhaustive]
 pub enum AssembleError {
     /// A label names no glyph.
-    #[error("glyph {index}: {source}")]
+    #[error("glyph {}: {source}", index + 1)]
     Label {
         /// position among the drawn shapes, from 0
         index: usize,
@@ -47,7 +47,7 @@ pub enum AssembleError {
         source: LabelError,
     },
     /// Two shapes have one name.
-    #[error("glyphs {first} and {second} are both {name}; rename one or skip its cell with “_”")]
+    #[error("glyphs {} and {} are both {name}; rename one or skip its cell with “_”", first + 1, second + 1)]
     Twice {
         /// the name
         name: String,

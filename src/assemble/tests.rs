@@ -366,11 +366,11 @@ fn wrong_labels_are_errors_with_their_place() {
     };
     assert_eq!(
         all(&["A", "beh-arr"]),
-        "glyph 1: “beh-arr” is no known glyph name; did you mean “beh-ar”?"
+        "glyph 2: “beh-arr” is no known glyph name; did you mean “beh-ar”?"
     );
     assert_eq!(
         all(&["A", "b", "A"]),
-        "glyphs 0 and 2 are both A; rename one or skip its cell with “_”"
+        "glyphs 1 and 3 are both A; rename one or skip its cell with “_”"
     );
     assert!(all(&["beh-ar", "uni0628"]).contains("U+0628"));
 }

@@ -108,7 +108,10 @@ impl Layout {
 
 /// Labels in reading order.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(untagged)]
+#[serde(
+    untagged,
+    expecting = "must be one text of names with spaces between, \"A B C\", or a file of them, { file = \"names.txt\" }"
+)]
 pub enum Labels {
     /// Characters and glyph names between spaces; `_` skips a cell. `auto` alone: what the cells look like.
     Text(String),
