@@ -75,6 +75,7 @@ pub fn font(
     let mut lost = lost(&source);
     if place.moved() {
         place.describe(&source, &mut info);
+        info.postscript = None;
         place.rewrite(&source, &info, &glyphs, &mut carried);
     }
     lost.extend(place.lay_out(&source, &mut carried));
@@ -221,6 +222,7 @@ fn info(font: &FontRef<'_>, at: &Location) -> Info {
         style: text(StringId::TYPOGRAPHIC_SUBFAMILY_NAME)
             .or_else(|| text(StringId::SUBFAMILY_NAME))
             .unwrap_or(default.style),
+        postscript: None,
         version: version(revision),
         units_per_em: m.units_per_em.clamp(16, 16384),
         weight: os2
@@ -243,6 +245,7 @@ fn info(font: &FontRef<'_>, at: &Location) -> Info {
             cap_height: units(m.cap_height),
         },
     }
+    .with_postscript(text(StringId::POSTSCRIPT_NAME))
 }
 
 /// Major version and thousandths.

@@ -1,6 +1,6 @@
 //! A font before it is written.
 
-use super::{Glyph, Name, Outline};
+use super::{Glyph, Name, Outline, style};
 use kurbo::{Affine, BezPath};
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
@@ -41,6 +41,8 @@ pub struct Info {
     pub family: String,
     /// Style name, such as `Regular`.
     pub style: String,
+    /// PostScript name, where it does not follow from family and style.
+    pub postscript: Option<String>,
     /// Major and minor version.
     pub version: (u16, u16),
     /// Units an em, 16…16384.
@@ -74,6 +76,7 @@ impl Default for Info {
         Self {
             family: "Untitled".to_owned(),
             style: "Regular".to_owned(),
+            postscript: None,
             version: (1, 0),
             units_per_em: 1000,
             weight: 400,
@@ -152,21 +155,32 @@ impl Info {
         (height, SHARES.1 * em)
     }
 
-    /// The PostScript name: printable ASCII without brackets, slashes, percent and space, 63 at most.
+    /// The PostScript name: the font's own, or one that follows from family and style; of 63 characters at most.
     pub(crate) fn postscript_name(&self) -> String {
-        let keep = |text: &str| -> String {
-            text.chars()
-                .filter(|c| c.is_ascii_graphic() && !"[](){}<>/%-".contains(*c))
-                .collect()
-        };
-        let family = Some(keep(&self.family)).filter(|f| !f.is_empty());
-        let style = Some(keep(&self.style)).filter(|s| !s.is_empty());
-        let whole = format!(
-            "{}-{}",
-            family.as_deref().unwrap_or("Font"),
-            style.as_deref().unwrap_or("Regular")
-        );
-        whole.chars().take(63).collect()
+        self.postscript.clone().unwrap_or_else(|| {
+            let or = |text: &str, none: &str| {
+                let name = style::postscript(text);
+                if name.is_empty() {
+                    none.to_owned()
+                } else {
+                    name
+                }
+            };
+            let whole = format!(
+                "{}-{}",
+                or(&self.family, "Font"),
+                or(&self.style, "Regular")
+            );
+            whole.chars().take(style::LONGEST).collect()
+        })
+    }
+
+    /// The same with a PostScript name of its own, where that is legal and does not follow from the others.
+    pub(crate) fn with_postscript(mut self, name: Option<String>) -> Self {
+        self.postscript = None;
+        let usual = self.postscript_name();
+        self.postscript = name.filter(|n| style::is_postscript(n) && *n != usual);
+        self
     }
 }
 
@@ -351,7 +365,14 @@ mod tests {
         };
         let name = info("Khatt Latin", "Bold Italic").postscript_name();
         assert_eq!(name, "KhattLatin-BoldItalic");
-        assert_eq!(info("خط", "").postscript_name(), "Font-Regular");
+        let name = info("خط", "").postscript_name();
+        assert_eq!(name, "u062Eu0637-Regular");
+        let names = ["عادي", "عريض", "عريض مائل", "Fétt"].map(|s| info("F", s).postscript_name());
+        assert_eq!(names, ["F-Regular", "F-Bold", "F-BoldItalic", "F-Fett"]);
+        assert_ne!(
+            info("F", "مزخرف").postscript_name(),
+            info("F", "قديم").postscript_name()
+        );
         assert_eq!(info(&"x".repeat(90), "R").postscript_name().len(), 63);
     }
 

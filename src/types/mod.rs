@@ -29,6 +29,7 @@ mod outline;
 mod png;
 mod raster;
 mod sheet;
+pub(crate) mod style;
 
 pub use centerline::{Centerline, PenDot, PenLine};
 pub use contour::{Contour, ContourError, Span, Spans};

@@ -2,12 +2,13 @@
 
 use super::SheetTable;
 use crate::quadratic;
+use crate::types::style;
 use serde::de::Error;
 use serde::{Deserialize, Deserializer};
 use std::path::PathBuf;
 
 /// A value that must be `fine`; the error says what it must be.
-fn checked<'de, D: Deserializer<'de>, T: Deserialize<'de>>(
+pub(super) fn checked<'de, D: Deserializer<'de>, T: Deserialize<'de>>(
     from: D,
     fine: impl Fn(&T) -> bool,
     must: &str,
@@ -63,9 +64,15 @@ pub(super) fn units_per_em<'de, D: Deserializer<'de>>(from: D) -> Result<u16, D:
 }
 
 /// Weight classes that the OpenType specification allows.
-pub(super) fn weight<'de, D: Deserializer<'de>>(from: D) -> Result<u16, D::Error> {
+pub(super) fn weight<'de, D: Deserializer<'de>>(from: D) -> Result<Option<u16>, D::Error> {
     let must = "must be between 1 and 1000";
-    checked(from, |weight| (1..=1000).contains(weight), must)
+    checked(from, |weight| (1..=1000).contains(weight), must).map(Some)
+}
+
+pub(super) fn postscript<'de, D: Deserializer<'de>>(from: D) -> Result<Option<String>, D::Error> {
+    let must = "must be a PostScript name, such as \"Khatt-Bold\": 1 to 63 ASCII characters, no space and none of \
+                [](){}<>/%";
+    checked(from, |name: &String| style::is_postscript(name), must).map(Some)
 }
 
 pub(super) fn vendor<'de, D: Deserializer<'de>>(from: D) -> Result<String, D::Error> {

@@ -1,7 +1,7 @@
 //! `[font]`: what the font says about itself.
 
 use super::check;
-use crate::types::Info;
+use crate::types::{Info, style};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
@@ -21,9 +21,12 @@ pub struct FontTable {
     /// Units an em, 16…16384.
     #[serde(default = "units_per_em", deserialize_with = "check::units_per_em")]
     pub units_per_em: u16,
-    /// Weight class, 1…1000.
-    #[serde(default = "weight", deserialize_with = "check::weight")]
-    pub weight: u16,
+    /// PostScript name, instead of one that follows from family and style.
+    #[serde(default, deserialize_with = "check::postscript")]
+    pub postscript_name: Option<String>,
+    /// Weight class, 1…1000, instead of the one that the style's name says.
+    #[serde(default, deserialize_with = "check::weight")]
+    pub weight: Option<u16>,
     /// Angle of the stems, degrees counter-clockwise from upright: negative for an italic.
     #[serde(default, deserialize_with = "check::slant")]
     pub italic_angle: f64,
@@ -61,10 +64,6 @@ fn units_per_em() -> u16 {
     Info::default().units_per_em
 }
 
-fn weight() -> u16 {
-    Info::default().weight
-}
-
 fn vendor() -> String {
     String::from_utf8_lossy(&Info::default().vendor_id).into_owned()
 }
@@ -78,7 +77,8 @@ impl FontTable {
             style: style(),
             version: version(),
             units_per_em: self.units_per_em,
-            weight: weight(),
+            postscript_name: None,
+            weight: None,
             italic_angle: 0.0,
             features: None,
             copyright: None,
@@ -106,7 +106,10 @@ impl FontTable {
             style: self.style.clone(),
             version: check::version_numbers(&self.version).unwrap_or(default.version),
             units_per_em: self.units_per_em,
-            weight: self.weight,
+            weight: self
+                .weight
+                .or_else(|| style::weight(&self.style))
+                .unwrap_or(default.weight),
             italic_angle: self.italic_angle,
             created,
             copyright: self.copyright.clone(),
@@ -117,6 +120,7 @@ impl FontTable {
             vendor_url: self.vendor_url.clone(),
             vendor_id,
             metrics: default.metrics,
+            postscript: self.postscript_name.clone(),
         }
     }
 }

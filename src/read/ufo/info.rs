@@ -52,6 +52,7 @@ pub(super) fn info(source: &norad::FontInfo) -> Info {
             &source.style_name,
         )
         .unwrap_or(default.style),
+        postscript: None,
         version: (
             small(source.version_major.map(f64::from), 1),
             small(source.version_minor.map(f64::from), 0),
@@ -83,6 +84,7 @@ pub(super) fn info(source: &norad::FontInfo) -> Info {
             cap_height: number(source.cap_height),
         },
     }
+    .with_postscript(source.postscript_font_name.clone())
 }
 
 /// A height, and that which is said for OpenType. Those are whole, so that a fraction beside it says more.
