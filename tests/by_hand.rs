@@ -61,3 +61,28 @@ fn a_list_of_glyphs_is_told_how_to_write_it() {
     );
     assert!(!said.contains("untagged"), "{said}");
 }
+
+#[test]
+fn heights_of_hhea_and_of_typo_are_told_apart_in_a_ufo() {
+    let ttf = written("ttf");
+    let [mut hhea, mut os2] = [b"hhea", b"OS/2"].map(|tag| table(&ttf, tag));
+    for (at, value) in [(4, 951_i16), (6, -251), (8, 37)] {
+        hhea[at..at + 2].copy_from_slice(&value.to_be_bytes());
+    }
+    for (at, value) in [(68, 812_i16), (70, -188), (72, 90)] {
+        os2[at..at + 2].copy_from_slice(&value.to_be_bytes());
+    }
+    let file = patched(&ttf, &[(b"hhea", hhea), (b"OS/2", os2)]);
+    let font = read::font(&file, None, &[]).expect("a font").font;
+    let files = files(&font, "ufo").0;
+    let info = plist::Value::from_reader_xml(&files["fontinfo.plist"][..]).expect("a plist");
+    let number = |key: &str| {
+        let value = info.as_dictionary().and_then(|d| d.get(key));
+        value.and_then(plist::Value::as_signed_integer)
+    };
+    let said = ["Hhea", "OS2Typo"].map(|table| {
+        ["Ascender", "Descender", "LineGap"].map(|key| number(&format!("openType{table}{key}")))
+    });
+    let wanted = [[951, -251, 37], [812, -188, 90]];
+    assert_eq!(said, wanted.map(|heights| heights.map(Some)));
+}

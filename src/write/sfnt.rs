@@ -190,6 +190,12 @@ fn hhea(font: &Font, advances: &[u16], extents: &[Option<Rect>]) -> Result<Hhea,
     })
 }
 
+/// Ascender, descender and gap of a line in the `hhea` that came with a font.
+pub(super) fn line_heights(font: &Font) -> Option<[i16; 3]> {
+    let own: Hhea = carried(font, b"hhea")?;
+    Some([own.ascender, own.descender, own.line_gap].map(FWord::to_i16))
+}
+
 /// What a font says of its lines: their heights, and the slope of the text cursor.
 fn line(info: &Info) -> Result<Hhea, WriteError> {
     let word = |v: f64, what: &str| to_i16(v, || what.to_owned()).map(FWord::new);

@@ -9,7 +9,7 @@ pub(super) mod states;
 
 use super::WriteError;
 use super::colour::FOREGROUND;
-use super::sfnt::underline;
+use super::sfnt::{line_heights, underline};
 use super::{layout, os2};
 use crate::numeric::angles::angle;
 use crate::types::formats::{
@@ -22,6 +22,7 @@ use kurbo::{BezPath, PathEl, Point, Vec2};
 use norad::fontinfo::{NonNegativeIntegerOrFloat, StyleMapStyle};
 use norad::{AffineTransform, Contour, ContourPoint, FontInfo, PointType};
 use plist::{Dictionary, Value};
+use write_fonts::tables::os2::{Os2, SelectionFlags};
 
 /// Tangents that turn less than this at a point, radians, make it a smooth one: a quarter of a degree.
 const SMOOTH: f64 = 0.0044;
@@ -134,11 +135,23 @@ fn info(font: &Font) -> FontInfo {
     let os2 = os2::carried(font);
     let embedding = os2.as_ref().map_or(0, |own| own.fs_type);
     let embedding = (0..16_u8).filter(|bit| embedding >> bit & 1 == 1).collect();
+    let whole = |v: f64| super::numbers::to_i16(v, String::new).ok().map(i32::from);
+    let usual = [m.ascender, m.descender, m.line_gap].map(whole);
+    let hhea = line_heights(font).map_or(usual, |own| own.map(|v| Some(v.into())));
+    let typo = os2.as_ref().map_or(usual, |own| {
+        let own = [
+            own.s_typo_ascender,
+            own.s_typo_descender,
+            own.s_typo_line_gap,
+        ];
+        own.map(|v| Some(v.into()))
+    });
+    let is_typo = |own: &Os2| own.fs_selection.contains(SelectionFlags::USE_TYPO_METRICS);
+    let selection = os2.as_ref().is_none_or(is_typo).then_some(USE_TYPO_METRICS);
     let strikeout = os2.map(|own| (own.y_strikeout_position.into(), own.y_strikeout_size.into()));
     let strikeout = strikeout.unwrap_or_else(|| info.strikeout());
     let underline = underline(font);
     let style = info.linked_style();
-    let whole = |v: f64| super::numbers::to_i16(v, String::new).ok().map(i32::from);
     FontInfo {
         family_name: Some(info.family.clone()),
         style_name: Some(info.style.clone()),
@@ -158,14 +171,14 @@ fn info(font: &Font) -> FontInfo {
         x_height: Some(m.x_height),
         cap_height: Some(m.cap_height),
         italic_angle: Some(info.italic_angle),
-        open_type_hhea_ascender: whole(m.ascender),
-        open_type_hhea_descender: whole(m.descender),
-        open_type_hhea_line_gap: whole(m.line_gap),
-        open_type_os2_typo_ascender: whole(m.ascender),
-        open_type_os2_typo_descender: whole(m.descender),
-        open_type_os2_typo_line_gap: whole(m.line_gap),
+        open_type_hhea_ascender: hhea[0],
+        open_type_hhea_descender: hhea[1],
+        open_type_hhea_line_gap: hhea[2],
+        open_type_os2_typo_ascender: typo[0],
+        open_type_os2_typo_descender: typo[1],
+        open_type_os2_typo_line_gap: typo[2],
         open_type_os2_weight_class: Some(u32::from(info.weight)),
-        open_type_os2_selection: Some(vec![USE_TYPO_METRICS]),
+        open_type_os2_selection: Some(selection.into_iter().collect()),
         open_type_os2_type: Some(embedding),
         open_type_os2_strikeout_position: whole(strikeout.0),
         open_type_os2_strikeout_size: whole(strikeout.1),
