@@ -51,6 +51,30 @@ fn styles_have_their_weights_and_fonts_names_of_their_own() {
 }
 
 #[test]
+fn outputs_are_named_as_what_they_are() {
+    let desk = Desk::letters();
+    for (line, ending) in [
+        ("ttf = \"a.otf\"", ".ttf"),
+        ("otf = \"a.TTF\"", ".otf"),
+        ("woff2 = \"a.woff\"", ".woff2"),
+        ("ufo = \"a\"", ".ufo"),
+        ("svg = \"a.svg\"", "folder"),
+        ("proof = \"a.ttf\"", ".html"),
+        ("report = \"a.otf\"", ".json"),
+        ("ttf = \"-\"", ".ttf"),
+    ] {
+        desk.edit(|text| {
+            let (head, _) = text.split_once("[output]").expect("outputs");
+            format!("{head}[output]\n{line}\n")
+        });
+        let said = desk.fails(&BUILD);
+        assert!(said.contains(line), "{line}: {said}");
+        assert!(said.contains("must") && said.contains(ending), "{said}");
+    }
+    assert!(!desk.has("a.otf") && !desk.has("-"));
+}
+
+#[test]
 fn a_list_of_glyphs_is_told_how_to_write_it() {
     let desk = Desk::letters();
     desk.edit(|text| text.replace("\"H o l E e I N c L\"", "[\"H\", \"o\"]"));

@@ -153,8 +153,8 @@ fn outputs_take_the_place_of_no_input_and_of_no_other_output() {
         ("report = \"font.toml\"", "font.toml"),
         ("proof = \"page.png\"", "page.png"),
         ("report = \"none/../page.png\"", "page.png"),
-        ("ttf = \"a.ttf\"\notf = \"a.ttf\"", "a.ttf"),
-        ("ttf = \"a.ttf\"\notf = \"out/../a.ttf\"", "a.ttf"),
+        ("ttf = \"a\"\notf = \"a\"", "two outputs"),
+        ("ttf = \"a\"\notf = \"out/../a\"", "two outputs"),
         ("svg = \"new\"\notf = \"new/a.otf\"", "new/a.otf"),
         ("svg = \".\"", "font.toml"),
     ] {
@@ -215,6 +215,33 @@ fn no_command_writes_over_what_it_reads() {
     desk.write("font.toml", b"no project");
     let build = ["build", "font.toml", "--sarif", "font.toml"];
     refused(&desk, &build, "font.toml");
+}
+
+#[test]
+fn no_command_writes_over_what_the_project_names() {
+    let desk = Desk::letters();
+    desk.done(&BUILD);
+    for (output, key) in [
+        ("out/test.ttf", "[output] ttf"),
+        ("out/../out/test.otf", "[output] otf"),
+        ("out/svg/a.bin", "[output] svg"),
+        ("page.png", "[[sheet]] image"),
+        ("font.toml", "the project file"),
+    ] {
+        let page = ["page", "font.toml", "--sheet", "1", "-o", output];
+        for args in [
+            &["proof", "font.toml", "-o", output][..],
+            &page,
+            &["cut", "font.toml", "-o", output],
+            &["cut", "font.toml", "--write-overrides", output],
+        ] {
+            refused(&desk, args, key);
+        }
+    }
+    refused(&desk, &["cut", "font.toml", "-o", "out"], "[output] ttf");
+    // its own place
+    desk.done(&["proof", "font.toml", "-o", "out/test.html"]);
+    desk.done(&["cut", "font.toml", "-o", "cells"]);
 }
 
 #[test]

@@ -79,7 +79,7 @@ fn a_watched_project_shows_the_proof_that_it_writes() {
 #[test]
 fn a_watched_project_without_a_proof_shows_one() {
     let desk = Desk::letters();
-    desk.edit(|text| text.replace("proof = ", "report = "));
+    desk.edit(|text| text.replace("proof = \"out/test.html", "report = \"out/test.json"));
     // its outputs are made already, and then they are made anew
     desk.done(&BUILD);
     let watched = Watched::new(&desk);

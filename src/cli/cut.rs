@@ -40,6 +40,8 @@ impl Cut {
             return Err(Failure::of_use(what).help("name a folder: -o DIR"));
         }
         let opened = Opened::new(&self.project)?;
+        let mut targets = self.output.iter().chain(&self.write_overrides);
+        targets.try_for_each(|target| opened.spare(target, None))?;
         let ((pages, notes), ..) = opened.work(common, |project, world| {
             let pages = pipeline::pages(project, world, |page| {
                 let table = project.sheets.get(page.table);

@@ -58,6 +58,7 @@ const KEY: usize = 64;
 impl Page {
     pub(crate) fn run(&self, common: &Common) -> Outcome {
         let opened = Opened::new(&self.project)?;
+        opened.spare(&self.output, None)?;
         let results = Results::default();
         opened.work_with(&results, common, |project, world| {
             pipeline::sheet_letters(project, self.sheet, world)

@@ -3,8 +3,8 @@
 use super::failure::{Complaint, Failure, chain};
 use super::inputs::Digests;
 use super::progress::{Progress, Times};
-use super::staged::parent;
-use super::{Common, files};
+use super::staged::{parent, place};
+use super::{Common, Outcome, files};
 use khatt::pipeline::project::OutputTable;
 use khatt::pipeline::{Inputs, Nothing, Problem, Project, ProjectError, Store, World};
 use miette::{
@@ -111,14 +111,39 @@ impl Opened {
 
     /// The project file and all files that it names, read or not.
     pub(crate) fn named(&self) -> Vec<PathBuf> {
-        let others = self.project.inputs().map(|path| self.path(path));
+        let others = self.project.inputs().map(|(_, path)| self.path(path));
         iter::once(self.file.clone()).chain(others).collect()
     }
 
     /// Where the project's outputs go.
     pub(crate) fn outputs(&self) -> Vec<PathBuf> {
-        let paths = self.project.output.paths();
-        paths.map(|path| self.path(path)).collect()
+        let named = self.project.output.named();
+        named.map(|(_, path)| self.path(path)).collect()
+    }
+
+    /// Fails where what the command line names would take the place of something that the project names, but for the
+    /// output `own`.
+    pub(crate) fn spare(&self, target: &Path, own: Option<&str>) -> Outcome {
+        if files::is_dash(target) {
+            return Ok(());
+        }
+        let outputs = self.project.output.named();
+        let outputs = outputs.filter(|(key, _)| Some(*key) != own);
+        let outputs = outputs.map(|(key, path)| (format!("[output] {key}"), self.path(path)));
+        let inputs = self.project.inputs();
+        let inputs = inputs.map(|(key, path)| (key.to_owned(), self.path(path)));
+        let file = ("the project file".to_owned(), self.file.clone());
+        let at = place(target);
+        let meets = |(_, path): &(String, PathBuf)| {
+            let there = place(path);
+            there.starts_with(&at) || at.starts_with(&there)
+        };
+        let mut named = iter::once(file).chain(inputs).chain(outputs);
+        named.find(meets).map_or(Ok(()), |(key, path)| {
+            let (target, path) = (target.display(), path.display());
+            let what = format!("{target} would write over {path}, which is {key}");
+            Err(Failure::new(what).help("give the output another name"))
+        })
     }
 
     /// The digest of a file as it was first read.

@@ -23,6 +23,7 @@ pub(crate) struct Proof {
 impl Proof {
     pub(crate) fn run(&self, common: &Common) -> Outcome {
         let opened = Opened::new(&self.project)?;
+        opened.spare(&self.output, Some("proof"))?;
         let last = files::last(&self.output);
         let (page, ..) = opened.work_with(&self.cache.open(), common, |project, world| {
             let built = pipeline::build(project, world)?;

@@ -36,6 +36,7 @@ impl Sheet {
     pub(crate) fn run(&self, common: &Common) -> Outcome {
         let kind = self.kind()?;
         let opened = Opened::new(&self.project)?;
+        opened.spare(&self.output, None)?;
         let (pages, ..) = opened.work(common, pipeline::sheets)?;
         let drawn = match kind {
             Kind::Pdf => vec![template::pdf(&pages)],

@@ -3,17 +3,18 @@
 mod cell;
 mod check;
 mod font;
+mod output;
 mod parse;
 mod sheet;
 
 pub use cell::{CellTable, Cells};
 pub use font::FontTable;
+pub use output::OutputTable;
 pub use parse::ProjectError;
 pub use sheet::{Content, Labels, Layout, SheetTable};
 
 use super::{Repeated, picture};
 use crate::assemble::metrics::Heights;
-use crate::write::{FORMATS, Format};
 use crate::{assemble, quadratic, recognise, template};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -84,17 +85,22 @@ impl Project {
         }
     }
 
-    /// The files that are read, relative to the project file.
-    pub fn inputs(&self) -> impl Iterator<Item = &PathBuf> {
+    /// The files that are read, relative to the project file, each with the key that names it.
+    pub fn inputs(&self) -> impl Iterator<Item = (&'static str, &PathBuf)> {
         let pages = self.sheets.iter().flat_map(|sheet| {
             let names = match &sheet.glyphs {
-                Labels::File { file } => Some(file),
+                Labels::File { file } => Some(("[[sheet]] glyphs", file)),
                 Labels::Text(_) => None,
             };
-            sheet.image.iter().chain(names)
+            let images = sheet.image.iter().map(|path| ("[[sheet]] image", path));
+            images.chain(names)
         });
-        let single = self.cells_file.iter().chain(&self.font.features);
-        pages.chain(single).chain(&self.matching.reference)
+        let cells = self.cells_file.iter().map(|path| ("cells_file", path));
+        let features = self.font.features.iter();
+        let features = features.map(|path| ("[font] features", path));
+        let references = self.matching.reference.iter();
+        let references = references.map(|path| ("[match] reference", path));
+        pages.chain(cells).chain(features).chain(references)
     }
 }
 
@@ -141,47 +147,4 @@ pub struct GateTable {
     /// Root mean square of that distance.
     #[serde(deserialize_with = "check::optional_size")]
     pub rms_error: Option<f64>,
-}
-
-/// The outputs to make, relative to the project file; those left out are not made.
-#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct OutputTable {
-    /// Font with TrueType outlines.
-    pub ttf: Option<PathBuf>,
-    /// Font with cubic (CFF) outlines.
-    pub otf: Option<PathBuf>,
-    /// The TrueType font compressed for the web.
-    pub woff2: Option<PathBuf>,
-    /// Source for font editors: a folder.
-    pub ufo: Option<PathBuf>,
-    /// One SVG a glyph: a folder.
-    pub svg: Option<PathBuf>,
-    /// Web page that shows every cell with its outline.
-    pub proof: Option<PathBuf>,
-    /// What was done and how well, JSON.
-    pub report: Option<PathBuf>,
-}
-
-impl OutputTable {
-    /// The fonts to make: each format that is named, and where it goes.
-    #[must_use]
-    pub fn fonts(&self) -> Vec<(&'static Format, &PathBuf)> {
-        let path = |name: &str| match name {
-            "ttf" => self.ttf.as_ref(),
-            "otf" => self.otf.as_ref(),
-            "woff2" => self.woff2.as_ref(),
-            "ufo" => self.ufo.as_ref(),
-            "svg" => self.svg.as_ref(),
-            _ => None,
-        };
-        let named = FORMATS.iter().filter_map(|f| Some((f, path(f.name)?)));
-        named.collect()
-    }
-
-    /// Where all that is made goes.
-    pub fn paths(&self) -> impl Iterator<Item = &PathBuf> {
-        let fonts = self.fonts().into_iter().map(|(_, path)| path);
-        fonts.chain(&self.proof).chain(&self.report)
-    }
 }
