@@ -15,6 +15,33 @@ fn built(desk: &Desk, font: &str, more: &str) -> (Option<i32>, String) {
     desk.told(&["build", "font.toml", "--no-cache"])
 }
 
+#[test]
+fn anchors_that_nothing_attaches_by_are_noted() {
+    let desk = Desk::letters();
+    let anchors = |text: &str| {
+        let (status, said) = built(&desk, "", &format!("[anchors]\n{text}\n"));
+        assert_eq!(status, Some(0), "{said}");
+        let notes = said.lines().filter(|l| l.contains("[anchors]"));
+        notes.collect::<Vec<_>>().join("\n")
+    };
+    let said = anchors("H = { topp = [50, 710] }");
+    assert!(said.contains("H: ") && said.contains("_topp"), "{said}");
+    assert!(said.contains("did you mean top?"), "{said}");
+    let said = anchors("acutecomb = { _topp = [50, 710] }");
+    assert!(said.contains("did you mean _top?"), "{said}");
+    let said = anchors("f_l = { top = [50, 710] }");
+    assert!(said.contains("top_1, top_2"), "{said}");
+    for fine in [
+        "H = { top = [50, 710] }",
+        "H = { above = [50, 710] }",
+        "f_l = { top_1 = [50, 710] }",
+        "acutecomb = { _top = [50, 710] }",
+        "H = { own = [50, 710] }\nacutecomb = { _own = [0, 5] }",
+    ] {
+        assert_eq!(anchors(fine), "", "{fine}");
+    }
+}
+
 /// Weight class and PostScript name of what is built with these keys.
 fn style(keys: &str) -> (u16, String) {
     let desk = Desk::letters();

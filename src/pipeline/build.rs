@@ -96,11 +96,13 @@ pub fn build(project: &Project, world: World<'_>) -> Result<Built, Vec<Problem>>
     };
     let mut assembled = assemble::font(drawn, info, &options).map_err(|e| vec![e.into()])?;
     assembled.font.features.push_str(&features);
+    let font = by_hand::set(assembled.font, project, world)?;
+    let by_hand = by_hand::notes(&font, project);
     Ok(Built {
-        font: by_hand::set(assembled.font, project, world)?,
+        font,
         letters,
         pages,
-        notes: [repeats, levelled, twins, assembled.notes].concat(),
+        notes: [repeats, levelled, twins, assembled.notes, by_hand].concat(),
         doubts,
         gaps: assembled.gaps,
     })

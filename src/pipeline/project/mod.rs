@@ -11,6 +11,7 @@ pub use cell::{CellTable, Cells};
 pub use font::FontTable;
 pub use output::OutputTable;
 pub use parse::ProjectError;
+pub(super) use parse::nearest;
 pub use sheet::{Content, Labels, Layout, SheetTable};
 
 use super::{Repeated, picture};

@@ -56,7 +56,7 @@ fn explain(text: &str, error: &TomlError) -> ProjectError {
 }
 
 /// The known word least different from `wrong`, if it differs by no more than half its letters.
-fn nearest<'a>(wrong: &str, known: &[&'a str]) -> Option<&'a str> {
+pub(in crate::pipeline) fn nearest<'a>(wrong: &str, known: &[&'a str]) -> Option<&'a str> {
     let far = |word: &str| strsim::osa_distance(wrong, word);
     let best = *known.iter().min_by_key(|word| far(word))?;
     let letters = wrong.chars().count().max(best.chars().count());
