@@ -245,6 +245,42 @@ fn no_command_writes_over_what_the_project_names() {
 }
 
 #[test]
+fn a_dash_is_standard_output() {
+    let desk = Desk::letters();
+    let page = desk.run(&["page", "font.toml", "--sheet", "1", "-o", "-"]);
+    desk.done(&["page", "font.toml", "--sheet", "1", "-o", "a.page"]);
+    assert!(
+        page.stdout == desk.read("a.page"),
+        "{} bytes",
+        page.stdout.len()
+    );
+    let rule = desk.run(&["build", "font.toml", "--depfile", "-"]).stdout;
+    let rule = String::from_utf8(rule).expect("text");
+    assert!(
+        rule.contains("out/test.ttf") && rule.contains(": font.toml"),
+        "{rule}"
+    );
+    // the second time, too, when nothing is to be done else
+    for _ in 0..2 {
+        let log = desk.run(&["build", "font.toml", "--sarif", "-"]).stdout;
+        let log: serde_json::Value = serde_json::from_slice(&log).expect("JSON");
+        assert_eq!(log["version"], "2.1.0");
+    }
+    let cells = desk
+        .run(&["cut", "font.toml", "--write-overrides", "-"])
+        .stdout;
+    assert!(String::from_utf8_lossy(&cells).contains("[H]"));
+    refused(
+        &desk,
+        &["build", "font.toml", "--sarif", "-", "--depfile", "-"],
+        "-",
+    );
+    let (status, said) = desk.told(&["build", "font.toml", "--keep", "-"]);
+    assert_eq!(status, Some(2), "{said}");
+    assert!(!desk.has("-"), "no file has that name");
+}
+
+#[test]
 fn locked_tells_all_that_a_build_would_change() {
     let desk = Desk::letters();
     outputs(

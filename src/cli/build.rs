@@ -26,10 +26,10 @@ pub(crate) struct Build {
     /// Also write every stage's result into this folder
     #[arg(long, value_name = "DIR")]
     keep: Option<PathBuf>,
-    /// Also write a rule for Make or Ninja: outputs, colon, inputs
+    /// Also write a rule for Make or Ninja: outputs, colon, inputs; - prints it
     #[arg(long, value_name = "FILE.d")]
     depfile: Option<PathBuf>,
-    /// Also write what there is to remark, or why the build failed, as a SARIF log
+    /// Also write what there is to remark, or why the build failed, as a SARIF log; - prints it
     #[arg(long, value_name = "FILE.sarif")]
     sarif: Option<PathBuf>,
     /// Write nothing; fail where an output is not what would be written
@@ -82,6 +82,10 @@ impl Build {
     }
 
     pub(crate) fn run(&self, common: &Common) -> Outcome {
+        if self.keep.as_deref().is_some_and(files::is_dash) {
+            let what = "- is standard output, and the stages' results are a folder of files";
+            return Err(Failure::of_use(what).help("name a folder: --keep DIR"));
+        }
         let (inputs, outcome) = match Opened::new(&self.project) {
             Ok(opened) => {
                 let inputs = opened.named();

@@ -28,7 +28,7 @@ pub(crate) struct Cut {
         required_unless_present = "write_overrides"
     )]
     output: Option<PathBuf>,
-    /// Also write where each letter was found, to be corrected: `cells_file` of the project
+    /// Also write where each letter was found, to be corrected: `cells_file` of the project; - prints it
     #[arg(long, value_name = "CELLS.toml")]
     write_overrides: Option<PathBuf>,
 }

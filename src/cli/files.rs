@@ -1,16 +1,13 @@
 //! Bytes in and out: files, or `-` for standard input and output.
 
+pub(crate) use super::say::is_dash;
+
 use super::failure::Failure;
-use super::{Outcome, say, staged};
+use super::{Outcome, staged};
 use khatt::types::Files;
 use std::fs;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
-
-/// Whether the user means standard input or output.
-pub(crate) fn is_dash(path: &Path) -> bool {
-    path.as_os_str() == "-"
-}
 
 /// What messages call it.
 pub(crate) fn name(path: &Path) -> String {
@@ -52,9 +49,6 @@ pub(crate) fn last(path: &Path) -> Option<String> {
 /// Writes a file in one step, or to standard output, in a job that reads `inputs`: a reader sees the old file or the
 /// new one.
 pub(crate) fn write(path: &Path, content: &[u8], inputs: &[PathBuf]) -> Result<(), Failure> {
-    if is_dash(path) {
-        return say::print(content);
-    }
     let files = Files::single(content.to_vec());
     staged::write(&[(path.to_owned(), files)], inputs)
 }

@@ -9,7 +9,6 @@ use super::project::Opened;
 use super::{Common, Outcome, files, staged};
 use clap::Args;
 use khatt::pipeline::{self, Store};
-use khatt::types::Files;
 use std::collections::BTreeMap;
 use std::num::ParseIntError;
 use std::path::{Path, PathBuf};
@@ -24,7 +23,7 @@ pub(crate) struct Page {
     /// Which [[sheet]] of the project, from 1
     #[arg(long, value_name = "N", value_parser = number)]
     sheet: usize,
-    /// Where the result goes
+    /// Where the result goes, or - for standard output
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
 }
@@ -71,8 +70,7 @@ impl Page {
             bytes.extend(crc32fast::hash(&content).to_le_bytes());
             bytes.extend(content);
         }
-        let output = (self.output.clone(), Files::single(bytes));
-        staged::write(&[output], &opened.named())
+        files::write(&self.output, &bytes, &opened.named())
     }
 }
 

@@ -7,6 +7,12 @@ use super::Outcome;
 use super::failure::Failure;
 use std::fmt;
 use std::io::{self, ErrorKind, Write};
+use std::path::Path;
+
+/// Whether the user means standard input or output.
+pub(crate) fn is_dash(path: &Path) -> bool {
+    path.as_os_str() == "-"
+}
 
 /// Prints a result.
 pub(crate) fn print(content: &[u8]) -> Outcome {

@@ -12,6 +12,7 @@ pub(crate) use folder::{names, strays};
 pub(crate) use places::{apart, place};
 
 use super::failure::{Complaint, Failure};
+use super::say::{self, is_dash};
 use folder::LIST;
 use khatt::types::Files;
 use std::fs::{self, File, OpenOptions};
@@ -51,7 +52,7 @@ enum Placed {
     Exchanged(Item),
 }
 
-/// Writes outputs, each a file or a folder of files, of a job that reads `inputs`.
+/// Writes outputs, each a file, `-` for standard output, or a folder of files, of a job that reads `inputs`.
 pub(crate) fn write<'a>(
     outputs: impl IntoIterator<Item = &'a (PathBuf, Files)>,
     inputs: &[PathBuf],
@@ -66,7 +67,7 @@ pub(crate) fn write<'a>(
     }
     let (streams, outputs): (Vec<_>, Vec<_>) = outputs
         .into_iter()
-        .partition(|(target, _)| is_stream(target));
+        .partition(|(target, _)| is_dash(target) || is_stream(target));
     let items = outputs
         .iter()
         .map(|(target, files)| Item::new(target, files));
@@ -81,6 +82,9 @@ pub(crate) fn write<'a>(
     let written = places.and_then(|()| {
         let mut streams = streams.iter();
         streams.try_for_each(|(target, files)| {
+            if is_dash(target) {
+                return files.0.values().try_for_each(|content| say::print(content));
+            }
             pour(target, files).map_err(|e| Failure::at(target.display(), &e))
         })
     });
