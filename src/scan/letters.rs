@@ -64,9 +64,6 @@ const BODIES: [&str; 17] = [
     "يىئی",
 ];
 
-/// Marks below, as Unicode parts them from their letters.
-const MARKS_BELOW: &str = "\u{655}";
-
 /// Letters that have a sign within their box where nothing follows, in some styles.
 const SIGN_WITHIN: &str = "كک";
 
@@ -189,14 +186,13 @@ impl Shape {
         };
         let dots = (1..).zip(DOTS).find(|(_, set)| plain && any(base, set));
         let dots = dots.map_or(0, |d| d.0);
-        let side_of = match pieces {
+        let signs = match pieces {
             Pieces::DotAbove => Some(Side::Above),
             Pieces::DotBelow => Some(Side::Below),
             Pieces::Marked => letter.and_then(side_of_marks),
             _ => None,
         };
-        let mark = letter.and_then(|c| c.nfd().nth(1));
-        let below = any(mark, MARKS_BELOW) || plain && any(base, DOT_BELOW) || any(base, SIGNS);
+        let below = signs == Some(Side::Below) || any(base, SIGNS);
         let full = letter.is_some_and(super::is_full);
         let side = |less: &str, more: &str| {
             i8::from(plain && any(base, more)) - i8::from(plain && any(base, less))
@@ -238,7 +234,7 @@ impl Shape {
                 _ => Kind::Other,
             },
             pieces,
-            side: side_of,
+            side: signs,
             dots,
             joined,
             full,

@@ -64,7 +64,7 @@ const KINDS: [&str; 9] = [
     "ttf", "otf", "woff2", "woff", "ufo", "svg", "html", "htm", "json",
 ];
 
-/// A path.
+/// Where an output goes, if it is made.
 type Place = Option<PathBuf>;
 
 /// The path of a file whose name does not say that it is another kind than `own`.
