@@ -285,7 +285,7 @@ pub(super) fn paper(colours: &Colours) -> [f64; 3] {
 }
 
 /// What a piece of ink swallows more than its paper, summed over its pixels.
-fn swallowed(c: &Component, colours: &Colours, paper: [f64; 3]) -> [f64; 3] {
+pub(super) fn swallowed(c: &Component, colours: &Colours, paper: [f64; 3]) -> [f64; 3] {
     let mut sum = [0.0; 3];
     for (x, y) in c.pixels() {
         let here = colours.at(x, y);

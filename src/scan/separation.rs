@@ -8,7 +8,7 @@
 use super::chamfer::distances;
 use super::components::{Component, LOW, SEED, components};
 use super::error::Fault;
-use super::ink::{Ink, Inks, more, paper};
+use super::ink::{Ink, Inks, more, paper, swallowed};
 use crate::numeric::cast::single;
 use crate::types::{Colours, Gray, Sheet};
 use serde::{Deserialize, Serialize};
@@ -48,6 +48,7 @@ pub(super) struct Separation<'a> {
 /// An ink where it covers the paper.
 struct Solid {
     colour: Colour,
+    has_hue: bool,
     /// Light that it swallows more than paper does, 255ths.
     swallowed: [f64; 3],
     /// Its coverage, of the darkest inks'.
@@ -107,10 +108,10 @@ impl<'a> Separation<'a> {
                 rgb: [0, 1, 2].map(|i| on_white(look[i], paper[i])),
                 area_px: seen.len(),
             };
-            let swallowed = more(look, paper);
             Ok(Solid {
                 colour,
-                swallowed,
+                has_hue: ink != Ink::Black,
+                swallowed: more(look, paper),
                 level,
                 least: if ink == Ink::Black {
                     LINGERS * least
@@ -130,6 +131,15 @@ impl<'a> Separation<'a> {
     /// The inks, the lowest first.
     pub(super) fn colours(&self) -> Vec<Colour> {
         self.inks.iter().map(|i| i.colour.clone()).collect()
+    }
+
+    /// Whether a piece is more like an ink with a hue than grey, as dust and print are.
+    pub(super) fn is_hued(&self, piece: &Component) -> bool {
+        let seen = swallowed(piece, self.colours, self.paper);
+        // as the cosine of the angle between two colours, but for the first one's length
+        let like = |ink: [f64; 3]| dot(seen, ink) / dot(ink, ink).sqrt().max(f64::MIN_POSITIVE);
+        let mut hues = self.inks.iter().filter(|ink| ink.has_hue);
+        piece.stroke() >= FRINGE && hues.any(|ink| like(ink.swallowed) > like([1.0; 3]))
     }
 
     /// The coverage by each ink, the lowest first, each on its own level.

@@ -280,6 +280,7 @@ fn cut_page(
         upright,
         options,
         claims: &claims,
+        separation: separation.as_ref(),
     };
     let mut layer = layout::place(&mut all, labels, &task)?;
     pins::settle(&mut layer, &claims);
@@ -289,7 +290,13 @@ fn cut_page(
     let freed = whole..all.len();
     small.iter_mut().for_each(|c| c.stand(&upright));
     let specks = specks - marks::give(&mut layer, &mut all, small, sieve::dot_limit(stroke));
-    marks::dust(&mut layer, &all, &claims, (DUST * stroke).powi(2));
+    let is_drawn = |c: &Component| task.is_hued(c);
+    marks::dust(
+        &mut layer,
+        &all,
+        (&claims, &is_drawn),
+        (DUST * stroke).powi(2),
+    );
     let view = |slot: &Slot| pins::stance(slot.index, pins, &upright).0;
     let guides = guides::measure(&mut layer, &all, page, options, view)?;
     let stance = Stance::of(&layer, &all, &guides.drop);

@@ -16,6 +16,7 @@ use crate::scan::clean::Page;
 use crate::scan::components::Component;
 use crate::scan::error::Fault;
 use crate::scan::options::{Layout, Options};
+use crate::scan::separation::Separation;
 use crate::types::{Gray, Label};
 
 /// A page to be laid out, and how.
@@ -27,11 +28,18 @@ pub(super) struct Task<'a> {
     pub(super) options: &'a Options,
     /// The letters whose places a user says, and their ink.
     pub(super) claims: &'a [(usize, Vec<usize>)],
+    /// What tells the inks apart that become layers.
+    pub(super) separation: Option<&'a Separation<'a>>,
 }
 
 impl<'a> Task<'a> {
     const fn gray(&self) -> &'a Gray {
         &self.page.sheet.gray
+    }
+
+    /// Whether a piece is of an ink with a hue that becomes a layer: none is dust, nor print.
+    pub(super) fn is_hued(&self, piece: &Component) -> bool {
+        self.separation.is_some_and(|s| s.is_hued(piece))
     }
 }
 

@@ -65,8 +65,14 @@ const MIDDLE: f64 = 0.1;
 const REACH: f64 = 0.75;
 
 /// Takes ink smaller than a dot out of the letters that have none, and what lies where no dot does out of those that
-/// have; what a user gave to a letter stays, and so does what letters of one body have in common.
-pub(super) fn dust(layer: &mut Layer, all: &[Component], claims: &[(usize, Vec<usize>)], dot: f64) {
+/// have; what a user gave to a letter stays, and so do what letters of one body have in common and what is surely
+/// drawn.
+pub(super) fn dust(
+    layer: &mut Layer,
+    all: &[Component],
+    (claims, is_drawn): (&[(usize, Vec<usize>)], &dyn Fn(&Component) -> bool),
+    dot: f64,
+) {
     let drawn = layer.slots.iter().map(|s| (&s.label, s.parts.as_slice()));
     let in_pieces = in_pieces(drawn, all);
     let stray = Stray::on(layer, all);
@@ -87,7 +93,7 @@ pub(super) fn dust(layer: &mut Layer, all: &[Component], claims: &[(usize, Vec<u
     let mut drawn = drawn_alike(&layer.slots, &found, all);
     drawn.extend(drawn_again(&layer.slots, &found, all));
     for (slot, mut small) in layer.slots.iter_mut().zip(found) {
-        small.retain(|i| !drawn.contains(i));
+        small.retain(|i| !drawn.contains(i) && !is_drawn(&all[*i]));
         slot.parts.retain(|i| !small.contains(i));
         let small = small.into_iter().map(|i| (i, Reason::Dirt));
         layer.rejected.extend(small);

@@ -451,3 +451,45 @@ fn dust_close_to_a_letter_is_told_by_dust_beside_the_others() {
         assert_eq!(found.x1 > 221.0, kept, "{count}, {height}: {found:?}");
     }
 }
+
+#[test]
+fn ink_with_a_hue_is_no_dust_where_it_becomes_a_layer() {
+    // a dot beside the letters, over all of them, and black dust as large
+    let mut paper = grid_page(0.0);
+    let mut dots = Vec::new();
+    for i in 0..20 {
+        let (x, y) = foot(i);
+        let dot = Rect::from_origin_size((x + 36.0, y - 12.0), (6.0, 6.0));
+        paper.bars.push((dot, 1.0));
+        dots.push(dot);
+    }
+    let (x, y) = foot(0);
+    paper.bar(x + 10.0, y - 60.0, 6.0, 6.0);
+    let mut sheet = paper.scan();
+    let hued = |i: usize| {
+        let p = Point::new((i % 700) as f64 + 0.5, (i / 700) as f64 + 0.5);
+        dots.iter().any(|d| d.inflate(1.0, 1.0).contains(p))
+    };
+    let swallowed = sheet.gray.samples().iter().enumerate().map(|(i, v)| {
+        let [red, black] = [[40.0, 220.0, 200.0], [240.0; 3]];
+        let ink = if hued(i) { red } else { black };
+        ink.map(|full| index(full * f64::from(*v)).min(255) as u8)
+    });
+    sheet.colours = Some(crate::types::Colours {
+        block: 1,
+        columns: 700,
+        swallowed: swallowed.collect(),
+    });
+    let page = clean(sheet, Texture::default()).unwrap();
+    let asked = Options {
+        ink: serde_json::from_str("[\"black\", \"red\"]").unwrap(),
+        ..options(Layout::Grid(4, 5))
+    };
+    let cut = cut(&page, &labels(NAMES), &asked, &[]).unwrap();
+    for (cell, dot) in cut.cells.iter().zip(&dots) {
+        let holds = cell.in_sheet.inflate(1.0, 1.0).contains_rect(*dot);
+        assert!(holds, "{:?} has lost its mark", cell.label);
+    }
+    let reasons: Vec<Reason> = cut.rejected.iter().map(|r| r.reason).collect();
+    assert_eq!(reasons, [Reason::Dirt]);
+}

@@ -66,7 +66,8 @@ pub(super) fn place(
         let cells = 0..shared.cells.len();
         cells.filter(|&c| label(c).is_some_and(one_piece)).collect()
     };
-    let printed = furniture::find(all, &shared, &asked);
+    let mut printed = furniture::find(all, &shared, &asked);
+    printed.retain(|&i| !plan.task.is_hued(&all[i]));
     if !printed.is_empty() {
         letters.retain(|i| !printed.contains(i));
         shared = share(all, &letters, labels, plan).ok_or(Fault::Blank)?;
