@@ -2,11 +2,11 @@
 
 use crate::common::approved;
 use crate::common::demo::{self, Demo, output};
-use crate::common::read::set;
+use crate::common::read::{set, skrifa_outline};
 use khatt::assemble::names;
 use khatt::pipeline::Built;
 use khatt::write;
-use kurbo::PathEl;
+use kurbo::{PathEl, PathSeg, Point};
 use skrifa::{FontRef, GlyphId, MetadataProvider, raw::TableProvider};
 use std::fmt::Write;
 
@@ -49,6 +49,13 @@ fn dump(bytes: &[u8]) -> String {
     out
 }
 
+/// Whether a curve is its own chord.
+fn is_straight(curve: PathSeg) -> bool {
+    let c = curve.to_cubic();
+    let off = |p: Point| (c.p3 - c.p0).cross(p - c.p0).abs();
+    !matches!(curve, PathSeg::Line(_)) && off(c.p1).max(off(c.p2)) < 1e-6
+}
+
 /// Outlines of a few glyphs, font units to two decimals, a segment a line.
 fn outlines(built: &Built, names: &[&str]) -> String {
     let mut out = String::new();
@@ -87,11 +94,20 @@ fn the_latin_sheet() {
     assert!((620.0..690.0).contains(&metrics.cap_height), "{metrics:?}");
     assert!((370.0..430.0).contains(&metrics.x_height), "{metrics:?}");
     for ending in ["ttf", "otf"] {
-        approved::check(
-            "fonts",
-            &format!("latin-{ending}"),
-            &dump(output(outputs, ending)),
-        );
+        let bytes = output(outputs, ending);
+        approved::check("fonts", &format!("latin-{ending}"), &dump(bytes));
+        let font = FontRef::new(bytes).expect("a font");
+        for (c, id) in font.charmap().mappings() {
+            let straight = skrifa_outline(&font, id)
+                .segments()
+                .filter(|s| is_straight(*s));
+            assert_eq!(
+                straight.count(),
+                0,
+                "{ending}: {}",
+                char::from_u32(c).expect("a character")
+            );
+        }
     }
 }
 

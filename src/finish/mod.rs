@@ -4,3 +4,4 @@ pub mod direction;
 mod joins;
 pub mod place;
 pub mod round;
+pub mod straight;

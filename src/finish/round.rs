@@ -46,7 +46,7 @@ pub fn outline(outline: &Outline) -> Outline {
     Outline::new(kept.collect()).unwrap_or_default()
 }
 
-fn contour(path: &BezPath) -> BezPath {
+pub(super) fn contour(path: &BezPath) -> BezPath {
     let p = Point::round;
     let map = |el: &PathEl| match *el {
         PathEl::MoveTo(a) => PathEl::MoveTo(p(a)),

@@ -29,7 +29,7 @@ pub struct Budget {
     pub joining: f64,
     /// From the cubics to TrueType's quadratics.
     pub quadratic: f64,
-    /// From there to whole units.
+    /// To whole units, curves that become straight on them included.
     pub rounding: f64,
 }
 
@@ -42,20 +42,23 @@ pub(super) struct Measured {
     pub(super) budget: Budget,
 }
 
-/// Every letter of a font measured; none where the font has no such glyph.
-pub(super) fn measured(built: &Built, compiled: &Font) -> Vec<Option<Measured>> {
+/// Every letter of a font measured, with the font's curves as whole units leave them and as quadratics; none where the
+/// font has no such glyph.
+pub(super) fn measured(built: &Built, straight: &Font, compiled: &Font) -> Vec<Option<Measured>> {
     let letters = built.letters.par_iter();
-    letters.map(|l| letter(&built.font, compiled, l)).collect()
+    let fonts = [&built.font, straight, compiled];
+    letters.map(|l| letter(fonts, l)).collect()
 }
 
-fn letter(font: &Font, compiled: &Font, letter: &Letter) -> Option<Measured> {
+fn letter(fonts: [&Font; 3], letter: &Letter) -> Option<Measured> {
     let name = names::identify(&letter.label).ok()?.name;
-    let frame = letter.frame_in(font)?;
+    let frame = letter.frame_in(fonts[0])?;
     let map = frame.to_units();
     let fitted = place::outline(&letter.paths, frame).ok()?;
-    let cubic = &font.glyph(name.as_str())?.outline;
-    let quadratic = &compiled.glyph(name.as_str())?.outline;
-    let rounded = round::outline(quadratic);
+    let outline = |font: &Font| Some(font.glyph(name.as_str())?.outline.clone());
+    let [cubic, straight, quadratic] = fonts.map(outline);
+    let (cubic, straight, quadratic) = (cubic?, straight?, quadratic?);
+    let rounded = round::outline(&quadratic);
     let edge = |outline: &Outline| -> Edge {
         let lines = lines(outline);
         let ring = |c: &Contour| distances(c.points().iter().map(|&p| map * p), &lines);
@@ -63,9 +66,9 @@ fn letter(font: &Font, compiled: &Font, letter: &Letter) -> Option<Measured> {
     };
     let budget = Budget {
         fit: largest(&edge(&fitted)),
-        joining: apart(&fitted, cubic),
-        quadratic: apart(cubic, quadratic),
-        rounding: apart(quadratic, &rounded),
+        joining: apart(&fitted, &cubic),
+        quadratic: apart(&straight, &quadratic),
+        rounding: apart(&cubic, &straight) + apart(&quadratic, &rounded),
     };
     Some(Measured {
         edge: edge(&rounded),

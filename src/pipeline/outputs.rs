@@ -9,7 +9,7 @@ use super::report::{Report, corners, mm_per_unit};
 use super::watch::Stage;
 use super::world::World;
 use crate::assemble::names;
-use crate::finish::round;
+use crate::finish::{round, straight};
 use crate::types::{Files, Font};
 use crate::write::proof::{self as page, Entry, LeftOut, Proof};
 use crate::write::{self, Curves, WriteError};
@@ -36,11 +36,12 @@ pub fn outputs(
     last: Option<&str>,
     world: World<'_>,
 ) -> Result<Outputs, Vec<Problem>> {
-    let quadratic = quadratic(project, &built.font, world)?;
+    let drawn = straight::font(&built.font);
+    let quadratic = quadratic(project, &drawn, world)?;
     let asked = project.output.report.is_some() || project.output.proof.is_some();
     let measured = (asked || project.gate != GateTable::default()).then(|| {
         let _time = world.watch.enter(Stage::Measure);
-        budget::measured(built, &quadratic)
+        budget::measured(built, &drawn, &quadratic)
     });
     let report = measured.as_ref().map(|m| Report::new(built, m));
     let problems = report.as_ref().map(|r| r.gated(&project.gate));
@@ -49,7 +50,7 @@ pub fn outputs(
     }
     let _time = world.watch.enter(Stage::Write);
     // quadratics are fitted to what was drawn and rounded when written
-    let rounded = round::font(&built.font);
+    let rounded = round::font(&drawn);
     let mut files = Vec::new();
     let mut woff2 = None;
     for (format, path) in project.output.fonts() {
@@ -100,10 +101,11 @@ pub fn proof(
     last: Option<&str>,
     world: World<'_>,
 ) -> Result<String, Vec<Problem>> {
-    let font = quadratic(project, &built.font, world)?;
+    let drawn = straight::font(&built.font);
+    let font = quadratic(project, &drawn, world)?;
     let measured = {
         let _time = world.watch.enter(Stage::Measure);
-        budget::measured(built, &font)
+        budget::measured(built, &drawn, &font)
     };
     let _time = world.watch.enter(Stage::Write);
     let woff2 = web_font(&font).map_err(|e| vec![e.into()])?;
