@@ -23,7 +23,11 @@ pub fn median(values: impl IntoIterator<Item = f64>) -> Option<f64> {
 
 /// The value below which this share of the others lies; `None` of no values. They change places.
 #[must_use]
-pub fn quantile<T: Copy>(values: &mut [T], share: f64, order: fn(&T, &T) -> Ordering) -> Option<T> {
+pub fn quantile<T: Copy>(
+    values: &mut [T],
+    share: f64,
+    order: impl Fn(&T, &T) -> Ordering,
+) -> Option<T> {
     let last = values.len().checked_sub(1)?;
     let place = index(share * last as f64);
     Some(*values.select_nth_unstable_by(place, order).1)
@@ -33,7 +37,7 @@ pub fn quantile<T: Copy>(values: &mut [T], share: f64, order: fn(&T, &T) -> Orde
 #[must_use]
 pub fn middle<T: Copy>(
     values: impl IntoIterator<Item = T>,
-    order: fn(&T, &T) -> Ordering,
+    order: impl Fn(&T, &T) -> Ordering,
 ) -> Option<T> {
     let mut values: Vec<T> = values.into_iter().collect();
     let place = values.len() / 2;

@@ -5,6 +5,7 @@
 //! that falls off has none. A light page on a dark table is surrounded by dark and can be less than half of the
 //! picture; it is told from light ink by its size and by what is drawn on it.
 
+use crate::numeric::cast::index;
 use crate::numeric::median::quantile;
 use crate::scan::paper::{beside, regions, with_holes};
 use crate::types::Shade;
@@ -152,15 +153,12 @@ impl<'a> Thresholded<'a> {
     /// The level of most steep edges in each part, or of all where it has few. In a picture out of focus that of the
     /// middle, and half of black where all looks alike.
     fn middles(&self) -> Vec<f32> {
-        let mut differences = Vec::with_capacity(2 * self.ink.len() / self.step.pow(2));
-        self.edges(|_, a, b| differences.push((a - b).abs()));
-        let steepest = nth(&mut differences, 1.0 - BEYOND);
-        if steepest < LEAST {
+        let Some(steepest) = self.steepest() else {
             let mut all: Vec<f32> = self.places().map(|p| self.at(p)).collect();
             let (low, high) = (nth(&mut all, BEYOND), nth(&mut all, 1.0 - BEYOND));
             let told = high - low >= LEAST;
             return vec![if told { f32::midpoint(low, high) } else { 0.5 }; PARTS * PARTS];
-        }
+        };
         let mut all = Vec::new();
         let mut parts = vec![Vec::new(); PARTS * PARTS];
         self.edges(|place, a, b| {
@@ -179,6 +177,23 @@ impl<'a> Thresholded<'a> {
             }
         };
         parts.iter_mut().map(own).collect()
+    }
+
+    /// How far the two sides of the steepest edges differ, where that says something.
+    fn steepest(&self) -> Option<f32> {
+        // all that is even is only counted
+        let (mut count, mut steep) = (0_usize, Vec::new());
+        self.edges(|_, a, b| {
+            count += 1;
+            let off = (a - b).abs();
+            if off >= LEAST {
+                steep.push(off);
+            }
+        });
+        let last = count.checked_sub(1)?;
+        let steeper = last - index((1.0 - BEYOND) * last as f64);
+        let place = steep.len().checked_sub(steeper + 1)?;
+        Some(*steep.select_nth_unstable_by(place, f32::total_cmp).1)
     }
 
     /// What may be an edge, across and down: a place and the levels of both sides.
