@@ -196,7 +196,7 @@ impl Chain {
     }
 
     /// Takes the directions of smooth nodes beside lines from the lines, and of extrema from their axes.
-    pub(super) fn align(&mut self) {
+    pub fn align(&mut self) {
         for i in 0..self.nodes.len() {
             let node = self.nodes[i];
             let along = match node.join {

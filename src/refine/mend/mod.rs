@@ -11,6 +11,7 @@
 //! | [`window`] | a structure | its nodes by least squares of the pixels around |
 //! | [`ends`] | a path's corner | whether its end may be cut off, or it be a round |
 //! | [`bends`] | a path | its tight bends, and the corners that may stand in their place |
+//! | [`level`] | lines that are nearly upright or level | the same along their axis |
 //!
 //! What is left of the picture around an edge tells where a fit is wrong, and by how much. There the few nodes near
 //! by are fit to the pixels themselves, as they stand and with a node or corner more or less; what leaves least for
@@ -23,6 +24,7 @@ mod beside;
 mod budget;
 mod ends;
 mod fair;
+mod level;
 mod part;
 mod place;
 mod side;
@@ -143,6 +145,7 @@ impl Work<'_> {
         self.sharpen();
         self.blunt();
         self.settle();
+        self.level();
         // sides that run close together do so for the pixels' sake now
         self.trim(0.0);
     }

@@ -23,7 +23,7 @@ use crate::{
     },
     types::{Contour, Gray},
 };
-use kurbo::{BezPath, ParamCurveNearest, PathSeg, Point, Rect, Shape};
+use kurbo::{BezPath, ParamCurve, ParamCurveNearest, PathSeg, Point, Rect, Shape};
 
 /// The largest distance of two closed paths.
 fn apart(a: &BezPath, b: &BezPath) -> f64 {
@@ -89,6 +89,41 @@ fn a_bend_that_no_lens_tells_from_a_corner_becomes_one() {
                 round.to_svg()
             );
         }
+    }
+}
+
+#[test]
+fn lines_are_on_an_axis_where_the_picture_allows_it() {
+    let quad = |off: f64| {
+        let (right, top, left) = (40.3 - off, 40.1 + off, 8.2 + off);
+        let text = format!("M8.2 8.4L40.3 {}L{right} 40.1L{left} {top}Z", 8.4 + off);
+        BezPath::from_svg(&text).unwrap()
+    };
+    let on_axis = |path: &BezPath| {
+        let ways = path.segments().map(|s| s.end() - s.start());
+        ways.filter(|w| w.x == 0.0 || w.y == 0.0).count()
+    };
+    let mut seed = 1_u32;
+    let mut grain = |gray: &Gray, amount: f32| {
+        let noisy = gray.samples().iter().map(|v| {
+            seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            v + amount * ((seed >> 8) as f32 / 16_777_216.0 - 0.5)
+        });
+        gray.with_samples(noisy.collect())
+    };
+    for lens in [0.0, 0.9] {
+        let blur = Contour::PIXEL_BLUR_PX.hypot(lens);
+        let clean = photograph(&quad(0.0), lens);
+        let noisy = grain(&clean, 0.1);
+        // ends as grain leaves them
+        assert_eq!(on_axis(&mended(&clean, &quad(0.01), blur)), 4);
+        assert_eq!(on_axis(&mended(&noisy, &quad(0.1), blur)), 4);
+        // drawn aslant
+        let slanted = mended(&photograph(&quad(0.2), lens), &quad(0.2), blur);
+        assert_eq!(on_axis(&slanted), 0);
+        assert!(apart(&slanted, &quad(0.2)) < 0.02);
+        let noisy = grain(&photograph(&quad(0.7), lens), 0.1);
+        assert_eq!(on_axis(&mended(&noisy, &quad(0.7), blur)), 0);
     }
 }
 
