@@ -11,7 +11,7 @@
 //! | [`window`] | a structure | its nodes by least squares of the pixels around |
 //! | [`ends`] | a path's corner | whether its end may be cut off, or it be a round |
 //! | [`bends`] | a path | its tight bends, and the corners that may stand in their place |
-//! | [`level`] | lines that are nearly upright or level | the same along their axis |
+//! | [`axes`] | lines that are upright or level but for grain | the same on their axis |
 //!
 //! What is left of the picture around an edge tells where a fit is wrong, and by how much. There the few nodes near
 //! by are fit to the pixels themselves, as they stand and with a node or corner more or less; what leaves least for
@@ -19,12 +19,12 @@
 //! passed for a part of them. In the end bends that a lens cannot tell from corners become corners, where the pixels
 //! do not speak against it, and corners lose their ends or become rounds, where the pixels ask for it; tips come last.
 
+mod axes;
 mod bends;
 mod beside;
 mod budget;
 mod ends;
 mod fair;
-mod level;
 mod part;
 mod place;
 mod side;
@@ -145,7 +145,7 @@ impl Work<'_> {
         self.sharpen();
         self.blunt();
         self.settle();
-        self.level();
+        self.put_on_axes();
         // sides that run close together do so for the pixels' sake now
         self.trim(0.0);
     }

@@ -291,12 +291,7 @@ fn cut_page(
     small.iter_mut().for_each(|c| c.stand(&upright));
     let specks = specks - marks::give(&mut layer, &mut all, small, sieve::dot_limit(stroke));
     let is_drawn = |c: &Component| task.is_hued(c);
-    marks::dust(
-        &mut layer,
-        &all,
-        (&claims, &is_drawn),
-        (DUST * stroke).powi(2),
-    );
+    marks::dust(&mut layer, &all, &claims, (DUST * stroke).powi(2), is_drawn);
     let view = |slot: &Slot| pins::stance(slot.index, pins, &upright).0;
     let guides = guides::measure(&mut layer, &all, page, options, view)?;
     let stance = Stance::of(&layer, &all, &guides.drop);

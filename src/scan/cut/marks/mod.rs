@@ -70,8 +70,9 @@ const REACH: f64 = 0.75;
 pub(super) fn dust(
     layer: &mut Layer,
     all: &[Component],
-    (claims, is_drawn): (&[(usize, Vec<usize>)], &dyn Fn(&Component) -> bool),
+    claims: &[(usize, Vec<usize>)],
     dot: f64,
+    is_drawn: impl Fn(&Component) -> bool,
 ) {
     let drawn = layer.slots.iter().map(|s| (&s.label, s.parts.as_slice()));
     let in_pieces = in_pieces(drawn, all);

@@ -1,6 +1,7 @@
 //! Dust beside letters: names and the page's other letters tell it from dots.
 
 use super::*;
+use crate::types::Colours;
 
 #[test]
 fn dust_without_end_is_told() {
@@ -473,9 +474,9 @@ fn ink_with_a_hue_is_no_dust_where_it_becomes_a_layer() {
     let swallowed = sheet.gray.samples().iter().enumerate().map(|(i, v)| {
         let [red, black] = [[40.0, 220.0, 200.0], [240.0; 3]];
         let ink = if hued(i) { red } else { black };
-        ink.map(|full| index(full * f64::from(*v)).min(255) as u8)
+        ink.map(|full| u8::try_from(index(full * f64::from(v.min(1.0)))).unwrap())
     });
-    sheet.colours = Some(crate::types::Colours {
+    sheet.colours = Some(Colours {
         block: 1,
         columns: 700,
         swallowed: swallowed.collect(),
