@@ -16,7 +16,7 @@ use crate::scan::letters::Foot;
 use kurbo::{Point, Vec2};
 use std::collections::BTreeMap;
 
-/// Places of a row more than it has kinds that tell its slope, at least.
+/// Letters of a kind behind its first that tell a row's slope, at least: of fewer nobody knows how far they stray.
 const ENOUGH: usize = 3;
 /// And of a kind at most: pairs of more take long, and tell no more.
 const MOST: usize = 200;
@@ -50,7 +50,10 @@ impl Row {
     /// Through places of some letters, by kinds; `None` of too few.
     fn through(kinds: &BTreeMap<Datum, Vec<Point>>, letters: usize) -> Option<Self> {
         let count: usize = kinds.values().map(Vec::len).sum();
-        let spare = count - kinds.len();
+        // places of one letter stray together
+        let behind = |places: &Vec<Point>| places.chunk_by(|a, b| a.x == b.x).count() - 1;
+        let spare = kinds.values().map(behind).sum::<usize>();
+        let spare = spare.min(letters.saturating_sub(1));
         if spare < ENOUGH {
             return None;
         }
@@ -199,6 +202,29 @@ mod tests {
         let row = |r: usize| (0..strays.len()).map(move |k| (r, k));
         let letters: Vec<Letter> = (0..3).flat_map(row).map(|(r, k)| letter(r, k)).collect();
         assert_eq!(slopes(&letters, 3, NEAR), None);
+    }
+
+    #[test]
+    fn three_letters_of_two_ends_tell_no_slope() {
+        let rise = |row: usize| 0.1 + 0.1 * row as f64;
+        let letter = |row: usize, k: usize| {
+            let mut letter = Letter::ending(row, "uni062D.medi", 0.0);
+            let x = k as f64 * 3.0 * WIDTH;
+            letter.body = letter.body + Vec2::new(x, rise(row) * x);
+            letter.joins = vec![rise(row) * x - 30.0; 2];
+            letter
+        };
+        let of = |count: usize| {
+            let row = |r: usize| (0..count).map(move |k| (r, k));
+            let letters: Vec<Letter> = (0..3).flat_map(row).map(|(r, k)| letter(r, k)).collect();
+            slopes(&letters, 3, NEAR)
+        };
+        assert_eq!(of(3), None);
+        let told = of(5).unwrap();
+        assert!(
+            (0..3).all(|row| (told[row] - rise(row)).abs() < 0.01),
+            "{told:?}"
+        );
     }
 
     #[test]
