@@ -1,7 +1,8 @@
 //! Curves that whole units make straight become lines, and nodes that these put within a line go.
 //!
 //! A stem's side that is bent by a quarter of a unit has a few curves; on the grid it is one line. Its ends stay where
-//! they are, so that on the grid no other outline comes of it.
+//! they are; the handles of a curve beside it may come to lie on another unit, since they are rounded with what they
+//! continue.
 
 use super::round;
 use crate::types::{Font, Outline};

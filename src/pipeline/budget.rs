@@ -55,10 +55,11 @@ fn letter(fonts: [&Font; 3], letter: &Letter) -> Option<Measured> {
     let frame = letter.frame_in(fonts[0])?;
     let map = frame.to_units();
     let fitted = place::outline(&letter.paths, frame).ok()?;
-    let outline = |font: &Font| Some(font.glyph(name.as_str())?.outline.clone());
-    let [cubic, straight, quadratic] = fonts.map(outline);
-    let (cubic, straight, quadratic) = (cubic?, straight?, quadratic?);
-    let rounded = round::outline(&quadratic);
+    let outlines = fonts.map(|font| font.glyph(name.as_str()).map(|g| &g.outline));
+    let [Some(cubic), Some(straight), Some(quadratic)] = outlines else {
+        return None;
+    };
+    let rounded = round::outline(quadratic);
     let edge = |outline: &Outline| -> Edge {
         let lines = lines(outline);
         let ring = |c: &Contour| distances(c.points().iter().map(|&p| map * p), &lines);
@@ -66,9 +67,9 @@ fn letter(fonts: [&Font; 3], letter: &Letter) -> Option<Measured> {
     };
     let budget = Budget {
         fit: largest(&edge(&fitted)),
-        joining: apart(&fitted, &cubic),
-        quadratic: apart(&straight, &quadratic),
-        rounding: apart(&cubic, &straight) + apart(&quadratic, &rounded),
+        joining: apart(&fitted, cubic),
+        quadratic: apart(straight, quadratic),
+        rounding: apart(cubic, straight) + apart(quadratic, &rounded),
     };
     Some(Measured {
         edge: edge(&rounded),
