@@ -51,7 +51,8 @@ impl Row {
     fn through(kinds: &BTreeMap<Datum, Vec<Point>>, letters: usize) -> Option<Self> {
         let count: usize = kinds.values().map(Vec::len).sum();
         // places of one letter stray together
-        let behind = |places: &Vec<Point>| places.chunk_by(|a, b| a.x == b.x).count() - 1;
+        let one = |a: &Point, b: &Point| a.x.total_cmp(&b.x).is_eq();
+        let behind = |places: &Vec<Point>| places.chunk_by(one).count() - 1;
         let spare = kinds.values().map(behind).sum::<usize>();
         let spare = spare.min(letters.saturating_sub(1));
         if spare < ENOUGH {
