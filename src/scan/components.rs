@@ -323,7 +323,7 @@ fn runs(row: &[f32], y: usize, low: f32) -> Vec<(Run, Coverage)> {
 
 /// What makes neighbours of two pixels.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Touch {
+pub(super) enum Touch {
     /// A common side or corner.
     Corners,
     /// A common side.
@@ -333,13 +333,14 @@ enum Touch {
 /// Connected paper that does not reach the border of a picture of `width` × `height` px.
 pub(super) fn enclosed(
     (width, height): (usize, usize),
+    touch: Touch,
     is_paper: impl Fn(usize, usize) -> bool,
 ) -> Vec<Component> {
     let rows = (0..height).map(|y| (y, 0, width));
     let runs = rows.flat_map(|(y, start, end)| Run { y, start, end }.cut(&is_paper));
     let paper: Vec<Run> = runs.filter(|r| r.0).map(|r| r.1).collect();
     let free = |r: &Run| r.start == 0 || r.end >= width || r.y == 0 || r.y + 1 >= height;
-    let groups = group(&paper, Touch::Sides).into_iter();
+    let groups = group(&paper, touch).into_iter();
     let pieces = groups.map(|g| g.into_iter().map(|i| paper[i]).collect::<Vec<Run>>());
     let inside = pieces.filter(|runs| !runs.iter().any(free));
     inside

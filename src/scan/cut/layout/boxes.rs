@@ -7,7 +7,7 @@ use super::named::{Place, named};
 use super::rows::rows;
 use super::{Task, listed};
 use crate::numeric::view::View;
-use crate::scan::components::{Component, enclosed};
+use crate::scan::components::{Component, Touch, enclosed};
 use crate::scan::cut::{Layer, Levels, Reason};
 use crate::scan::error::Fault;
 use crate::scan::options::Order;
@@ -144,7 +144,7 @@ fn frames(task: &Task<'_>) -> Vec<Rect> {
         let mut rows = (y * step..(y + 1) * step).map(|row| task.gray().row(row));
         !rows.any(|row| row[x * step..(x + 1) * step].iter().any(|&v| v >= task.low))
     };
-    let papers = enclosed((w / step, h / step), is_paper);
+    let papers = enclosed((w / step, h / step), Touch::Sides, is_paper);
     let boxes: Vec<Rect> = papers
         .iter()
         .filter(|c| c.area as f64 > PAPER * c.bounds.area())
