@@ -20,7 +20,7 @@ use crate::scan::components::Component;
 use crate::scan::letters::{Kind, Pieces, Shape};
 use dots::{Dots, opposite, surplus, usual_dot};
 use kurbo::{Rect, Vec2};
-use pieces::{is_scattered, one_of_many, strayed};
+use pieces::{give_strokes, is_scattered, one_of_many, strayed};
 use std::collections::BTreeMap;
 use std::ptr;
 
@@ -381,16 +381,17 @@ fn is_compact(c: &Component, times: f64) -> bool {
 pub(super) fn give(
     layer: &mut Layer,
     all: &mut Vec<Component>,
-    small: Vec<Component>,
+    mut small: Vec<Component>,
     least: f64,
 ) -> usize {
     let before = all.len();
-    let (small, smaller): (Vec<_>, Vec<_>) =
-        small.into_iter().partition(|c| c.area as f64 >= least);
-    share_out(layer, all, &small);
+    let mut smaller: Vec<_> = small.extract_if(.., |c| (c.area as f64) < least).collect();
+    share_out(layer, all, &mut small);
     if lack_dots(layer) {
-        share_out(layer, all, &smaller);
+        share_out(layer, all, &mut smaller);
     }
+    small.append(&mut smaller);
+    give_strokes(layer, all, small);
     all.len() - before
 }
 
@@ -403,12 +404,12 @@ fn lack_dots(layer: &Layer) -> bool {
     bare.len() >= ENOUGH && 2 * most > bare.len()
 }
 
-/// Gives pieces of ink to the letters beside which they lie and that want them.
-fn share_out(layer: &mut Layer, all: &mut Vec<Component>, small: &[Component]) {
+/// Moves pieces of ink to the letters beside which they lie and that want them.
+fn share_out(layer: &mut Layer, all: &mut Vec<Component>, small: &mut Vec<Component>) {
     let bodies = layer.slots.iter().map(|s| largest(all, &s.parts));
     let bodies = bodies.map(|body| body.map(|i| all[i].upright));
     let bodies: Vec<Option<Rect>> = bodies.collect();
-    let mut wanted: Vec<Vec<Component>> = vec![Vec::new(); layer.slots.len()];
+    let mut wanted: Vec<Vec<usize>> = vec![Vec::new(); layer.slots.len()];
     let boxes: Vec<Rect> = small.iter().map(|c| c.upright).collect();
     // the dots of a letter go to it together
     for dots in groups(&boxes) {
@@ -419,9 +420,10 @@ fn share_out(layer: &mut Layer, all: &mut Vec<Component>, small: &[Component]) {
         let nearest = near.min_by(|a, b| a.1.total_cmp(&b.1));
         let close = |&(s, gap): &(usize, f64)| bodies[s].is_some_and(|b| gap < REACH * b.height());
         if let Some((s, _)) = nearest.filter(close) {
-            wanted[s].extend(dots.iter().map(|&i| small[i].clone()));
+            wanted[s].extend(dots);
         }
     }
+    let mut given = vec![false; small.len()];
     for (slot, pieces) in layer.slots.iter_mut().zip(wanted) {
         let shape = slot.shape.pieces;
         let Some(body) = largest(all, &slot.parts) else {
@@ -429,20 +431,23 @@ fn share_out(layer: &mut Layer, all: &mut Vec<Component>, small: &[Component]) {
         };
         let others = slot.parts.iter().filter(|&&i| i != body);
         let others = others.map(|&i| all[i].area);
-        let dot = others.chain(pieces.iter().map(|c| c.area)).max();
+        let dot = others.chain(pieces.iter().map(|&k| small[k].area)).max();
         let dot = dot.unwrap_or(0) as f64;
-        for c in pieces {
-            let sign = c.area as f64 > ALIKE * dot && !astray(&c, &slot.parts, all);
-            let own = match shape {
-                Pieces::One => torn(&c, &all[body]),
+        for k in pieces {
+            let c = &small[k];
+            let sign = c.area as f64 > ALIKE * dot && !astray(c, &slot.parts, all);
+            given[k] = match shape {
+                Pieces::One => torn(c, &all[body]),
                 Pieces::DotAbove | Pieces::DotBelow | Pieces::Marked => sign,
-                Pieces::Within => sign && !beside(&c, &all[body]),
+                Pieces::Within => sign && !beside(c, &all[body]),
                 Pieces::Bare | Pieces::Unknown => false,
             };
-            if own {
+            if given[k] {
                 slot.parts.push(all.len());
-                all.push(c);
+                all.push(c.clone());
             }
         }
     }
+    let mut given = given.into_iter();
+    small.retain(|_| !given.next().unwrap_or(false));
 }
