@@ -41,12 +41,11 @@ pub(super) fn give_strokes(layer: &mut Layer, all: &mut Vec<Component>, small: V
     }
     let is_drawn = |c: &Component| {
         let alike = all.iter().chain(&small).filter(|o| is_like(c, o));
-        !is_dot(c) && alike.count() > ENOUGH
+        // a piece is like itself, too
+        !is_dot(c) && alike.take(ENOUGH + 1).count() > ENOUGH
     };
-    let owners = small
-        .iter()
-        .map(|c| owner(layer, all, c).filter(|_| is_drawn(c)));
-    let owners: Vec<Option<usize>> = owners.collect();
+    let owner = |c| is_drawn(c).then(|| owner(layer, all, c)).flatten();
+    let owners: Vec<Option<usize>> = small.iter().map(owner).collect();
     for (c, slot) in small.into_iter().zip(owners) {
         if let Some(slot) = slot {
             layer.slots[slot].parts.push(all.len());
