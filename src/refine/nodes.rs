@@ -14,6 +14,7 @@ use crate::numeric::{
     refit::{Foot, Refit, Sample, Scale, Stop},
 };
 use kurbo::{BezPath, ParamCurve, ParamCurveDeriv, Point, Vec2};
+use std::collections::BTreeSet;
 
 /// Comparisons with the picture.
 const ROUNDS: usize = 3;
@@ -33,6 +34,8 @@ const MOST_PX: f64 = 1.0;
 const FREEDOM: f64 = 0.03;
 /// And no node further in all, px.
 const REACH_PX: f64 = 2.0;
+/// Those that would are held, up to so many times in a step: without them others may go far.
+const HOLDS: usize = 4;
 
 /// The paths moved to where their blurred fill is most like the picture; each stays as it was if none of its steps
 /// makes it more like.
@@ -49,9 +52,10 @@ pub(super) fn settled(residual: &Residual<'_>, paths: &[BezPath]) -> Vec<BezPath
     let mut least = each(&now, |(_, ring)| residual.along(ring));
     let mut best = paths.to_vec();
     for _ in 0..ROUNDS {
-        change(&mut now, |(chain, ring)| {
-            if let Some(chain) = chain {
-                step(chain, &residual);
+        let mut pairs: Vec<_> = now.iter_mut().zip(&start).collect();
+        change(&mut pairs, |((chain, ring), start)| {
+            if let (Some(chain), Some(start)) = (chain, start) {
+                step(chain, start, &residual);
                 *ring = fine(&chain.to_path());
             }
         });
@@ -61,9 +65,10 @@ pub(super) fn settled(residual: &Residual<'_>, paths: &[BezPath]) -> Vec<BezPath
             let (Some(chain), Some(start)) = chains else {
                 continue;
             };
-            if off[k] < least[k] && near(chain, start) {
+            let path = chain.to_path();
+            if off[k] < least[k] && far(chain, start).next().is_none() && path.is_finite() {
                 least[k] = off[k];
-                best[k] = chain.to_path();
+                best[k] = path;
             }
         }
     }
@@ -79,8 +84,8 @@ fn fine(path: &BezPath) -> Vec<Point> {
     polygon(path, 0.001)
 }
 
-/// Moves a chain by what the differences along it say.
-fn step(chain: &mut Chain, residual: &Residual<'_>) {
+/// Moves a chain by what the differences along it say. Nodes that would go far from where they started are held.
+fn step(chain: &mut Chain, start: &Chain, residual: &Residual<'_>) {
     for i in 0..chain.nodes.len() {
         if is_soft(chain, i) {
             soften(&mut chain.nodes[i]);
@@ -119,12 +124,25 @@ fn step(chain: &mut Chain, residual: &Residual<'_>) {
         gain: 0.01,
         enough: f64::INFINITY,
     };
-    Refit::default().run(chain, (&samples, &mut feet), scale, stop);
+    let mut held = BTreeSet::new();
+    let mut moved = chain.clone();
+    for _ in 0..=HOLDS {
+        moved.clone_from(chain);
+        let data = (samples.as_slice(), &mut feet.clone());
+        Refit::holding(&held).run(&mut moved, data, scale, stop);
+        let before = held.len();
+        held.extend(far(&moved, start));
+        if held.len() == before {
+            break;
+        }
+    }
+    *chain = moved;
     level_ends(chain);
 }
 
-/// Whether no node went far from where it started, and all are places.
-fn near(chain: &Chain, start: &Chain) -> bool {
-    let mut pairs = chain.nodes.iter().zip(&start.nodes);
-    chain.to_path().is_finite() && pairs.all(|(a, b)| a.point.distance(b.point) <= REACH_PX)
+/// Nodes that went far from where they started.
+fn far(chain: &Chain, start: &Chain) -> impl Iterator<Item = usize> {
+    let pairs = chain.nodes.iter().zip(&start.nodes).enumerate();
+    let far = pairs.filter(|(_, (a, b))| a.point.distance(b.point) > REACH_PX);
+    far.map(|(i, _)| i)
 }

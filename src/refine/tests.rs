@@ -313,6 +313,24 @@ fn nodes_go_where_the_picture_has_them() {
 }
 
 #[test]
+fn a_node_that_would_go_far_holds_no_other_back() {
+    // the notch goes eight px deeper, and the foot lies aside
+    let truth = "M8.2 8.4L40.3 8.4L40.3 40.1L27.2 40.1L24.2 16.4L21.2 40.1L8.2 40.1Z";
+    let start = "M8.6 8.1L39.9 8.2L40.1 40.4L27.4 40.2L24.2 24.4L21.1 39.9L8.5 40.5Z";
+    let [truth, start] = [truth, start].map(|s| BezPath::from_svg(s).unwrap());
+    for lens in [0.0, 0.9] {
+        let blur = Contour::PIXEL_BLUR_PX.hypot(lens);
+        let got = settled(&photograph(&truth, lens), &start, blur);
+        let place = |path: &BezPath, i: usize| path.segments().nth(i).unwrap().start();
+        for i in [0, 1, 2, 6] {
+            let [before, after] = [&start, &got].map(|p| place(p, i).distance(place(&truth, i)));
+            assert!(after < 0.6 * before, "lens {lens}: {before} {after}");
+        }
+        assert!(place(&got, 4).distance(place(&start, 4)) <= 2.0);
+    }
+}
+
+#[test]
 fn no_node_goes_far_where_the_picture_tells_nothing() {
     for gray in [
         Gray::from_fn(48, 48, |_, _| 0.0),

@@ -21,6 +21,7 @@ use kurbo::{Point, Vec2};
 use moments::{Moments, Term};
 use std::{
     array::from_fn,
+    collections::BTreeSet,
     ops::{Range, RangeInclusive},
 };
 
@@ -72,6 +73,8 @@ const HOPE: f64 = 4.0;
 const HOOK: f64 = 1.75;
 /// How far a loose end may go, in deviations of a sample: as far as a corner is found astray.
 const LOOSE: f64 = 16.0;
+/// And a held node.
+const HELD: f64 = 1.0;
 /// How far a foot goes in one step, and how far beyond its segment before it is asked for on the next, parameter.
 const SLIDE: (f64, RangeInclusive<f64>) = (0.3, -0.2..=1.2);
 /// How far in one step, in shorter sides.
@@ -135,9 +138,20 @@ pub struct Refit {
     terms: Vec<Term>,
     /// Where each node came from, and one over the square of how far it may go.
     anchors: Vec<(Point, f64)>,
+    /// Nodes that are held.
+    held: BTreeSet<usize>,
 }
 
 impl Refit {
+    /// A refinement in which these nodes of the chain stay about where they are, whatever the samples leave open.
+    #[must_use]
+    pub fn holding(held: &BTreeSet<usize>) -> Self {
+        Self {
+            held: held.clone(),
+            ..Self::default()
+        }
+    }
+
     /// Moves what is free of `chain` to the least cost in at most `rounds` steps, and returns that cost.
     /// `feet` starts with a guess for each sample and ends on the chain.
     pub fn run(
@@ -474,10 +488,10 @@ impl Refit {
         self.anchors.clear();
         for (i, node) in chain.nodes.iter().enumerate() {
             let side = scale.freedom * shorter_side(chain, i);
-            let reach = if node.join == Join::Loose {
-                side.min(LOOSE * scale.sigma)
-            } else {
-                side
+            let reach = match node.join {
+                _ if self.held.contains(&i) => side.min(HELD * scale.sigma),
+                Join::Loose => side.min(LOOSE * scale.sigma),
+                _ => side,
             };
             self.anchors
                 .push((node.point, 1.0 / (reach * reach).max(1e-6)));
