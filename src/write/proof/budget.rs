@@ -4,11 +4,11 @@ use super::Entry;
 use crate::numeric;
 use maud::{Markup, html};
 
-/// Units, and millimetres of paper where these are known.
-pub(super) fn length(units: f64, mm_per_unit: Option<f64>) -> String {
+/// Units, and millimetres of paper where these are known; `unit` stands between both.
+pub(super) fn length(units: f64, unit: &str, mm_per_unit: Option<f64>) -> String {
     match mm_per_unit {
-        Some(mm) => format!("{units:.2} ({:.3} mm)", units * mm),
-        None => format!("{units:.2}"),
+        Some(mm) => format!("{units:.2}{unit} ({:.3} mm)", units * mm),
+        None => format!("{units:.2}{unit}"),
     }
 }
 
@@ -36,8 +36,8 @@ pub(super) fn table(entries: &[Entry]) -> Markup {
                     @for (entry, worst) in &rows {
                         tr {
                             td { a href=(format!("#glyph-{}", entry.glyph.name)) { (entry.glyph.name) } }
-                            @for (_, units) in &entry.steps { td { (length(*units, entry.mm_per_unit)) } }
-                            td { (length(*worst, entry.mm_per_unit)) }
+                            @for (_, units) in &entry.steps { td { (length(*units, "", entry.mm_per_unit)) } }
+                            td { (length(*worst, "", entry.mm_per_unit)) }
                         }
                     }
                 }

@@ -213,7 +213,7 @@ fn cell(entry: &Entry, info: &Info, memory: &Memory) -> Markup {
                 b { (name) } " "
                 span.sample lang=(text::language(&entry.text)) { (entry.text) }
                 br;
-                small { (entry.sheet) ", cell " (entry.index + 1) " · " (drawn.count) " nodes · advance " (drawn.advance) " · worst " (budget::length(worst, entry.mm_per_unit)) " units" }
+                small { (entry.sheet) ", cell " (entry.index + 1) " · " (drawn.count) " nodes · advance " (drawn.advance) " · worst " (budget::length(worst, " units", entry.mm_per_unit)) }
                 @if let Some(change) = &change { p.changed { "since the build before: " (change.distance()) } }
                 @for remark in &entry.remarks { p.remark { (remark) } }
             }

@@ -162,6 +162,12 @@ fn the_page_remembers_what_was_before() {
 #[test]
 fn the_budget_is_in_units_and_on_paper() {
     let page = proof(&[entry("a", "a")]);
-    assert!(page.contains("3.00 (0.060 mm)") && page.contains("0.25 (0.005 mm)"));
+    for told in [
+        "worst 3.00 units (0.060 mm)",
+        "3.00 (0.060 mm)",
+        "0.25 (0.005 mm)",
+    ] {
+        assert!(page.contains(told), "{told}");
+    }
     assert!(page.contains("whole units"));
 }
