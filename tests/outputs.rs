@@ -281,6 +281,31 @@ fn a_dash_is_standard_output() {
 }
 
 #[test]
+fn make_knows_the_outputs_of_a_project_in_a_folder_by_its_own_names() {
+    let desk = Desk::letters();
+    outputs(&desk, "ttf = \"../build/./test.ttf\"");
+    for name in ["font.toml", "page.png"] {
+        desk.write(&format!("source/{name}"), desk.read(name));
+    }
+    let build = |file: &str| {
+        let made = desk.run(&["build", file, "--depfile", "-"]);
+        String::from_utf8(made.stdout).expect("text")
+    };
+    let rule = build("source/font.toml");
+    let first = "build/test.ttf: source/font.toml source/page.png\n";
+    assert!(rule.starts_with(first), "{rule}");
+    // what lies above a link is not what lies above its name
+    #[cfg(unix)]
+    {
+        desk.write("far/build/kept", "");
+        std::os::unix::fs::symlink("../source", desk.path("far/link")).expect("a link");
+        let rule = build("far/link/font.toml");
+        assert!(rule.starts_with("far/link/../build/test.ttf: "), "{rule}");
+        assert!(!desk.has("far/build/test.ttf"));
+    }
+}
+
+#[test]
 fn locked_tells_all_that_a_build_would_change() {
     let desk = Desk::letters();
     outputs(

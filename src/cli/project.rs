@@ -11,10 +11,10 @@ use miette::{
     Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, NamedSource, SourceCode,
 };
 use std::collections::BTreeSet;
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
-use std::{env, fmt, iter};
+use std::{env, fmt, fs, iter};
 
 /// A project and the folder that its paths start from.
 #[derive(Debug)]
@@ -161,12 +161,29 @@ impl Opened {
 
     /// Where a path of the project file lies.
     pub(crate) fn path(&self, path: &Path) -> PathBuf {
-        if self.folder == Path::new(".") {
-            path.to_owned()
-        } else {
-            self.folder.join(path)
+        folded(&self.folder.join(path))
+    }
+}
+
+/// A path without those of its `..` that lead out of a folder which is no link: Make knows a file by its shortest name
+/// alone.
+fn folded(path: &Path) -> PathBuf {
+    let mut short = PathBuf::new();
+    for part in path.components() {
+        let named = matches!(short.components().next_back(), Some(Component::Normal(_)));
+        let folder = || fs::symlink_metadata(&short).is_ok_and(|found| found.is_dir());
+        match part {
+            Component::CurDir => {}
+            Component::ParentDir if named && folder() => {
+                short.pop();
+            }
+            _ => short.push(part),
         }
     }
+    if short.as_os_str().is_empty() {
+        short.push(".");
+    }
+    short
 }
 
 impl Inputs for Opened {
