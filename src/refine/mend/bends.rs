@@ -20,8 +20,8 @@ const APART_PX: f64 = 4.0;
 const SHARP: f64 = 0.87;
 /// Its sides turn less than corners' do on the way of so many px before it.
 const SIDE_PX: f64 = 1.5;
-/// Sides lead to a corner no further than this, in gaps between them.
-const AHEAD: f64 = 6.0;
+/// Sides lead to a corner no further than this, in gaps between them, for sides of which a way is seen.
+const AHEAD: f64 = 12.0;
 /// Places along a segment that are looked at for its length.
 const STEPS: usize = 32;
 /// How precisely the nearest place on a curve is found, px.
@@ -101,9 +101,9 @@ impl<'a> Way<'a> {
     }
 }
 
-/// An open chain with a corner near `p`, where its sides lead from `px` before and after that place; `None` where it
-/// ends before.
-pub(super) fn cornered(chain: &Chain, p: Point, px: f64) -> Option<Chain> {
+/// An open chain with a corner near `p`, where its sides lead from `px` before and after that place, and the corner's
+/// node; `None` where it ends before.
+pub(super) fn cornered(chain: &Chain, p: Point, px: f64) -> Option<(Chain, usize)> {
     let last = chain.kinds.len();
     let off = |i: usize| (i, chain.cubic(i).nearest(p, NEAREST_PX));
     let nearest = (0..last).map(off);
@@ -118,13 +118,14 @@ pub(super) fn cornered(chain: &Chain, p: Point, px: f64) -> Option<Chain> {
     let corner = corner(
         (before.p3, u, before.p2.distance(before.p3)),
         (after.p0, v, after.p0.distance(after.p1)),
+        AHEAD,
     );
     let mut out = chain.clone();
     out.nodes[a].ahead = before.p0.distance(before.p1);
     out.nodes[b + 1].back = after.p2.distance(after.p3);
     out.nodes.splice(a + 1..=b, [corner]);
     out.kinds.splice(a..=b, [chain.kinds[a], chain.kinds[b]]);
-    Some(out)
+    Some((out, a + 1))
 }
 
 /// Whether a chain has a corner for a bend at `p`: one to which both sides lead.
@@ -149,13 +150,17 @@ pub(super) fn is_sharp(chain: &Chain, i: usize) -> bool {
     libm::atan2(-u.cross(v), -u.dot(v)).abs() > SHARP && leads(&before, u) && leads(&after, v)
 }
 
-/// The corner where two sides meet, each carried on from a place, in a direction, with a handle so long; halfway
-/// between the places where they do not.
-pub(super) fn corner((p, u, back): (Point, Vec2, f64), (q, v, ahead): (Point, Vec2, f64)) -> Node {
+/// The corner where two sides meet, each carried on from a place, in a direction, with a handle so long, `most` gaps
+/// between the places at most; halfway between these where they do not.
+pub(super) fn corner(
+    (p, u, back): (Point, Vec2, f64),
+    (q, v, ahead): (Point, Vec2, f64),
+    most: f64,
+) -> Node {
     let gap = q - p;
     let cross = u.cross(v);
     let (on, off) = (gap.cross(v) / cross, -gap.cross(u) / cross);
-    let far = AHEAD * gap.hypot();
+    let far = most * gap.hypot();
     let (point, on, off) = if (0.0..far).contains(&on) && (0.0..far).contains(&off) {
         (p + on * u, on, off)
     } else {

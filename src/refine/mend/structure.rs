@@ -102,7 +102,7 @@ impl Search<'_> {
         let mut most = left.squares + more;
         let mut found = None;
         let corners = SIDES_PX.map(|px| cornered(self.part, self.at, px));
-        for other in corners.into_iter().flatten() {
+        for (other, _) in corners.into_iter().flatten() {
             let other = self.fit(other, most);
             let corner = is_cornered(&other.chain, self.at);
             if corner && other.sound && other.drawn.squares < most {

@@ -236,6 +236,23 @@ fn a_tip_whose_side_hooks_comes_out_again() {
 }
 
 #[test]
+fn a_slit_that_ends_blunt_goes_on_to_its_tip() {
+    let slit = |end: &str| {
+        let text = format!("M4.2 4.3L43.1 4.3L43.1 43.6L26.1 43.6{end}L24.1 43.6L4.2 43.6Z");
+        BezPath::from_svg(&text).unwrap()
+    };
+    let drawn = slit("L24.1 12.2");
+    // where a lens leaves half of the ink the contour turns
+    let blunt = slit("L25.1 28.4C25 26.5 24.6 26.3 24.5 26.3C24.3 26.3 24.1 26.4 24.1 26.8");
+    for lens in [0.0, 0.9] {
+        let gray = photograph(&drawn, lens);
+        let got = mended(&gray, &blunt, Contour::PIXEL_BLUR_PX.hypot(lens));
+        let off = apart(&got, &drawn);
+        assert!(off < 2.0, "lens {lens}: {off} {}", got.to_svg());
+    }
+}
+
+#[test]
 fn a_hooked_tip_is_tried_with_sides_that_do_not_turn() {
     let hooked =
         BezPath::from_svg("M42.1 12.6L31.1 12.6C29.4 22 28.4 38.1 23.1 37.6L16.4 12.6L6.2 12.6Z");

@@ -1,6 +1,6 @@
 //! Other structures of a few nodes: what a drawing may have where another was fit.
 
-use super::bends::corner;
+use super::bends::{corner, cornered};
 use super::side::{HOOKED, behind, reversed, unit};
 use super::tips::tip;
 use crate::numeric::angles::angle;
@@ -19,8 +19,16 @@ pub(super) const CUTS_PX: [f64; 2] = [0.8, 2.0];
 pub(super) const ROUNDS_PX: [f64; 2] = [2.0, 4.0];
 /// So far from a smooth node its sides tell how sharp a corner would be, px.
 const SHARP_PX: f64 = 4.0;
+/// So far before and after a blunt end its sides lead to the tip that may be drawn there, px.
+const AWAY_PX: [f64; 2] = [4.0, 8.0];
+/// Such a tip turns by more, as the distance of its sides' unit vectors: 137°.
+const SLENDER: f64 = 1.86;
+/// And lies so far from the path, px.
+const SHORT_PX: f64 = 1.0;
 /// How much further out a tip is tried, as parts of the reach.
 const PULLS: [f64; 2] = [0.4, 0.8];
+/// Two nodes' sides lead to a corner no further than this, in gaps between the nodes.
+const AHEAD: f64 = 6.0;
 /// The largest part of a line that is bent.
 const BENT: f64 = 0.5;
 /// A round corner's handles, as parts of the way to its tip: those of a circle.
@@ -67,6 +75,7 @@ pub(super) fn variants(chain: &Chain, p: Point, reach: f64) -> Vec<Chain> {
     let off = |i: &usize| chain.cubic(*i).nearest(p, NEAREST_PX);
     let nearest = (0..last).map(|i| (i, off(&i)));
     let nearest = nearest.min_by(|a, b| a.1.distance_sq.total_cmp(&b.1.distance_sq));
+    out.extend(slender(chain, p));
     if let Some((i, at)) = nearest {
         out.push(other_kind(chain, i));
         let cubic = chain.kinds[i] == Kind::Cubic;
@@ -98,6 +107,17 @@ fn sharp(chain: &Chain, i: usize) -> Chain {
     (node.arrive, node.leave) = (unit(-way(before)), unit(way(reversed(&after))));
     (node.back, node.ahead) = (chord(&before), chord(&after));
     out
+}
+
+/// With the slender tip to which both sides lead from beyond a blunt end at `p`, where the path ends short of it.
+fn slender(chain: &Chain, p: Point) -> impl Iterator<Item = Chain> {
+    let ends = AWAY_PX.iter().filter_map(move |px| cornered(chain, p, *px));
+    ends.filter_map(|(c, i)| {
+        let node = &c.nodes[i];
+        let off = |s: usize| chain.cubic(s).nearest(node.point, NEAREST_PX).distance_sq;
+        let short = || (0..chain.kinds.len()).all(|s| off(s) > SHORT_PX * SHORT_PX);
+        ((node.arrive - node.leave).hypot() > SLENDER && short()).then_some(c)
+    })
 }
 
 /// By how much the directions of a node differ from another's, radians.
@@ -232,7 +252,7 @@ fn met(chain: &Chain, i: usize, j: usize) -> Chain {
         Kind::Cubic => own,
     };
     let (u, v) = (along(i - 1, a.arrive), along(j, b.leave));
-    let corner = corner((a.point, u, a.back), (b.point, v, b.ahead));
+    let corner = corner((a.point, u, a.back), (b.point, v, b.ahead), AHEAD);
     out.nodes.splice(i..=j, [corner]);
     out.kinds.drain(i..j);
     out
