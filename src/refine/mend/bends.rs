@@ -20,7 +20,9 @@ const APART_PX: f64 = 4.0;
 const SHARP: f64 = 0.87;
 /// Its sides turn less than corners' do on the way of so many px before it.
 const SIDE_PX: f64 = 1.5;
-/// Sides lead to a corner no further than this, in gaps between them, for sides of which a way is seen.
+/// A corner whose sides turn there by more, radians, may be where they lead from further away.
+const BENT: f64 = 0.06;
+/// Sides of which a way is seen lead to a corner no further than this, in gaps between them.
 const AHEAD: f64 = 12.0;
 /// Places along a segment that are looked at for its length.
 const STEPS: usize = 32;
@@ -128,26 +130,54 @@ pub(super) fn cornered(chain: &Chain, p: Point, px: f64) -> Option<(Chain, usize
     Some((out, a + 1))
 }
 
-/// Whether a chain has a corner for a bend at `p`: one to which both sides lead.
-pub(super) fn is_cornered(chain: &Chain, p: Point) -> bool {
-    let near = |i: &usize| {
-        let node = &chain.nodes[*i];
-        node.join == Join::Corner && node.point.distance(p) < APART_PX
+/// Whether a chain has a corner for a bend at `p`: one to which both sides lead, and turn no more just before it than
+/// they do in the chain it came `from`, if that has one.
+pub(super) fn is_cornered(chain: &Chain, p: Point, from: &Chain) -> bool {
+    let near = |c: &Chain| {
+        let near = |i: &usize| {
+            let node = &c.nodes[*i];
+            node.join == Join::Corner && node.point.distance(p) < APART_PX
+        };
+        let near = (1..c.kinds.len()).filter(near);
+        near.collect::<Vec<_>>()
     };
-    (1..chain.kinds.len())
-        .filter(near)
-        .any(|i| is_sharp(chain, i))
+    let before = near(from).into_iter().map(|i| last_turn(from, i));
+    let before = before.fold(0.0, f64::max);
+    let most = if before > 0.0 { before } else { HOOKED };
+    let corners = near(chain).into_iter();
+    corners
+        .filter(|i| is_sharp(chain, *i))
+        .any(|i| last_turn(chain, i) <= most)
 }
 
 /// Whether an inner node is a corner to which both sides lead: they do not hook just before it.
 pub(super) fn is_sharp(chain: &Chain, i: usize) -> bool {
-    let (before, after) = (chain.cubic(i - 1), reversed(&chain.cubic(i)));
-    let (u, v) = (arriving(&before), arriving(&after));
-    let leads = |c: &CubicBez, end: Vec2| {
-        let last = c.p3 - c.eval(1.0 - behind(c, SIDE_PX));
-        angle(last, end).abs() < HOOKED
+    let Some([before, after]) = sides(chain, i) else {
+        return false;
     };
-    libm::atan2(-u.cross(v), -u.dot(v)).abs() > SHARP && leads(&before, u) && leads(&after, v)
+    let (u, v) = (arriving(&before), arriving(&after));
+    libm::atan2(-u.cross(v), -u.dot(v)).abs() > SHARP && last_turn(chain, i) < HOOKED
+}
+
+/// Whether a node is a corner one of whose sides turns just before it.
+pub(super) fn is_bent(chain: &Chain, i: usize) -> bool {
+    chain.nodes[i].join == Join::Corner && last_turn(chain, i) > BENT
+}
+
+/// By how much the sides of a node turn just before it, the one that turns more, radians.
+fn last_turn(chain: &Chain, i: usize) -> f64 {
+    let turn = |side: CubicBez| {
+        let last = side.p3 - side.eval(1.0 - behind(&side, SIDE_PX));
+        angle(last, arriving(&side)).abs()
+    };
+    let sides = sides(chain, i).into_iter().flatten();
+    sides.map(turn).fold(0.0, f64::max)
+}
+
+/// Both sides of a node, each on its way there.
+fn sides(chain: &Chain, i: usize) -> Option<[CubicBez; 2]> {
+    let (before, after) = chain.before(i).zip(chain.after(i))?;
+    Some([chain.cubic(before), reversed(&chain.cubic(after))])
 }
 
 /// The corner where two sides meet, each carried on from a place, in a direction, with a handle so long, `most` gaps

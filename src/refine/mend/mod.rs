@@ -10,14 +10,15 @@
 //! | [`tangle`] | paths as they came and are | those that cross now mended once more, without that |
 //! | [`window`] | a structure | its nodes by least squares of the pixels around |
 //! | [`ends`] | a path's corner | whether its end may be cut off, or it be a round |
-//! | [`bends`] | a path | its tight bends, and the corners that may stand in their place |
+//! | [`bends`] | a path | its tight bends and bent corners, and the corners that may stand in their place |
 //! | [`axes`] | lines that are upright or level but for grain | the same on their axis |
 //!
 //! What is left of the picture around an edge tells where a fit is wrong, and by how much. There the few nodes near
 //! by are fit to the pixels themselves, as they stand and with a node or corner more or less; what leaves least for
 //! its nodes is kept. Between such looks the levels of ink and paper are read again: what a path did not follow had
-//! passed for a part of them. In the end bends that a lens cannot tell from corners become corners, where the pixels
-//! do not speak against it, and corners lose their ends or become rounds, where the pixels ask for it; tips come last.
+//! passed for a part of them. In the end bends that a lens cannot tell from corners become corners, and corners whose
+//! sides bend at the end go where these lead, where the pixels do not speak against it; corners lose their ends or
+//! become rounds, where the pixels ask for it; tips come last.
 
 mod axes;
 mod bends;
@@ -38,7 +39,7 @@ mod window;
 
 use super::{curves::polygon, residual::Residual};
 use crate::numeric::{chain::Chain, joins::divide_at_extrema};
-use bends::tight_bends;
+use bends::{is_bent, tight_bends};
 use budget::Budget;
 use ends::hint;
 use kurbo::{BezPath, Point, Rect, Shape};
@@ -143,6 +144,7 @@ impl Work<'_> {
             more = self.pass();
         }
         self.sharpen();
+        self.straighten();
         self.blunt();
         self.settle();
         self.put_on_axes();
@@ -274,6 +276,13 @@ impl Work<'_> {
                 self.redraw_all();
                 return;
             }
+        }
+    }
+
+    /// Puts corners whose sides turn just before them to where those lead, if the pixels do not speak against it.
+    fn straighten(&mut self) {
+        for (k, at) in self.nodes(is_bent) {
+            self.change(k, at, Look::Bend);
         }
     }
 

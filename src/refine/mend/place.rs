@@ -49,7 +49,7 @@ pub(super) struct Mended {
 pub(super) enum Look {
     /// The path leaves something unexplained there.
     Wrong,
-    /// It bends there as tightly as a corner would look.
+    /// It bends there as tightly as a corner would look, or just before a corner.
     Bend,
     /// It has a corner there whose end may be blunt.
     Corner,

@@ -104,7 +104,7 @@ impl Search<'_> {
         let corners = SIDES_PX.map(|px| cornered(self.part, self.at, px));
         for (other, _) in corners.into_iter().flatten() {
             let other = self.fit(other, most);
-            let corner = is_cornered(&other.chain, self.at);
+            let corner = is_cornered(&other.chain, self.at, self.part);
             if corner && other.sound && other.drawn.squares < most {
                 most = other.drawn.squares;
                 found = Some(other);

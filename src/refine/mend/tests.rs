@@ -236,6 +236,24 @@ fn a_tip_whose_side_hooks_comes_out_again() {
 }
 
 #[test]
+fn a_corner_beside_which_a_side_bends_goes_back_to_where_the_side_leads() {
+    let level = "M8.2 8.4L40.3 8.4L40.3 40.1L12.2 40.1";
+    let fit = [
+        ("drawn out", "C10 40.1 8.2 40.1 8.2 40.4Z"),
+        ("drawn in", "C10 40.1 8.6 40.1 8.2 39.8Z"),
+    ];
+    for (name, hook) in fit {
+        let bent = BezPath::from_svg(&format!("{level}{hook}")).unwrap();
+        for lens in [0.0, 0.9] {
+            let gray = photograph(&square(), lens);
+            let got = mended(&gray, &bent, Contour::PIXEL_BLUR_PX.hypot(lens));
+            let off = apart(&got, &square());
+            assert!(off < 0.05, "{name}, lens {lens}: {off} {}", got.to_svg());
+        }
+    }
+}
+
+#[test]
 fn a_slit_that_ends_blunt_goes_on_to_its_tip() {
     let slit = |end: &str| {
         let text = format!("M4.2 4.3L43.1 4.3L43.1 43.6L26.1 43.6{end}L24.1 43.6L4.2 43.6Z");
