@@ -85,11 +85,13 @@ impl<'g> Comparison<'g> {
     /// Paths like those, with nodes and handles where their blurred fill is most like the picture.
     #[must_use]
     pub fn settled(&self, paths: &[BezPath]) -> Vec<BezPath> {
-        nodes::settled(&self.residual, paths)
+        let rings = each(paths, nodes::fine);
+        let mut residual = self.residual.against(rings.iter().map(Vec::as_slice));
+        nodes::settled(&mut residual, paths)
     }
 
     /// Paths like those, with the few nodes around each place that is left unexplained fit to its pixels, in the
-    /// structure that leaves least; and the places where a part of the drawing is missing all the same.
+    /// structure that leaves least, and all nodes settled once more; and the places where a part of the drawing is missing all the same.
     #[must_use]
     pub fn mended(&self, paths: &[BezPath]) -> (Vec<BezPath>, Vec<Point>) {
         mend::mended(&self.residual, paths)

@@ -37,9 +37,9 @@ const REACH_PX: f64 = 2.0;
 /// Those that would are held, up to so many times in a step: without them others may go far.
 const HOLDS: usize = 4;
 
-/// The paths moved to where their blurred fill is most like the picture; each stays as it was if none of its steps
-/// makes it more like.
-pub(super) fn settled(residual: &Residual<'_>, paths: &[BezPath]) -> Vec<BezPath> {
+/// The paths that the picture has been compared with, moved to where their blurred fill is most like it; each stays as
+/// it was if none of its steps makes it more like.
+pub(super) fn settled(residual: &mut Residual<'_>, paths: &[BezPath]) -> Vec<BezPath> {
     let mut now = each(paths, |path| {
         let mut chain = Chain::from_path(path, SMOOTH);
         if let Some(chain) = &mut chain {
@@ -48,14 +48,13 @@ pub(super) fn settled(residual: &Residual<'_>, paths: &[BezPath]) -> Vec<BezPath
         (chain, fine(path))
     });
     let start: Vec<Option<Chain>> = now.iter().map(|(chain, _)| chain.clone()).collect();
-    let mut residual = residual.against(rings(&now));
     let mut least = each(&now, |(_, ring)| residual.along(ring));
     let mut best = paths.to_vec();
     for _ in 0..ROUNDS {
         let mut pairs: Vec<_> = now.iter_mut().zip(&start).collect();
         change(&mut pairs, |((chain, ring), start)| {
             if let (Some(chain), Some(start)) = (chain, start) {
-                step(chain, start, &residual);
+                step(chain, start, residual);
                 *ring = fine(&chain.to_path());
             }
         });
@@ -80,7 +79,7 @@ fn rings(all: &[(Option<Chain>, Vec<Point>)]) -> impl Iterator<Item = &[Point]> 
 }
 
 /// A path as chords that cut off next to nothing, for the fill of chords is what is compared.
-fn fine(path: &BezPath) -> Vec<Point> {
+pub(super) fn fine(path: &BezPath) -> Vec<Point> {
     polygon(path, 0.001)
 }
 

@@ -18,7 +18,7 @@
 //! its nodes is kept. Between such looks the levels of ink and paper are read again: what a path did not follow had
 //! passed for a part of them. In the end bends that a lens cannot tell from corners become corners, and corners whose
 //! sides bend at the end go where these lead, where the pixels do not speak against it; corners lose their ends or
-//! become rounds, where the pixels ask for it; tips come last.
+//! become rounds, where the pixels ask for it; then tips, and all nodes together once more.
 
 mod axes;
 mod bends;
@@ -37,8 +37,8 @@ mod tips;
 mod variants;
 mod window;
 
-use super::{curves::polygon, residual::Residual};
-use crate::numeric::{chain::Chain, joins::divide_at_extrema};
+use super::{curves::polygon, nodes::settled, residual::Residual};
+use crate::numeric::{chain::Chain, joins::divide_at_extrema, many::each};
 use bends::{is_bent, tight_bends};
 use budget::Budget;
 use ends::hint;
@@ -146,6 +146,7 @@ impl Work<'_> {
         self.sharpen();
         self.straighten();
         self.blunt();
+        self.settle_tips();
         self.settle();
         self.put_on_axes();
         // sides that run close together do so for the pixels' sake now
@@ -301,10 +302,24 @@ impl Work<'_> {
 
     /// Moves tips to where the pixels have them. They are too few for a wrong place: tips of 15° were 0.4 px short on
     /// scans.
-    fn settle(&mut self) {
+    fn settle_tips(&mut self) {
         for (k, at) in self.nodes(|c, i| tip(c, i).is_some()) {
             self.change(k, at, Look::Tip);
         }
+    }
+
+    /// Moves all nodes once more: where a path was wrong it held what is around, too.
+    fn settle(&mut self) {
+        let paths = each(&self.rings, |ring| ring.path.clone());
+        let settled = settled(&mut self.residual, &paths);
+        let both = self.chains.iter_mut().zip(&mut self.rings);
+        for ((chain, ring), path) in both.zip(settled) {
+            if chain.is_some() {
+                *ring = Ring::new(path);
+                *chain = ring.chain();
+            }
+        }
+        self.redraw_all();
     }
 
     /// The places of nodes and their rings, as many as are tried.
