@@ -91,7 +91,8 @@ impl<'g> Comparison<'g> {
     }
 
     /// Paths like those, with the few nodes around each place that is left unexplained fit to its pixels, in the
-    /// structure that leaves least, and all nodes settled once more; and the places where a part of the drawing is missing all the same.
+    /// structure that leaves least, and all nodes settled once more; and the places where a part of the drawing is
+    /// missing all the same.
     #[must_use]
     pub fn mended(&self, paths: &[BezPath]) -> (Vec<BezPath>, Vec<Point>) {
         mend::mended(&self.residual, paths)

@@ -1,4 +1,4 @@
-//! The last step: all nodes and handles of fitted paths against the grey picture.
+//! All nodes and handles of fitted paths against the grey picture, before and after wrong places are mended.
 //!
 //! Along each path the difference between the picture and its blurred fill says how far the edge should move; nodes,
 //! directions and handles follow by least squares, joins kept. This is the gradient of the squared difference itself,
@@ -37,8 +37,8 @@ const REACH_PX: f64 = 2.0;
 /// Those that would are held, up to so many times in a step: without them others may go far.
 const HOLDS: usize = 4;
 
-/// The paths that the picture has been compared with, moved to where their blurred fill is most like it; each stays as
-/// it was if none of its steps makes it more like.
+/// Paths moved to where their blurred fill is most like the picture; each stays as it was if none of its steps makes it
+/// more like. The residual is that of the paths, and in the end of the last step.
 pub(super) fn settled(residual: &mut Residual<'_>, paths: &[BezPath]) -> Vec<BezPath> {
     let mut now = each(paths, |path| {
         let mut chain = Chain::from_path(path, SMOOTH);

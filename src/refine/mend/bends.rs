@@ -142,8 +142,7 @@ pub(super) fn is_cornered(chain: &Chain, p: Point, from: &Chain) -> bool {
         near.collect::<Vec<_>>()
     };
     let before = near(from).into_iter().map(|i| last_turn(from, i));
-    let before = before.fold(0.0, f64::max);
-    let most = if before > 0.0 { before } else { HOOKED };
+    let most = before.reduce(f64::max).unwrap_or(HOOKED);
     let corners = near(chain).into_iter();
     corners
         .filter(|i| is_sharp(chain, *i))

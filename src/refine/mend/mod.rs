@@ -147,10 +147,10 @@ impl Work<'_> {
         self.straighten();
         self.blunt();
         self.settle_tips();
+        // sides that run close together do so for the pixels' sake now, and may touch once all nodes settle
+        self.trim(0.0);
         self.settle();
         self.put_on_axes();
-        // sides that run close together do so for the pixels' sake now
-        self.trim(0.0);
     }
 
     /// The places that were tried in vain where more is left than an edge leaves that is a little off; none where the

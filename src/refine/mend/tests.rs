@@ -1,6 +1,6 @@
 use super::{
     RING_CHORDS, Ring, SMOOTH, Work,
-    bends::tight_bends,
+    bends::{is_cornered, tight_bends},
     budget::Budget,
     ends::{is_blunt, square as squared},
     part::{begun_at, changed, open_part},
@@ -251,6 +251,40 @@ fn a_corner_beside_which_a_side_bends_goes_back_to_where_the_side_leads() {
             assert!(off < 0.05, "{name}, lens {lens}: {off} {}", got.to_svg());
         }
     }
+}
+
+#[test]
+fn a_corner_for_a_bend_turns_no_more_just_before_it_than_what_was_there() {
+    let chain = |hook: f64| {
+        let path = format!("M40.3 40.1C20 40.1 10.2 40.1 8.2 {}L8.2 8.4", 40.1 + hook);
+        Chain::from_path(&BezPath::from_svg(&path).unwrap(), SMOOTH).unwrap()
+    };
+    let round = BezPath::from_svg("M40.3 40.1C8.2 40.1 8.2 40.1 8.2 8.4").unwrap();
+    let round = Chain::from_path(&round, SMOOTH).unwrap();
+    let [straight, little, more] = [0.0, 0.1, 0.3].map(chain);
+    for (of, from, is) in [
+        (&straight, &straight, true),
+        (&straight, &more, true),
+        (&little, &more, true),
+        (&little, &straight, false),
+        (&more, &little, false),
+        (&more, &round, true),
+        (&round, &more, false),
+    ] {
+        assert_eq!(is_cornered(of, Point::new(8.2, 40.1), from), is);
+    }
+}
+
+#[test]
+fn a_needle_whose_sides_touch_when_all_nodes_settle_keeps_its_end() {
+    let needle = |inward: f64| {
+        let side = "M16.2 8.4L25.6 8.4L25.6 22.1C25.6 31.1 27.766 37 30.2 44.1";
+        BezPath::from_svg(&format!("{side}L{} 31.1L16.2 8.4Z", 25.104 - inward)).unwrap()
+    };
+    let gray = photograph(&needle(0.0), 0.0);
+    let got = mended(&gray, &needle(0.1), Contour::PIXEL_BLUR_PX);
+    let off = apart(&got, &needle(0.0));
+    assert!(off < 0.1, "{off} {}", got.to_svg());
 }
 
 #[test]
