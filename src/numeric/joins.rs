@@ -180,6 +180,15 @@ pub fn is_soft(chain: &Chain, i: usize) -> bool {
     node.join == Join::Corner && (curved(before) || curved(after)) && angle(u, v).abs() < SOFT
 }
 
+/// Makes a corner smooth that turns too little to be one; whether it is such.
+pub fn soften_if_soft(chain: &mut Chain, i: usize) -> bool {
+    let soft = is_soft(chain, i);
+    if soft {
+        soften(&mut chain.nodes[i]);
+    }
+    soft
+}
+
 /// Makes a corner smooth, level or upright if it is so already but for a little.
 pub fn soften(node: &mut Node) {
     let along = node.arrive + node.leave;

@@ -4,7 +4,8 @@ use super::{
     blunt::{self, Overlooked},
     corners,
     curves::polygon,
-    mend, nodes,
+    mend,
+    nodes::{self, Soft},
     residual::Residual,
 };
 use crate::{numeric::many::each, types::Gray};
@@ -87,7 +88,7 @@ impl<'g> Comparison<'g> {
     pub fn settled(&self, paths: &[BezPath]) -> Vec<BezPath> {
         let rings = each(paths, nodes::fine);
         let mut residual = self.residual.against(rings.iter().map(Vec::as_slice));
-        nodes::settled(&mut residual, paths)
+        nodes::settled(&mut residual, paths, Soft::Stay)
     }
 
     /// Paths like those, with the few nodes around each place that is left unexplained fit to its pixels, in the

@@ -9,7 +9,7 @@ use super::residual::Residual;
 use crate::numeric::{
     cast::index,
     chain::Chain,
-    joins::{DEPTH_PX, divide_at_extrema, is_soft, level_ends, sharpen, soften},
+    joins::{DEPTH_PX, divide_at_extrema, level_ends, sharpen, soften_if_soft},
     many::{change, each},
     refit::{Foot, Refit, Sample, Scale, Stop},
 };
@@ -37,9 +37,18 @@ const REACH_PX: f64 = 2.0;
 /// Those that would are held, up to so many times in a step: without them others may go far.
 const HOLDS: usize = 4;
 
+/// What becomes of corners that turn too little to be one once nodes have moved.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Soft {
+    /// They stay: mending may yet find where their sides lead.
+    Stay,
+    /// They become smooth, and the nodes are fit once more.
+    Smooth,
+}
+
 /// Paths moved to where their blurred fill is most like the picture; each stays as it was if none of its steps makes it
 /// more like. The residual is that of the paths, and in the end of the last step.
-pub(super) fn settled(residual: &mut Residual<'_>, paths: &[BezPath]) -> Vec<BezPath> {
+pub(super) fn settled(residual: &mut Residual<'_>, paths: &[BezPath], soft: Soft) -> Vec<BezPath> {
     let mut now = each(paths, |path| {
         let mut chain = Chain::from_path(path, SMOOTH);
         if let Some(chain) = &mut chain {
@@ -54,7 +63,7 @@ pub(super) fn settled(residual: &mut Residual<'_>, paths: &[BezPath]) -> Vec<Bez
         let mut pairs: Vec<_> = now.iter_mut().zip(&start).collect();
         change(&mut pairs, |((chain, ring), start)| {
             if let (Some(chain), Some(start)) = (chain, start) {
-                step(chain, start, residual);
+                step(chain, start, residual, soft);
                 *ring = fine(&chain.to_path());
             }
         });
@@ -84,11 +93,9 @@ pub(super) fn fine(path: &BezPath) -> Vec<Point> {
 }
 
 /// Moves a chain by what the differences along it say. Nodes that would go far from where they started are held.
-fn step(chain: &mut Chain, start: &Chain, residual: &Residual<'_>) {
+fn step(chain: &mut Chain, start: &Chain, residual: &Residual<'_>, soft: Soft) {
     for i in 0..chain.nodes.len() {
-        if is_soft(chain, i) {
-            soften(&mut chain.nodes[i]);
-        }
+        soften_if_soft(chain, i);
         sharpen(chain, i);
     }
     let (mut samples, mut feet) = (Vec::new(), Vec::new());
@@ -133,6 +140,14 @@ fn step(chain: &mut Chain, start: &Chain, residual: &Residual<'_>) {
         held.extend(far(&moved, start));
         if held.len() == before {
             break;
+        }
+    }
+    if soft == Soft::Smooth {
+        // no `any`, which would end at the first
+        let nodes = 0..moved.nodes.len();
+        let count = nodes.filter(|i| soften_if_soft(&mut moved, *i)).count();
+        if count > 0 {
+            Refit::holding(&held).run(&mut moved, (&samples, &mut feet), scale, stop);
         }
     }
     *chain = moved;

@@ -1,8 +1,10 @@
 use super::*;
-use crate::numeric::angles;
 use crate::numeric::{
+    angles,
     cast::index,
+    chain::Chain,
     coverage::{Coverage, blur},
+    joins::is_soft,
 };
 use kurbo::{BezPath, Line, ParamCurve, Shape};
 use std::iter::once;
@@ -346,4 +348,29 @@ fn no_node_goes_far_where_the_picture_tells_nothing() {
     let gray = Gray::from_fn(0, 0, |_, _| 0.0);
     let nothing = Comparison::new(&gray, &[], 0.6);
     assert!(nothing.settled(&[]).is_empty());
+}
+
+#[test]
+fn a_join_that_turns_too_little_for_a_corner_is_smooth_once_places_are_mended() {
+    let arch = |degrees: f64, handle: f64| {
+        let (x, y) = (40.3, 28.1);
+        let along = handle * angles::direction((90.0 + degrees).to_radians());
+        let mut path = BezPath::from_svg("M28.3 40.1L8.2 40.1L8.2 8.4").unwrap();
+        path.line_to((40.3, 8.4));
+        path.line_to((x, y));
+        path.curve_to((x + along.x, y + along.y), (34.9, 40.1), (28.3, 40.1));
+        path.close_path();
+        path
+    };
+    for lens in [0.0, 0.9] {
+        for degrees in [5.0, 10.0, 15.0, 20.0] {
+            let gray = photograph(&arch(degrees, 6.6), lens);
+            let fit = [arch(40.0, 1.0)];
+            let blur = Contour::PIXEL_BLUR_PX.hypot(lens);
+            let (got, _) = Comparison::new(&gray, &fit, blur).mended(&fit);
+            let chain = Chain::from_path(&got[0], 1e-3).unwrap();
+            let soft = (0..chain.nodes.len()).find(|i| is_soft(&chain, *i));
+            assert_eq!(soft, None, "{degrees}, lens {lens}: {}", got[0].to_svg());
+        }
+    }
 }

@@ -37,7 +37,11 @@ mod tips;
 mod variants;
 mod window;
 
-use super::{curves::polygon, nodes::settled, residual::Residual};
+use super::{
+    curves::polygon,
+    nodes::{Soft, settled},
+    residual::Residual,
+};
 use crate::numeric::{chain::Chain, joins::divide_at_extrema, many::each};
 use bends::{is_bent, tight_bends};
 use budget::Budget;
@@ -311,7 +315,7 @@ impl Work<'_> {
     /// Moves all nodes once more: where a path was wrong it held what is around, too.
     fn settle(&mut self) {
         let paths = each(&self.rings, |ring| ring.path.clone());
-        let settled = settled(&mut self.residual, &paths);
+        let settled = settled(&mut self.residual, &paths, Soft::Smooth);
         let both = self.chains.iter_mut().zip(&mut self.rings);
         for ((chain, ring), path) in both.zip(settled) {
             if chain.is_some() {

@@ -2,7 +2,7 @@
 
 use crate::numeric::{
     chain::{Chain, Join},
-    joins::{aim, is_soft, soften},
+    joins::{aim, soften_if_soft},
 };
 use kurbo::{CubicBez, Rect, Shape};
 
@@ -88,9 +88,7 @@ pub(super) fn put_back(mut chain: Chain, part: Chain, count: usize) -> Option<(C
         if chain.nodes[i].join == Join::Corner {
             aim(&mut chain, i, HIDDEN_PX);
         }
-        if is_soft(&chain, i) {
-            soften(&mut chain.nodes[i]);
-        }
+        soften_if_soft(&mut chain, i);
     }
     chain.settle();
     // a line takes what is beside it along

@@ -13,7 +13,7 @@ use super::{
 };
 use crate::numeric::{
     chain::{Chain, Join, Kind},
-    joins::{DEPTH_PX, divide_at_extrema, is_soft, keep_levels, sharpen, soften},
+    joins::{DEPTH_PX, divide_at_extrema, keep_levels, sharpen, soften_if_soft},
 };
 use kurbo::{ParamCurveNearest, Point};
 
@@ -214,9 +214,7 @@ impl Search<'_> {
         let mut drawn = self.window.fit(&mut chain, enough);
         let before = chain.clone();
         for i in 1..chain.kinds.len() {
-            if is_soft(&chain, i) {
-                soften(&mut chain.nodes[i]);
-            }
+            soften_if_soft(&mut chain, i);
             sharpen(&mut chain, i);
             let beside = chain.line_beside(i).is_some();
             let node = &mut chain.nodes[i];
