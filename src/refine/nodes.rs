@@ -143,10 +143,11 @@ fn step(chain: &mut Chain, start: &Chain, residual: &Residual<'_>, soft: Soft) {
         }
     }
     if soft == Soft::Smooth {
-        // no `any`, which would end at the first
-        let nodes = 0..moved.nodes.len();
-        let count = nodes.filter(|i| soften_if_soft(&mut moved, *i)).count();
-        if count > 0 {
+        let mut softened = false;
+        for i in 0..moved.nodes.len() {
+            softened |= soften_if_soft(&mut moved, i);
+        }
+        if softened {
             Refit::holding(&held).run(&mut moved, (&samples, &mut feet), scale, stop);
         }
     }
