@@ -515,5 +515,8 @@ fn short_serifs_are_not_cut_off() {
             .iter()
             .any(|s| !inside(turn * (middle + Vec2::from(*s))))
     };
-    assert_eq!((0..55).filter(lost).collect::<Vec<_>>(), [0_u32; 0]);
+    // the last of them were, of 1100 drawings
+    let others = [228, 230, 305, 352, 427, 494, 589, 592, 654, 845, 970];
+    let all = (0..55).chain(others);
+    assert_eq!(all.filter(lost).collect::<Vec<_>>(), [0_u32; 0]);
 }

@@ -37,6 +37,10 @@ const REACH_PX: f64 = 2.0;
 /// Those that would are held, up to so many times in a step: without them others may go far.
 const HOLDS: usize = 4;
 
+/// Chords of a path that moves at most, since each step draws them anew: a letter of 9000 px an em has some ten
+/// thousand, a ring of noise half a million.
+pub(super) const RING_CHORDS: usize = 100_000;
+
 /// What becomes of corners that turn too little to be one once nodes have moved.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Soft {
@@ -47,18 +51,23 @@ pub(super) enum Soft {
 }
 
 /// Paths moved to where their blurred fill is most like the picture; each stays as it was if none of its steps makes it
-/// more like. The residual is that of the paths, and in the end of the last step.
+/// more like, or if it is one of noise. The residual is that of the paths, and in the end of the last step.
 pub(super) fn settled(residual: &mut Residual<'_>, paths: &[BezPath], soft: Soft) -> Vec<BezPath> {
     let mut now = each(paths, |path| {
-        let mut chain = Chain::from_path(path, SMOOTH);
+        let ring = fine(path);
+        let drawn = !is_noise(&ring);
+        let mut chain = drawn.then(|| Chain::from_path(path, SMOOTH)).flatten();
         if let Some(chain) = &mut chain {
             divide_at_extrema(chain, DEPTH_PX);
         }
-        (chain, fine(path))
+        (chain, ring)
     });
     let start: Vec<Option<Chain>> = now.iter().map(|(chain, _)| chain.clone()).collect();
-    let mut least = each(&now, |(_, ring)| residual.along(ring));
     let mut best = paths.to_vec();
+    if start.iter().all(Option::is_none) {
+        return best;
+    }
+    let mut least = each(&now, |(_, ring)| residual.along(ring));
     for _ in 0..ROUNDS {
         let mut pairs: Vec<_> = now.iter_mut().zip(&start).collect();
         change(&mut pairs, |((chain, ring), start)| {
@@ -81,6 +90,11 @@ pub(super) fn settled(residual: &mut Residual<'_>, paths: &[BezPath], soft: Soft
         }
     }
     best
+}
+
+/// Whether a path of such chords is no drawing's.
+pub(super) const fn is_noise(chords: &[Point]) -> bool {
+    chords.len() > RING_CHORDS
 }
 
 fn rings(all: &[(Option<Chain>, Vec<Point>)]) -> impl Iterator<Item = &[Point]> {

@@ -351,6 +351,26 @@ fn no_node_goes_far_where_the_picture_tells_nothing() {
 }
 
 #[test]
+fn a_ring_of_more_chords_than_any_letters_stays() {
+    let square = [(8.2, 8.4), (40.3, 8.4), (40.3, 40.1), (8.2, 40.1)].map(Point::from);
+    let gray = picture(&square, 48, 0.9);
+    let blur = Contour::PIXEL_BLUR_PX.hypot(0.9);
+    for (chords, moves) in [(4, true), (nodes::RING_CHORDS + 4, false)] {
+        let mut path = BezPath::from_svg("M8.6 8.7").unwrap();
+        for k in 1..chords {
+            let (side, t) = (4 * k / chords, (4.0 * k as f64 / chords as f64).fract());
+            let [a, b] = [square[side], square[(side + 1) % 4]];
+            path.line_to(a.lerp(b, t) + Vec2::new(0.4, 0.3));
+        }
+        path.close_path();
+        let paths = [path];
+        let seen = Comparison::new(&gray, &paths, blur);
+        assert_eq!(seen.settled(&paths) != paths, moves, "{chords} settle");
+        assert_eq!(seen.mended(&paths).0 != paths, moves, "{chords} mended");
+    }
+}
+
+#[test]
 fn a_join_that_turns_too_little_for_a_corner_is_smooth_once_places_are_mended() {
     let arch = |degrees: f64, handle: f64| {
         let (x, y) = (40.3, 28.1);

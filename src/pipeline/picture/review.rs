@@ -13,10 +13,10 @@ use kurbo::{BezPath, Point};
 const SAME_PX: f64 = 1.5;
 /// Corners so near to a missing part are gone with it, px.
 const LOST_PX: f64 = 8.0;
-/// A part that is brought back leaves so many squares less.
-const LOST: f64 = 0.5;
+/// A part that is brought back leaves so many squares less, once nodes have settled with and without it.
+const LOST: f64 = 0.25;
 /// Where more are missing corners are not why: hatching and noise leave them everywhere.
-const MOST_LOST: usize = 4;
+const MOST_LOST: usize = 8;
 /// Nor where more are doubted, and more than one in so many points of the contours: noise has one in 36, those
 /// contours of letters that have any one in 260.
 const MOST_DOUBTS: usize = 1000;

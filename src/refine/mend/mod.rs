@@ -39,7 +39,7 @@ mod window;
 
 use super::{
     curves::polygon,
-    nodes::{Soft, settled},
+    nodes::{Soft, is_noise, settled},
     residual::Residual,
 };
 use crate::numeric::{chain::Chain, joins::divide_at_extrema, many::each};
@@ -64,9 +64,6 @@ const WRONG_GRAIN: f64 = 90.0;
 const LOST: f64 = 0.5;
 /// Places that are tried at most, the worst first, and crossings: a picture of noise is wrong everywhere.
 const MOST: usize = 1000;
-/// Chords of a ring that is mended at most, since each place draws them anew: a letter of 9000 px an em has some
-/// ten thousand, a ring of noise half a million.
-const RING_CHORDS: usize = 100_000;
 /// Places nearer to one that was tried are that one, px.
 const SAME_PX: f64 = 5.0;
 /// A node that went further than this, px, is followed by a window of its own, so many of them at most.
@@ -94,7 +91,7 @@ pub(super) fn mended(residual: &Residual<'_>, paths: &[BezPath]) -> (Vec<BezPath
     let mut work = Work::new(residual, paths);
     work.mend();
     work.untangle(paths);
-    let lost = work.lost();
+    let lost = mem::take(&mut work.lost);
     (work.finished(), lost)
 }
 
@@ -108,6 +105,8 @@ struct Work<'a> {
     rings: Vec<Ring>,
     /// places that were tried in vain, and the squares around them then
     vain: Vec<(Point, f64)>,
+    /// where a part of the drawing is missing
+    lost: Vec<Point>,
     crossing: Crossing,
     work: Budget,
 }
@@ -125,6 +124,7 @@ impl<'a> Work<'a> {
             chains,
             rings,
             vain: Vec::new(),
+            lost: Vec::new(),
             crossing: Crossing::OnTheWay,
             work: Budget::new(length),
         }
@@ -153,18 +153,25 @@ impl Work<'_> {
         self.settle_tips();
         // sides that run close together do so for the pixels' sake now, and may touch once all nodes settle
         self.trim(0.0);
+        // nodes that settle make up for a little of what is missing
+        self.lost = self.lost();
         self.settle();
         self.put_on_axes();
     }
 
-    /// The places that were tried in vain where more is left than an edge leaves that is a little off; none where the
-    /// budget is why.
+    /// The places where more is left than an edge leaves that is a little off; none where the budget is why.
     fn lost(&self) -> Vec<Point> {
+        let mut lost: Vec<Point> = Vec::new();
         if self.work.is_spent() {
-            return Vec::new();
+            return lost;
         }
-        let places = self.vain.iter().map(|(p, _)| *p);
-        places.filter(|p| self.left(*p) > LOST).collect()
+        for (k, p) in self.wrong.places(&self.residual, &self.rings) {
+            let known = near(&lost, p, SAME_PX);
+            if !known && self.chains[k].is_some() && self.left(p) > LOST {
+                lost.push(p);
+            }
+        }
+        lost
     }
 
     /// The paths as they are, with nodes at all extrema.
@@ -225,7 +232,6 @@ impl Work<'_> {
 
     /// Tries the places that are wrong, but not again where nothing is new; whether any was changed.
     fn pass(&mut self) -> bool {
-        let near = |points: &[Point], p: Point, px: f64| points.iter().any(|q| q.distance(p) < px);
         let (mut tried, mut changed) = (Vec::new(), Vec::new());
         for (k, p) in self.wrong.places(&self.residual, &self.rings) {
             let stays = self.chains[k].is_none();
@@ -418,6 +424,10 @@ impl Work<'_> {
     }
 }
 
+fn near(points: &[Point], p: Point, px: f64) -> bool {
+    points.iter().any(|q| q.distance(p) < px)
+}
+
 fn read(path: &BezPath) -> Option<Chain> {
     Chain::from_path(path, SMOOTH)
 }
@@ -448,8 +458,8 @@ impl Ring {
 
     /// What of it may move: nothing of noise.
     fn chain(&self) -> Option<Chain> {
-        let few = self.chords.len() <= RING_CHORDS;
-        few.then(|| read(&self.path)).flatten()
+        let drawn = !is_noise(&self.chords);
+        drawn.then(|| read(&self.path)).flatten()
     }
 
     /// px

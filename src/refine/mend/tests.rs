@@ -1,5 +1,5 @@
 use super::{
-    RING_CHORDS, Ring, SMOOTH, Work,
+    Ring, SMOOTH, Work,
     bends::{is_cornered, tight_bends},
     budget::Budget,
     ends::{is_blunt, square as squared},
@@ -460,20 +460,6 @@ fn what_changed_of_a_ring_is_found_wherever_it_begins() {
         other.nodes.clear();
         other.kinds.clear();
         assert_eq!(changed(&ring, &other), Some(path.bounding_box()));
-    }
-}
-
-#[test]
-fn a_ring_of_more_chords_than_any_letters_stays() {
-    let zigzag = |corners: usize| {
-        let mut path = BezPath::new();
-        path.move_to((0.0, -1.0));
-        (0..corners).for_each(|i| path.line_to((i as f64, (i % 2) as f64)));
-        path.close_path();
-        path
-    };
-    for (corners, moves) in [(RING_CHORDS / 2, true), (RING_CHORDS + 1, false)] {
-        assert_eq!(Ring::new(zigzag(corners)).chain().is_some(), moves);
     }
 }
 
