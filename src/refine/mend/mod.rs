@@ -318,8 +318,11 @@ impl Work<'_> {
         }
     }
 
-    /// Moves all nodes once more: where a path was wrong it held what is around, too.
+    /// Moves all nodes once more: where a path was wrong it held what is around, too. Not if outlines would cross that
+    /// may not.
     fn settle(&mut self) {
+        let crossed = self.crossed(None);
+        let before = (self.chains.clone(), self.rings.clone());
         let paths = each(&self.rings, |ring| ring.path.clone());
         let settled = settled(&mut self.residual, &paths, Soft::Smooth);
         let both = self.chains.iter_mut().zip(&mut self.rings);
@@ -328,6 +331,9 @@ impl Work<'_> {
                 *ring = Ring::new(path);
                 *chain = ring.chain();
             }
+        }
+        if self.crossed(None) > crossed {
+            (self.chains, self.rings) = before;
         }
         self.redraw_all();
     }
@@ -385,9 +391,9 @@ impl Work<'_> {
         let Some(bounds) = old.and_then(|old| changed(old, &chain)) else {
             return false;
         };
-        let crossed = self.crossed(bounds);
+        let crossed = self.crossed(Some(bounds));
         let old = mem::replace(&mut self.rings[k], Ring::new(chain.to_path()));
-        let clear = self.crossed(bounds) <= crossed;
+        let clear = self.crossed(Some(bounds)) <= crossed;
         if clear && self.redraw(bounds) < more {
             self.chains[k] = Some(chain);
             return true;

@@ -53,14 +53,14 @@ impl Work<'_> {
         }
     }
 
-    /// How often outlines cross there, if that counts.
-    pub(super) fn crossed(&self, bounds: Rect) -> usize {
+    /// How often outlines cross there or anywhere, if that counts.
+    pub(super) fn crossed(&self, bounds: Option<Rect>) -> usize {
         match self.crossing {
             Crossing::OnTheWay => 0,
             Crossing::Never => {
-                let near = self.rings.iter().filter(|r| r.bounds.overlaps(bounds));
-                let lines = near.map(|r| r.chords.as_slice());
-                Chords::new(lines, Some(bounds)).crossings().len()
+                let near = |r: &&Ring| bounds.is_none_or(|b| r.bounds.overlaps(b));
+                let lines = self.rings.iter().filter(near).map(|r| r.chords.as_slice());
+                Chords::new(lines, bounds).crossings().len()
             }
         }
     }

@@ -447,6 +447,28 @@ fn no_chain_is_put_that_crosses_where_none_may() {
 }
 
 #[test]
+fn outlines_that_settle_cross_only_where_they_may() {
+    // a slit that is not drawn is filled from both sides, and by more than its half
+    let left = "M8.2 8.4L24 8.4L24.3 40.1L8.2 40.1Z";
+    let right = "M24.5 8.4L40.3 8.4L40.3 40.1L24.3 40.1Z";
+    let halves = [left, right].map(|s| BezPath::from_svg(s).unwrap());
+    let rings = halves.each_ref().map(|p| polygon(p, 0.01));
+    for lens in [0.0, 0.9] {
+        let gray = photograph(&square(), lens);
+        let blur = Contour::PIXEL_BLUR_PX.hypot(lens);
+        let residual = Residual::new(&gray, rings.iter().map(Vec::as_slice), blur);
+        for crossing in [Crossing::OnTheWay, Crossing::Never] {
+            let mut work = Work::new(&residual, &halves);
+            work.crossing = crossing;
+            work.settle();
+            work.crossing = Crossing::Never;
+            let crosses = work.crossed(None) > 0;
+            assert_eq!(crosses, crossing == Crossing::OnTheWay, "lens {lens}");
+        }
+    }
+}
+
+#[test]
 fn what_changed_of_a_ring_is_found_wherever_it_begins() {
     let path = BezPath::from_svg("M0 0L10 -2L20 0L20 20L0 20Z").unwrap();
     let ring = Chain::from_path(&path, SMOOTH).unwrap();
