@@ -7,7 +7,8 @@
 //! What follows holds for [`Boundary::Iso`]. The contours come in the order in which a reader meets them,
 //! row by row from the top. They neither
 //! cross nor touch. Every ink component and every hole above the speckle limit is there, and so are lines and
-//! slits whose crest never reaches the level, where it stands out for 6 px (`thin`).
+//! slits whose crest never reaches the level, where it stands out for 6 px (`thin`). Lines of ink that grain parts
+//! are whole.
 
 mod chain;
 mod focus;

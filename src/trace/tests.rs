@@ -130,10 +130,13 @@ fn thin(at: Point, (length, width): (f64, f64), degrees: f64) -> Gray {
         let on = local.x.abs() < length / 2.0 && local.y.abs() < width / 2.0;
         on != (DISK.distance(Point::new(x, y)) < 40.0)
     };
-    let sharp = picture(180, 130, inside);
+    scanned(&picture(180, 130, inside), 1)
+}
+
+/// A picture as a lens of 0.9 px sees it under a scan's grain, which begins with `dice`.
+fn scanned(sharp: &Gray, mut dice: u64) -> Gray {
     let mut samples = sharp.samples().to_vec();
     blur(&mut samples, sharp.width(), 0.9, 0);
-    let mut dice = 1_u64;
     for v in &mut samples {
         let mut sum = -6.0;
         for _ in 0..12 {
@@ -163,6 +166,53 @@ fn lines_and_slits_that_no_pixel_shows_half_of_have_whole_contours() {
             }
         }
     }
+}
+
+#[test]
+fn short_lines_that_no_pixel_shows_half_of_join_what_they_join() {
+    for (k, degrees) in [0.0, 14.0, 31.0, 45.0, 68.0]
+        .into_iter()
+        .cycle()
+        .take(20)
+        .enumerate()
+    {
+        let neck = turned(degrees, |x, y| {
+            let thick = (3.0..16.0).contains(&x.abs()) && y.abs() < 8.0;
+            thick || x.abs() < 3.0 && y.abs() < 0.65
+        });
+        for gray in [level(&scanned(&neck, k as u64)), neck] {
+            assert_eq!(traced(&gray).len(), 1, "at {degrees}°");
+        }
+    }
+}
+
+#[test]
+fn ink_that_ends_near_other_ink_stays_apart() {
+    let diamond = |x: f64, y: f64, at: f64| (x.abs() - at).abs() + y.abs() < 4.5;
+    for (k, gap) in [2.0, 2.6, 3.4].into_iter().enumerate() {
+        for (i, degrees) in [0.0, 14.0, 31.0, 45.0, 68.0].into_iter().enumerate() {
+            let ends = |x: f64, y: f64| (gap / 2.0..20.0).contains(&x.abs()) && y.abs() < 1.5;
+            let disks = |x: f64, y: f64| (x.abs() - 4.0 - gap / 2.0).hypot(y) < 4.0;
+            let tips = |x: f64, y: f64| diamond(x, y, 4.5 + gap / 2.0);
+            let shapes: [&dyn Fn(f64, f64) -> bool; 3] = [&ends, &disks, &tips];
+            for (what, shape) in shapes.into_iter().enumerate() {
+                let sharp = turned(degrees, shape);
+                let scan = level(&scanned(&sharp, (7 * k + i) as u64));
+                for gray in [scan, sharp] {
+                    assert_eq!(traced(&gray).len(), 2, "{what}, {gap} px apart, {degrees}°");
+                }
+            }
+        }
+    }
+}
+
+/// A picture of what `inside` says around its middle, turned by so many degrees.
+fn turned(degrees: f64, inside: impl Fn(f64, f64) -> bool) -> Gray {
+    let (sin, cos) = libm::sincos(degrees.to_radians());
+    picture(60, 60, |x, y| {
+        let (x, y) = (x - 30.2, y - 29.7);
+        inside(x * cos + y * sin, y * cos - x * sin)
+    })
 }
 
 #[test]

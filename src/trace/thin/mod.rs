@@ -4,7 +4,9 @@
 //! has no contour at half coverage, and one of 1.3 px has one in pieces. Its crest stands out all the same. Along
 //! crests that are long enough the coverage is scaled ([`lifted`]), so that the level is passed at their sides; where
 //! those really are the comparison with the picture says (`refine`). Nor do they tell what paper and ink are like
-//! ([`beside`]). All else stays as it is.
+//! ([`beside`]). Lines that are wide enough are parted as well, and are lifted there ([`torn`]). All else stays as it is.
+
+mod torn;
 
 use crate::{
     numeric::{
@@ -40,6 +42,8 @@ const ASIDE: f64 = 2.0;
 const LEAST_ASIDE_PX: f64 = 2.0;
 /// The contour runs at this part of a crest's height, outside of the line's sides: grain does not part it there.
 const SIDES: f32 = 0.6;
+/// And at this one where a line is torn, which beside that runs where it did.
+const JOINED: f32 = 0.7;
 /// No further from the crest than so many deviations of the blur.
 const HALF_WIDTH: f64 = 1.0;
 /// What is so much higher than a crest nearby is no side of it.
@@ -65,8 +69,8 @@ impl Thin {
 /// A pixel of a crest: its index, and its height.
 type Crest = (usize, f32);
 
-/// The picture with its thin lines and slits lifted over `level`; nothing where it has none. `blur_px` is the
-/// deviation of its edges.
+/// The picture with its thin lines and slits lifted over `level`, and lines that it parts and that go on; nothing where
+/// it has none. `blur_px` is the deviation of its edges.
 pub(super) fn lifted(gray: &Gray, level: f64, blur_px: f64) -> Option<Gray> {
     let mut samples: Option<Vec<f32>> = None;
     for thin in Thin::ALL {
@@ -74,10 +78,19 @@ pub(super) fn lifted(gray: &Gray, level: f64, blur_px: f64) -> Option<Gray> {
         let crests = field.crests();
         if !crests.is_empty() {
             let to = samples.get_or_insert_with(|| gray.samples().to_vec());
-            field.lift(&crests, blur_px, to);
+            field.lift(&crests, SIDES, blur_px, to);
         }
     }
-    samples.map(|s| gray.with_samples(s))
+    let lifted = samples.map(|s| gray.with_samples(s));
+    let gray = lifted.as_ref().unwrap_or(gray);
+    let field = Field::new(gray, [0.0, 1.0], (Thin::Line, level), blur_px);
+    let torn = field.torn();
+    if torn.is_empty() {
+        return lifted;
+    }
+    let mut samples = gray.samples().to_vec();
+    field.lift(&torn, JOINED, blur_px, &mut samples);
+    Some(gray.with_samples(samples))
 }
 
 /// Which pixels lie beside crests of thin lines and slits, row by row; nothing where there are none. `levels` are
@@ -275,12 +288,12 @@ impl<'a> Field<'a> {
         out
     }
 
-    /// Scales what lies around crests up to where the level is passed at their sides.
-    fn lift(&self, crests: &[Crest], blur_px: f64, samples: &mut [f32]) {
+    /// Scales what lies around crests up to where the level is passed at this part of their height.
+    fn lift(&self, crests: &[Crest], part: f32, blur_px: f64, samples: &mut [f32]) {
         let (w, h) = (self.gray.width(), self.gray.height());
         let reach = index((HALF_WIDTH * blur_px).round()).max(1);
         for &(i, height) in crests {
-            let by = self.level / (SIDES * height);
+            let by = (self.level / (part * height)).max(1.0);
             for y in (i / w).saturating_sub(reach)..(i / w + reach + 1).min(h) {
                 for x in (i % w).saturating_sub(reach)..(i % w + reach + 1).min(w) {
                     let here = self.beside((x, y), (0, 0));
