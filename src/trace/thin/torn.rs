@@ -6,7 +6,7 @@
 
 use super::{Crest, Field, GRAIN, RELIEF, SIDES};
 use crate::numeric::cast::index;
-use kurbo::{Affine, Point, Vec2};
+use kurbo::{Point, Vec2};
 
 /// Pixels along a crest that are looked at on both sides of one.
 const REACH: usize = 16;
@@ -91,10 +91,11 @@ impl Field<'_> {
         let least = |a: &f64, b: &f64| a.total_cmp(b);
         let (at, _) = narrow.min_by(|(_, a), (_, b)| least(&a.held, &b.held))?;
         // the crest was followed from pixel to pixel: a line is narrowest square to it
-        let ways = TURNS
-            .map(|turn| Affine::rotate(turn) * way.to_point())
-            .map(Point::to_vec2);
-        let ways = ways.map(|way| (way, self.across(at, way)));
+        let ways = TURNS.map(|turn| {
+            let (sin, cos) = libm::sincos(turn);
+            let way = Vec2::new(way.x * cos - way.y * sin, way.x * sin + way.y * cos);
+            (way, self.across(at, way))
+        });
         let by_held = |(_, a): &(Vec2, Across), (_, b): &(Vec2, Across)| least(&a.held, &b.held);
         let (way, Across { held, relief }) = ways.into_iter().min_by(by_held)?;
         let beside = [way, -way].map(|way| self.across(at + way, way).held);
