@@ -152,18 +152,21 @@ impl Field<'_> {
     fn is_joined(&self, a: Pixel, b: Pixel) -> bool {
         let near = |p: isize, q: isize| p.min(q) - AROUND..=p.max(q) + AROUND;
         let (columns, rows) = (near(a.0, b.0), near(a.1, b.1));
-        let mut seen = vec![a];
-        let mut next = 0;
-        while let Some(&(x, y)) = seen.get(next) {
-            next += 1;
+        let width = columns.end().abs_diff(*columns.start()) + 1;
+        let place =
+            |(x, y): Pixel| y.abs_diff(*rows.start()) * width + x.abs_diff(*columns.start());
+        let mut seen = vec![false; place((*columns.end(), *rows.end())) + 1];
+        let mut open = vec![a];
+        while let Some((x, y)) = open.pop() {
             let beside = (x - 1..=x + 1).flat_map(|x| (y - 1..=y + 1).map(move |y| (x, y)));
             for p in beside.filter(|(x, y)| columns.contains(x) && rows.contains(y)) {
-                if !seen.contains(&p) && self.is_whole((x, y), p) {
-                    seen.push(p);
+                if !seen[place(p)] && self.is_whole((x, y), p) {
+                    seen[place(p)] = true;
+                    open.push(p);
                 }
             }
         }
-        seen.contains(&b)
+        seen[place(b)]
     }
 
     /// What is seen across a line at a place that it passes `along` this way.
