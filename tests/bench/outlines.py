@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Many fonts traced: how many are within each limit, and which outlines cross where the font's do not.
+"""Many fonts traced: how many are within each limit, which outlines cross where the font's do not, and how many
+have more or fewer contours.
 
     python3 tests/bench/outlines.py --khatt target/release/khatt --bench ../shared/bench web-fonts/*.ttf
 
@@ -25,8 +26,8 @@ def crosses(polygons):
 
 
 def pictures(task):
-    """The rows of a font: character, condition, its comparison or none, whether the tracing crosses and whether the font does;
-    and the corner F1 of its own outlines, begun half-way round."""
+    """The rows of a font: character, condition, its comparison or none, whether the tracing crosses and whether the font does,
+    whether it has as many contours; and the corner F1 of its own outlines, begun half-way round."""
     import outline_bench as bench
     from fontTools.ttLib import TTFont
     from PIL import Image
@@ -49,13 +50,14 @@ def pictures(task):
                 Image.fromarray(image).save(picture)
                 run = subprocess.run([khatt, "--quiet", "trace", picture, "-o", svg], capture_output=True)
                 if run.returncode:
-                    rows.append((char, condition, None, False, drawn))
+                    rows.append((char, condition, None, False, drawn, False))
                     continue
                 got = bench.svg_contours(open(svg).read())
                 tangled = crosses(bench.flatten(got, 0.05))
+                as_many = len(got) == len(true)
                 got = [[tuple(((x - left) / scale, (foot - y) / scale) for x, y in s) for s in c] for c in got]
                 found = bench.compare(true, bench.clean(got, upem * 2e-4), upem, ppem)
-                rows.append((char, condition, found, tangled, drawn))
+                rows.append((char, condition, found, tangled, drawn, as_many))
     return os.path.basename(path), rows, own
 
 
@@ -102,7 +104,9 @@ def main():
         f"{sum(r[5] for r in over)} of glyphs that cross themselves (of {len({r[:2] for r in rows})} glyphs "
         f"{len({r[:2] for r in rows if r[5]})} do)"
     )
-    new = [f"{name} {char} {condition}" for name, char, condition, _, tangled, drawn in rows if tangled and not drawn]
+    new = [f"{name} {char} {condition}" for name, char, condition, _, tangled, drawn, _ in rows if tangled and not drawn]
+    torn = sum(bool(row[3]) and not row[5] and not row[6] for row in rows)
+    print(f"of glyphs that do not cross themselves, other numbers of contours than the font's: {torn}")
     print(f"cross where the font's outlines do not: {len(new)}: {', '.join(new)}")
     for (condition, what), names in beyond.items():
         if names:

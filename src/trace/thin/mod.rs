@@ -4,7 +4,8 @@
 //! has no contour at half coverage, and one of 1.3 px has one in pieces. Its crest stands out all the same. Along
 //! crests that are long enough the coverage is scaled ([`lifted`]), so that the level is passed at their sides; where
 //! those really are the comparison with the picture says (`refine`). Nor do they tell what paper and ink are like
-//! ([`beside`]). Lines that are wide enough are parted as well, and are lifted there ([`torn`]). All else stays as it is.
+//! ([`beside`]). Short ones that join what is thick, and wider ones that grain parts, are lifted there ([`torn`]). All
+//! else stays as it is.
 
 mod torn;
 
