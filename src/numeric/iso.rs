@@ -68,11 +68,8 @@ impl<F: Fn(usize, usize) -> f32> Field<F> {
             },
             (false, false) => around_ink,
             (false, true) => {
-                // the bilinear surface's own saddle says which diagonal is connected
-                let (l, r) = (self.at(left), self.at(right));
-                let (fl, fr) = (self.at(far_left), self.at(far_right));
-                let saddle = (l * fr - r * fl) / (l + fr - r - fl);
-                if saddle >= self.level {
+                let [ink, paper] = [[left, far_right], [right, far_left]];
+                if saddle(ink.map(|p| self.at(p)), paper.map(|p| self.at(p))) >= self.level {
                     around_paper
                 } else {
                     around_ink
@@ -80,6 +77,13 @@ impl<F: Fn(usize, usize) -> f32> Field<F> {
             }
         }
     }
+}
+
+/// The height of the bilinear surface's saddle between four samples, which says which diagonal is connected: those of
+/// one diagonal are higher than those of the other.
+#[must_use]
+pub fn saddle([a, b]: [f64; 2], [c, d]: [f64; 2]) -> f64 {
+    (a * b - c * d) / (a + b - c - d)
 }
 
 /// All rings at `level`, ink on the left, px, y up; ordered by their first grid edge in reading order. `samples`

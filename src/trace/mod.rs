@@ -4,11 +4,10 @@
 //! |---|---|
 //! | [`Gray`], px, y down, 1 = ink | [`Contour`]s, px, y up, origin at the picture's bottom left, ink on the left |
 //!
-//! What follows holds for [`Boundary::Iso`]. The contours come in the order in which a reader meets them,
-//! row by row from the top. They neither
-//! cross nor touch. Every ink component and every hole above the speckle limit is there, and so are lines and
-//! slits whose crest never reaches the level, where it stands out for 6 px (`thin`). Lines of ink that grain parts
-//! are whole.
+//! What follows holds for [`Boundary::Iso`]. The contours come in the order in which a reader meets them, row by row
+//! from the top. They neither cross nor touch. Every ink component and every hole above the speckle limit is there,
+//! and so are lines and slits whose crest never reaches the level, where it stands out for 6 px, and lines of ink that
+//! the level parts for a few px, where they hold half a pixel of ink across (`thin`).
 
 mod chain;
 mod focus;

@@ -1,11 +1,11 @@
-//! Lines that reach the level and are parted all the same, by grain or where two pixels touch at their corners.
+//! Lines that the level parts and that go on: short ones between what is thick, and wider ones by grain or where two
+//! pixels touch at their corners alone.
 //!
-//! On both sides of such a place the line goes on, and along it what is seen across it hardly changes. Where ink ends
-//! and begins anew it does: through a gap between two edges that shows half of the ink in its middle, a pixel on it
-//! shows a third more.
+//! Along such a place what is seen across the line hardly changes. Where ink ends and begins anew it does: through a
+//! gap between two edges that shows half of the ink in its middle, a pixel on it shows a third more.
 
 use super::{Crest, Field, GRAIN, RELIEF, SIDES};
-use crate::numeric::cast::index;
+use crate::numeric::{cast::index, iso::saddle};
 use kurbo::{Point, Vec2};
 
 /// Pixels along a crest that are looked at on both sides of one.
@@ -144,8 +144,8 @@ impl Field<'_> {
             return false;
         }
         let (r, s) = (self.height((a.0, b.1)), self.height((b.0, a.1)));
-        // at a corner the bilinear surface's own saddle says it
-        r.max(s) >= self.level || (p * q - r * s) / (p + q - r - s) >= self.level
+        let corner = || saddle([p, q].map(f64::from), [r, s].map(f64::from));
+        r.max(s) >= self.level || corner() >= f64::from(self.level)
     }
 
     /// Whether ink joins two pixels near by.
