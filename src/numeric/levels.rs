@@ -2,6 +2,7 @@
 
 use super::cast::single;
 use super::coverage::blur;
+use super::median::{NORMAL, median};
 use std::ops::BitOrAssign;
 
 /// Spread of the neighbourhood a level is the mean of, px. Print and paper grain vary within a few
@@ -21,6 +22,14 @@ const CONTRAST: f32 = 0.2;
 /// A pixel whose model is within this of ink or paper tells their level, coverage.
 const TELLS: f32 = 0.1;
 
+/// A pixel is plain paper up to this model, coverage: nearer to an edge one differs where the edge lies a little aside.
+const PLAIN: f32 = 0.02;
+/// It is blotted where it stands out of the paper's level by so much, coverage, and so many deviations of what is plain.
+const STANDS_OUT: f32 = 0.2;
+const DEVIATIONS: f64 = 6.0;
+/// And beside such a pixel where it does so by this part of that.
+const BESIDE: f32 = 0.5;
+
 /// A block is surely ink or paper from this part of its pixels on.
 const SURE: f32 = 0.99;
 /// Blocks this near to one that is not sure have levels of their own, blocks: further from an edge none is felt.
@@ -31,10 +40,41 @@ const NEAR: usize = 6;
 /// `values` run row by row, `width` a row; `model` is what each would be if ink were 1 and paper 0. A pixel tells all
 /// of a level where its model is ink or paper alone, less the more it holds of the other, whose part is taken off. A
 /// level is the Gaussian mean of what is told around, and where that is next to nothing, of all. Far from pixels that
-/// leave it open what they are nothing is asked: there ink is 1 and paper 0.
+/// leave it open what they are nothing is asked: there ink is 1 and paper 0. Paper that is blotted tells nothing: what a
+/// model leaves out, as a short serif, would pass for a part of the level.
 #[must_use]
 pub fn normalised(values: &[f32], width: usize, model: &[f32]) -> Vec<f32> {
     let w = width.max(1);
+    let first = levelled(values, w, model);
+    match without_blots(model, &first, w) {
+        Some(model) => levelled(values, w, &model),
+        None => first,
+    }
+}
+
+/// The model with nothing told by paper that is blotted; nothing where none is. `seen` is what it made of the values.
+fn without_blots(model: &[f32], seen: &[f32], w: usize) -> Option<Vec<f32>> {
+    let pixels = || seen.iter().zip(model);
+    let stand_out = |least: f32| pixels().map(move |(v, m)| (*m < PLAIN) & (*v > least));
+    if !stand_out(STANDS_OUT).any(|out| out) {
+        return None;
+    }
+    // exactly 0 is paper of which nothing is asked
+    let plain = pixels().filter(|(v, m)| **m < PLAIN && **v != 0.0);
+    let deviation = NORMAL * median(plain.map(|(v, _)| f64::from(v.abs())))?;
+    let least = STANDS_OUT.max(single(DEVIATIONS * deviation));
+    let blots: Vec<bool> = stand_out(least).collect();
+    let near = dilated(&blots, w, 1)
+        .into_iter()
+        .zip(stand_out(BESIDE * least));
+    let blotted: Vec<bool> = near.map(|(near, out)| near && out).collect();
+    let told = |(m, blotted): (&f32, &bool)| if *blotted { 0.5 } else { *m };
+    let any = blots.iter().any(|out| *out);
+    any.then(|| model.iter().zip(&blotted).map(told).collect())
+}
+
+/// Where each value lies between the levels that the model tells.
+fn levelled(values: &[f32], w: usize, model: &[f32]) -> Vec<f32> {
     let sums = told(values, w, model);
     let columns = w.div_ceil(BLOCK);
     let mean = |sum: f64, count: f64, none: f64| if count > 0.0 { sum / count } else { none };
@@ -219,6 +259,25 @@ mod tests {
         let off = got.iter().zip(&coverage).map(|(a, b)| (a - b).abs());
         let off = off.fold(0.0, f32::max);
         assert!(off < 0.02, "{off}");
+    }
+
+    #[test]
+    fn what_a_model_leaves_out_is_no_level() {
+        // a stem, and a pale serif of 5 × 2 px that its model has not
+        let stem: Vec<f32> = (0..W * W)
+            .map(|i| (20.5 - single((i % W) as f64)).clamp(0.0, 1.0))
+            .collect();
+        let serif = |i: &usize| (22..27).contains(&(i % W)) && (30..32).contains(&(i / W));
+        let coverage = |i: usize| if serif(&i) { 0.4 } else { stem[i] };
+        let grey: Vec<f32> = (0..W * W).map(|i| 0.1 + 0.8 * coverage(i)).collect();
+        let got = normalised(&grey, W, &stem);
+        for i in (0..W * W).filter(serif) {
+            assert!((got[i] - 0.4).abs() < 0.01, "{}", got[i]);
+        }
+        // as much is nothing to rough paper
+        let grain = |i: usize| single((i * 37 % 101) as f64 / 101.0 - 0.5);
+        let rough: Vec<f32> = (0..W * W).map(|i| grey[i] + 0.4 * grain(i)).collect();
+        assert_eq!(normalised(&rough, W, &stem), levelled(&rough, W, &stem));
     }
 
     #[test]
