@@ -11,6 +11,7 @@
 //! | [`window`] | a structure | its nodes by least squares of the pixels around |
 //! | [`ends`] | a path's corner | whether its end may be cut off, or it be a round |
 //! | [`bends`] | a path | its tight bends and bent corners, and the corners that may stand in their place |
+//! | [`straight`] | a path | the same without nodes within a straight line |
 //! | [`axes`] | lines that are upright or level but for grain | the same on their axis |
 //!
 //! What is left of the picture around an edge tells where a fit is wrong, and by how much. There the few nodes near
@@ -29,6 +30,7 @@ mod fair;
 mod part;
 mod place;
 mod side;
+mod straight;
 mod structure;
 mod tangle;
 #[cfg(test)]
@@ -50,6 +52,7 @@ use kurbo::{BezPath, Point, Rect, Shape};
 use part::changed;
 use place::{CHORD_PX, Look, Mended, NEAR_PX, Place};
 use std::mem;
+use straight::straightened;
 use tangle::Crossing;
 use tips::{NEEDLE_PX, ONE_PX, beyond, is_needle, tip, trimmed};
 
@@ -174,7 +177,7 @@ impl Work<'_> {
         lost
     }
 
-    /// The paths as they are, with nodes at all extrema.
+    /// The paths as they are, with nodes at all extrema and none within a straight line.
     fn finished(self) -> Vec<BezPath> {
         let finished = |(chain, ring): (Option<Chain>, Ring)| {
             let Some(mut chain) = chain.or_else(|| read(&ring.path)) else {
@@ -182,11 +185,11 @@ impl Work<'_> {
             };
             let before = chain.kinds.len();
             divide_at_extrema(&mut chain, 0.0);
-            if chain.kinds.len() > before {
+            straightened(if chain.kinds.len() > before {
                 chain.to_path()
             } else {
                 ring.path
-            }
+            })
         };
         let both = self.chains.into_iter().zip(self.rings);
         both.map(finished).collect()
