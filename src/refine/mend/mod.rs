@@ -64,7 +64,7 @@ const STEP_PX: f64 = 1.5;
 const WRONG: f64 = 0.018;
 const WRONG_GRAIN: f64 = 90.0;
 /// And from which a part of the drawing is missing there.
-const LOST: f64 = 0.5;
+const LOST: f64 = 0.2;
 /// Places that are tried at most, the worst first, and crossings: a picture of noise is wrong everywhere.
 const MOST: usize = 1000;
 /// Places nearer to one that was tried are that one, px.
