@@ -180,16 +180,18 @@ impl Work<'_> {
     /// The paths as they are, with nodes at all extrema and none within a straight line.
     fn finished(self) -> Vec<BezPath> {
         let finished = |(chain, ring): (Option<Chain>, Ring)| {
+            let stays = chain.is_none();
             let Some(mut chain) = chain.or_else(|| read(&ring.path)) else {
                 return ring.path;
             };
             let before = chain.kinds.len();
             divide_at_extrema(&mut chain, 0.0);
-            straightened(if chain.kinds.len() > before {
+            let path = if chain.kinds.len() > before {
                 chain.to_path()
             } else {
                 ring.path
-            })
+            };
+            if stays { path } else { straightened(path) }
         };
         let both = self.chains.into_iter().zip(self.rings);
         both.map(finished).collect()
