@@ -6,52 +6,56 @@ use std::mem;
 /// A node goes where the two pieces that meet there are one line but for this, px.
 const STRAIGHT_PX: f64 = 0.01;
 
-/// The closed path, with one line in the place of two pieces that are one.
+/// The closed path, with one line in the place of pieces that are one.
 pub(super) fn straightened(path: BezPath) -> BezPath {
-    let mut out: Vec<PathSeg> = Vec::new();
-    for next in path.segments() {
-        match out.last().and_then(|last| one_line(*last, next)) {
-            Some(both) => {
-                out.pop();
-                out.push(both);
-            }
-            None => out.push(next),
+    let mut runs: Vec<Vec<PathSeg>> = Vec::new();
+    for piece in path.segments() {
+        match runs.last_mut() {
+            Some(run) if are_one(run, &[piece]) => run.push(piece),
+            _ => runs.push(vec![piece]),
         }
     }
     // the node where the path begins
-    if let [first, .., last] = out[..]
-        && let Some(both) = one_line(last, first)
+    if let [first, .., last] = runs.as_slice()
+        && are_one(last, first)
     {
-        out.pop();
-        out[0] = both;
+        let both = [last.as_slice(), first].concat();
+        runs.pop();
+        runs[0] = both;
     }
-    if out.len() < 2 || out.len() == path.segments().count() {
+    if runs.len() < 2 || runs.iter().all(|run| run.len() == 1) {
         return path;
     }
-    let mut straightened = BezPath::from_path_segments(out.into_iter());
+    let piece = |run: &Vec<PathSeg>| match run.as_slice() {
+        [first, .., last] => Some(PathSeg::Line(Line::new(first.start(), last.end()))),
+        alone => alone.first().copied(),
+    };
+    let mut straightened = BezPath::from_path_segments(runs.iter().filter_map(piece));
     straightened.close_path();
     straightened
 }
 
-/// The line that two pieces make which follow each other.
-fn one_line(a: PathSeg, b: PathSeg) -> Option<PathSeg> {
-    let line = Line::new(a.start(), b.end());
-    let way = line.p1 - line.p0;
-    let [a, b] = [a.to_cubic(), b.to_cubic()];
+/// Whether pieces that follow each other are one line: all of them, since little by little they may bend.
+fn are_one(before: &[PathSeg], after: &[PathSeg]) -> bool {
+    let (Some(first), Some(last)) = (before.first(), after.last()) else {
+        return false;
+    };
+    let (start, way) = (first.start(), last.end() - first.start());
+    let cubics = before.iter().chain(after).map(PathSeg::to_cubic);
     let mut gone = 0.0;
-    let straight = [a.p1, a.p2, a.p3, b.p1, b.p2, b.p3].iter().all(|p| {
-        let off = *p - line.p0;
+    cubics.flat_map(|c| [c.p1, c.p2, c.p3]).all(|p| {
+        let off = p - start;
         let before = mem::replace(&mut gone, off.dot(way));
         // a handle may have no length
         before <= gone && off.cross(way).abs() < STRAIGHT_PX * way.hypot()
-    });
-    straight.then_some(PathSeg::Line(line))
+    })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use kurbo::Shape;
+    use crate::numeric::angles;
+    use kurbo::{ParamCurveNearest, Point, Shape};
 
     #[test]
     fn a_node_within_a_line_goes_and_a_corner_stays() {
@@ -73,6 +77,21 @@ mod tests {
         ] {
             let path = BezPath::from_svg(kept).unwrap();
             assert_eq!(straightened(path.clone()), path);
+        }
+    }
+
+    #[test]
+    fn short_pieces_of_a_bend_are_no_line() {
+        let bend = |k: i32| (100.0 * angles::direction(0.001 * f64::from(k))).to_point();
+        let points: Vec<Point> = (0..400).map(bend).collect();
+        let mut path = BezPath::from_svg("M0 0").unwrap();
+        points.iter().for_each(|p| path.line_to(*p));
+        path.close_path();
+        let got = straightened(path);
+        for p in points {
+            let off = |s: PathSeg| s.nearest(p, 1e-9).distance_sq;
+            let off = got.segments().map(off).fold(f64::INFINITY, f64::min);
+            assert!(off.sqrt() < STRAIGHT_PX, "{p} {}", off.sqrt());
         }
     }
 }
