@@ -133,7 +133,10 @@ fn found(page: &Page, table: &SheetTable) -> Cells {
 fn entry(page: &Page) -> (Vec<(String, Vec<u8>)>, Value) {
     let cut = &page.cut;
     let name = |c: &Cell| format!("{:02}-{:03}.png", page.table + 1, c.index + 1);
-    let pictures = cut.cells.iter().map(|c| (name(c), Png::of(&c.gray).bytes));
+    let pictures = cut
+        .cells
+        .iter()
+        .map(|c| (name(c), Png::of(&scan::upright(&c.gray)).bytes));
     let cells = cut.cells.iter().map(|c| {
         json!({
             "cell": c.index + 1,

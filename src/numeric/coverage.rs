@@ -1,7 +1,7 @@
 //! Exact area coverage of polygons, and what a lens makes of it.
 
 use super::cast::{index, single};
-use kurbo::Point;
+use kurbo::{Affine, Point};
 use std::array;
 
 /// A picture in the making: the signed area that polygons cover in each pixel.
@@ -12,6 +12,8 @@ use std::array;
 pub struct Coverage {
     width: usize,
     height: usize,
+    /// From the polygons' px to the picture's, both y up.
+    map: Affine,
     /// Differences along each row, one column wider than the picture; [`Coverage::samples`] sums them up.
     differences: Vec<f32>,
 }
@@ -24,8 +26,16 @@ impl Coverage {
         Self {
             width,
             height,
+            map: Affine::IDENTITY,
             differences,
         }
+    }
+
+    /// The same for polygons that `map` takes to the picture, px, both y up.
+    #[must_use]
+    pub const fn mapped(mut self, map: Affine) -> Self {
+        self.map = map;
+        self
     }
 
     /// Columns, px.
@@ -46,8 +56,8 @@ impl Coverage {
     }
 
     fn chords(&mut self, points: impl Iterator<Item = Point>) {
-        let top = self.height as f64;
-        let mut ends = points.map(|p| (p.x, top - p.y));
+        let (top, map) = (self.height as f64, self.map);
+        let mut ends = points.map(|p| map * p).map(|p| (p.x, top - p.y));
         let Some(mut from) = ends.next() else { return };
         for to in ends {
             self.edge(from, to);

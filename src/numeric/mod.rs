@@ -13,6 +13,7 @@ pub mod distance;
 pub mod edge;
 pub mod iso;
 pub mod joins;
+pub mod lanczos;
 pub mod levels;
 pub mod many;
 pub mod median;

@@ -6,7 +6,7 @@ use super::watch::{Stage, Watch};
 use crate::assemble::words::Word;
 use crate::assemble::{Drawn, names};
 use crate::finish::place;
-use crate::scan::InkStreaks;
+use crate::scan::{self, InkStreaks};
 use crate::trace;
 use crate::types::{Cell, Contour, Font, Frame, Gray, Guides, Label, Outline, Plate, Png};
 use kurbo::{BezPath, Rect};
@@ -69,7 +69,7 @@ impl Letter {
                 sheet: sheet.to_owned(),
                 table,
                 edge: trace::trace(&cell.gray, &trace::Options::default()),
-                picture: Png::of(&cell.gray),
+                picture: Png::of(&scan::upright(&cell.gray)),
                 label: cell.label,
                 index: cell.index,
                 in_sheet: cell.in_sheet,

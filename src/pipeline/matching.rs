@@ -11,6 +11,7 @@ use super::world::World;
 use super::{corrections, labels};
 use crate::assemble::names;
 use crate::recognise::{Alphabet, Finding, Guess, Look, Reading, check, once};
+use crate::scan::upright;
 use crate::types::{Cell, Label};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
@@ -207,7 +208,7 @@ fn findings<'a>(
 /// How a cell looks to a project's method.
 fn seen(project: &Project) -> impl Fn(&Cell) -> Look + Send + Sync + use<> {
     let method = project.matching.method;
-    move |cell| Look::new(&cell.gray, Some(cell.guides), method)
+    move |cell| Look::new(&upright(&cell.gray), Some(cell.guides), method)
 }
 
 /// The letters that each cell of a page may hold.

@@ -9,7 +9,7 @@ use crate::{
     },
     types::{Contour, Gray},
 };
-use kurbo::{Line, ParamCurveNearest, Point, Rect, Vec2};
+use kurbo::{Affine, Line, ParamCurveNearest, Point, Rect, Vec2};
 use std::{borrow::Cow, f64::consts::TAU, iter::successors, ops::Range};
 
 /// The neighbourhood that moves an edge is at least this wide, px: narrower, it would hang on the one
@@ -69,6 +69,8 @@ impl Blot {
 #[derive(Debug)]
 pub(super) struct Residual<'g> {
     gray: &'g Gray,
+    /// from px of the outlines, which stand upright, to those of the picture, y up
+    to_picture: Affine,
     /// its coverage, ink and paper levelled
     seen: Cow<'g, Gray>,
     /// picture minus model, row by row from the top
@@ -114,11 +116,13 @@ impl<'g> Residual<'g> {
         let pixel = Contour::PIXEL_BLUR_PX;
         let lens = (blur_px * blur_px - pixel * pixel).max(0.0).sqrt();
         let spread = blur_px.max(MIN_SPREAD_PX);
-        let mut fill = Coverage::new(gray.width(), gray.height());
+        let to_picture = gray.to_pixels();
+        let mut fill = Coverage::new(gray.width(), gray.height()).mapped(to_picture);
         let mut off = Vec::new();
         draw(rings, (&mut fill, &mut off), lens);
         Self {
             gray,
+            to_picture,
             seen: Cow::Borrowed(gray),
             off,
             fill,
@@ -137,7 +141,7 @@ impl Residual<'_> {
         let mut residual = Residual {
             seen: Cow::Borrowed(&*self.seen),
             off: Vec::new(),
-            fill: Coverage::new(self.seen.width(), self.seen.height()),
+            fill: Coverage::new(self.seen.width(), self.seen.height()).mapped(self.to_picture),
             ..*self
         };
         residual.update(rings);
@@ -153,7 +157,7 @@ impl Residual<'_> {
         // the model again
         self.compare();
         let mut told = Cow::Borrowed(&self.off);
-        for line in open {
+        for line in open.map(|line| self.to_picture * line) {
             let around = Rect::from_points(line.p0, line.p1).inflate(OPEN_PX, OPEN_PX);
             let span = |from: f64, to: f64, n: usize| index(from)..index(to + 1.0).min(n);
             for y in span(h as f64 - around.y1, h as f64 - around.y0, h) {
@@ -210,18 +214,20 @@ impl Residual<'_> {
             let from = index(from.max(0.0)).saturating_sub(2 * margin);
             from..index(to.max(0.0)).saturating_add(1 + 2 * margin).min(n)
         };
+        let changed = self.to_picture.transform_rect_bbox(changed);
         let columns = span(changed.x0, changed.x1, w);
         let rows = span(h as f64 - changed.y1, h as f64 - changed.y0, h);
         let origin = Vec2::new(columns.start as f64, (h - rows.end) as f64);
         if columns.is_empty() || rows.is_empty() {
             return 0.0;
         }
-        let mut fill = Coverage::new(columns.len(), rows.len());
-        let (width, height) = (columns.len() as f64, rows.len() as f64);
-        let around = Rect::from_origin_size(origin.to_point(), (width, height));
-        for (_, ring) in rings.filter(|(bounds, _)| bounds.overlaps(around)) {
-            fill.line(&ring.iter().map(|p| *p - origin).collect::<Vec<_>>());
-        }
+        let to_part = Affine::translate(-origin) * self.to_picture;
+        let mut fill = Coverage::new(columns.len(), rows.len()).mapped(to_part);
+        let size = (columns.len() as f64, rows.len() as f64);
+        let part = Rect::from_origin_size(origin.to_point(), size);
+        let around = self.to_picture.inverse().transform_rect_bbox(part);
+        let near = rings.filter(|(bounds, _)| bounds.overlaps(around));
+        near.for_each(|(_, ring)| fill.line(ring));
         let mut model = fill.samples();
         blur(&mut model, columns.len(), self.lens, 0);
         // what is missing beyond the picture's own sides is paper
@@ -251,8 +257,14 @@ impl Residual<'_> {
         self.lens
     }
 
+    /// From px of the outlines to those of the picture, y up.
+    pub(super) const fn to_picture(&self) -> Affine {
+        self.to_picture
+    }
+
     /// A place in pixels from the first one's centre, y down, and the columns and rows within `reach` px of it.
     fn around(&self, p: Point, reach: f64) -> ((f64, f64), [Range<usize>; 2]) {
+        let p = self.to_picture * p;
         let (w, h) = (self.seen.width(), self.seen.height());
         let (cx, cy) = (p.x - 0.5, h as f64 - p.y - 0.5);
         let span = |c: f64, n: usize| ceiling(c - reach)..index(c + reach + 1.0).min(n);
@@ -273,7 +285,8 @@ impl Residual<'_> {
 
     /// The differences weighed by what the lens makes of a blot, and that weighed by itself.
     fn weighed(&self, blot: &Blot) -> (f64, f64) {
-        let (along, across) = (blot.along, perp(blot.along));
+        let along = (self.to_picture * blot.along.to_point()) - (self.to_picture * Point::ORIGIN);
+        let across = perp(along);
         let pixel = Contour::PIXEL_BLUR_PX;
         let [va, vc] = blot
             .variance
@@ -312,10 +325,8 @@ impl Residual<'_> {
         let (mut sum, mut length) = (0.0, 0.0);
         for (a, b) in ring.iter().zip(ring.iter().cycle().skip(1)) {
             let d = a.distance(*b);
-            let (x, y) = (
-                a.midpoint(*b).x,
-                self.seen.height() as f64 - a.midpoint(*b).y,
-            );
+            let p = self.to_picture * a.midpoint(*b);
+            let (x, y) = (p.x, self.seen.height() as f64 - p.y);
             let x = index(x).min(self.seen.width().saturating_sub(1));
             let off = self.off.get(index(y) * self.seen.width() + x);
             let off = off.map_or(0.0, |off| f64::from(*off));
@@ -346,6 +357,7 @@ impl Residual<'_> {
         const PLAIN: (f32, f32) = (0.9, 0.1);
         let (w, h) = (self.seen.width(), self.seen.height());
         let model = |q: Point| {
+            let q = self.to_picture * q;
             let inside = (0.0..w as f64).contains(&q.x) && (0.0..h as f64).contains(&q.y);
             let at = inside.then(|| (h - 1 - index(q.y)) * w + index(q.x));
             at.map_or(0.0, |i| self.seen.samples()[i] - self.off[i])

@@ -6,8 +6,9 @@
 //! | [`clean()`] | `Sheet` → [`Page`] | sheet px | light and shaded ink evened out: paper 0, ink 1; noise and edges as scanned, but for steps of two levels, which are softened, ink that is grain, which is averaged, and a pen's streaks, which are filled |
 //! | [`cut()`] | `Page` → [`Cell`](crate::types::Cell)s | upright px | each piece of ink in one cell or in the list of what was rejected, with a reason |
 //!
-//! Letters of a skewed page come out upright: their pixels are interpolated once, the only resampling
-//! between the scanner and the contour.
+//! Letters of a skewed page stay on the pixels of the scan, and say how they stand upright
+//! ([`Gray::upright`](crate::types::Gray::upright)): nothing is resampled between the scanner and the contour. Only where
+//! a page is seen in perspective are pixels interpolated, once.
 
 mod chamfer;
 mod clean;
@@ -29,6 +30,7 @@ mod separation;
 mod shading;
 mod steps;
 mod streaks;
+mod upright;
 
 pub use clean::{Page, Texture, clean, clean_otherwise, grey};
 pub use cut::{Cut, Pin, Reason, Region, Rejected, Warning, cut};
@@ -43,3 +45,4 @@ pub use separation::Colour;
 pub use shading::{Even, legible, shaded};
 pub use steps::softened;
 pub use streaks::InkStreaks;
+pub use upright::upright;

@@ -4,6 +4,7 @@
 use super::{Options, level, trace};
 use crate::numeric::cast::{index, single};
 use crate::types::{Contour, Gray};
+use kurbo::Affine;
 
 /// The blur that edges keep, px, its standard deviation: with half of it pixels hide where they lie, and with twice
 /// as much what is beside a corner counts as part of it.
@@ -55,7 +56,10 @@ fn enlarged(gray: &Gray, side: usize) -> Gray {
         let sum: f32 = rows.flat_map(|y| &gray.row(y)[columns.clone()]).sum();
         sum / count
     };
-    Gray::from_fn(width, height, mean).with_scatter(gray.scatter_px() / side as f64)
+    let scale = Affine::scale(side as f64);
+    Gray::from_fn(width, height, mean)
+        .with_scatter(gray.scatter_px() / side as f64)
+        .with_upright(scale.inverse() * gray.upright() * scale)
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 //!
 //! | takes | gives |
 //! |---|---|
-//! | [`Gray`], px, y down, 1 = ink | [`Contour`]s, px, y up, origin at the picture's bottom left, ink on the left |
+//! | [`Gray`], px, y down, 1 = ink | [`Contour`]s, px, y up, origin at the picture's bottom left, ink on the left; upright |
 //!
 //! What follows holds for [`Boundary::Iso`]. The contours come in the order in which a reader meets them, row by row
 //! from the top. They neither cross nor touch. Every ink component and every hole above the speckle limit is there,
@@ -90,11 +90,15 @@ const MAX_BLUR_PX: f64 = 4.0;
 /// The contours of a picture's ink, evenly sampled, with the blur of the picture's edges.
 #[must_use]
 pub fn trace(gray: &Gray, options: &Options) -> Vec<Contour> {
+    let upright = |c: Contour| {
+        let points = c.points().iter().map(|p| gray.upright() * *p);
+        c.through(points.collect()).ok()
+    };
     let rings = match options.boundary {
         Boundary::Iso => rings_at(gray, options.level),
         Boundary::Chain => {
             let rings = chain::rings(gray, options.level).into_iter();
-            return large(rings, options).collect();
+            return large(rings, options).filter_map(upright).collect();
         }
     };
     let mut even: Vec<Contour> = large(rings.into_iter(), options)
@@ -116,7 +120,7 @@ pub fn trace(gray: &Gray, options: &Options) -> Vec<Contour> {
         let c = c.with_blur(blur).with_ragged(ragged.hidden_px);
         c.with_scatter(scatter)
     };
-    even.into_iter().map(told).collect()
+    even.into_iter().filter_map(upright).map(told).collect()
 }
 
 /// The rings around ink of at least `level`.

@@ -1,5 +1,6 @@
 //! Pictures: grey ink coverage and bits.
 
+use kurbo::Affine;
 use thiserror::Error;
 
 /// Why a picture could not be made.
@@ -30,12 +31,16 @@ pub enum RasterError {
 ///
 /// A scanner's noise swings about both levels, so samples may pass 0 and 1 by up to [`Gray::OVERSHOOT`]:
 /// cutting the noise off there would shift every level estimated from them.
+///
+/// A letter of a page that lies askew stays on the pixels that the scanner made, and the picture says how it stands
+/// upright ([`Gray::upright`]): pixels between pixels would have to be made up.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Gray {
     width: usize,
     height: usize,
     samples: Vec<f32>,
     scatter_px: f64,
+    upright: Affine,
 }
 
 impl Gray {
@@ -68,6 +73,7 @@ impl Gray {
             height,
             samples,
             scatter_px: 0.0,
+            upright: Affine::IDENTITY,
         })
     }
 
@@ -83,6 +89,7 @@ impl Gray {
             height,
             samples,
             scatter_px: 0.0,
+            upright: Affine::IDENTITY,
         }
     }
 
@@ -107,6 +114,27 @@ impl Gray {
     #[must_use]
     pub const fn scatter_px(&self) -> f64 {
         self.scatter_px
+    }
+
+    /// The same picture, whose drawing stands upright where `map` takes it: from px of the picture to px of the drawing,
+    /// both y up, the origin at the picture's bottom left. A turn, and a shift.
+    #[must_use]
+    pub const fn with_upright(mut self, map: Affine) -> Self {
+        self.upright = map;
+        self
+    }
+
+    /// Where its drawing stands upright: from px of the picture to px of the drawing, both y up, the origin at the
+    /// picture's bottom left.
+    #[must_use]
+    pub const fn upright(&self) -> Affine {
+        self.upright
+    }
+
+    /// From px of the upright drawing to px of the picture: the map back.
+    #[must_use]
+    pub fn to_pixels(&self) -> Affine {
+        self.upright.inverse()
     }
 
     fn cut(v: f32) -> f32 {

@@ -39,8 +39,8 @@ const STEEPEST: f64 = 1.5;
 pub(super) struct Carried {
     /// px
     pub(super) coverage: Gray,
-    /// what lies left of the picture and below it now, px
-    origin: [usize; 2],
+    /// from its px to those of the picture, which leaves out what lies left of it and below it now
+    back: Affine,
     /// where outlines end, in its own px, y up
     sides: [Side; 4],
 }
@@ -71,12 +71,13 @@ pub(super) fn blur_px(coverage: &Gray, contours: &[Contour]) -> Option<f64> {
     const MOST: f64 = 4.0;
     let size = (coverage.width() as f64, coverage.height() as f64);
     let inner = Rect::from_origin_size((0.0, 0.0), size).inset(-1.0);
+    let to_picture = coverage.to_pixels();
     let (mut all, mut inside) = (0.0, 0.0);
     for contour in contours {
         let points = contour.points();
         for (a, b) in points.iter().zip(points.iter().cycle().skip(1)) {
             all += a.distance(*b);
-            if inner.contains(a.midpoint(*b)) {
+            if inner.contains(to_picture * a.midpoint(*b)) {
                 inside += a.distance(*b);
             }
         }
@@ -114,20 +115,22 @@ pub(super) fn carried(coverage: &Gray, blur_px: f64) -> Option<Carried> {
     ];
     let rows = grid.samples.len().checked_div(grid.width).unwrap_or(0);
     let carried = Gray::new(grid.width, rows, grid.samples).ok()?;
+    let back = Affine::translate((-(left as f64), -(below as f64)));
     Some(Carried {
-        coverage: carried.with_scatter(coverage.scatter_px()),
-        origin: [left, below],
+        coverage: carried
+            .with_scatter(coverage.scatter_px())
+            .with_upright(back.inverse() * coverage.upright() * back),
+        back,
         sides,
     })
 }
 
 impl Carried {
-    /// Its paths in the picture's own px, ended at the sides that cut them; what is left of one is dust below
+    /// Its paths as the picture has them, ended at the sides that cut them; what is left of one is dust below
     /// `dust_px2`.
     pub(super) fn cut(&self, paths: &[BezPath], dust_px2: f64) -> Vec<BezPath> {
-        let [left, below] = self.origin.map(|px| px as f64);
-        let back = Affine::translate((-left, -below));
-        let mut paths: Vec<BezPath> = paths.iter().map(|p| back * p.clone()).collect();
+        let to_picture = self.back * self.coverage.to_pixels();
+        let mut paths: Vec<BezPath> = paths.iter().map(|p| to_picture * p.clone()).collect();
         for side in &self.sides {
             let large = |(path, cut): (BezPath, Cut)| {
                 let stays = cut == Cut::Whole || path.area().abs() >= dust_px2;
@@ -138,7 +141,8 @@ impl Carried {
                 .filter_map(large)
                 .collect();
         }
-        paths
+        let upright = self.back * self.coverage.upright() * self.back.inverse();
+        paths.into_iter().map(|p| upright * p).collect()
     }
 }
 
@@ -459,7 +463,7 @@ mod tests {
         let bounds: Vec<Rect> = paths.iter().map(Shape::bounding_box).collect();
         assert_eq!(bounds, [Rect::new(-1.0, 0.0, 31.0, 41.0)]);
         // and what is left of little is dust
-        let little = Rect::new(10.0, 0.0, 13.0, carried.origin[1] as f64 + 1.0).to_path(0.1);
+        let little = Rect::new(10.0, 0.0, 13.0, 1.0 - carried.back.translation().y).to_path(0.1);
         assert!(carried.cut(&[little], 4.0).is_empty());
     }
 

@@ -4,6 +4,8 @@ mod border;
 mod contours;
 mod options;
 mod review;
+#[cfg(test)]
+mod tests;
 
 pub use options::Options;
 

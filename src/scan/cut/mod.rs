@@ -14,6 +14,7 @@
 //! | `stance`, `remarks` | whether letters stand as their names say, and what a user should look at |
 //! | `window` | each letter's own picture, upright; holes in its ink that are no counters are filled (`holes`) |
 
+mod askew;
 mod guides;
 mod holes;
 mod layout;

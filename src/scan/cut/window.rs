@@ -1,20 +1,24 @@
 //! The picture of a cell: its own ink, nobody else's, upright.
 //!
 //! What lies nearer to other ink than to its own, and what stands out of the noise far from its own, becomes
-//! paper. On an upright page the pixels are the scan's own; else they are interpolated once, by a kernel that
-//! keeps what the scanner could resolve (Lanczos of three lobes). Perspective is undone in the same step.
+//! paper. The pixels are the scan's own; where the letter lies askew on them its picture says how it stands upright.
+//! Where a page is seen in perspective they are interpolated once, by a kernel that keeps what the scanner could
+//! resolve ([`lanczos`]).
+//!
+//! [`lanczos`]: crate::numeric::lanczos
 
+use super::askew::Askew;
 use super::{Slot, holes};
 use crate::numeric::angles;
-use crate::numeric::cast::{index, single};
+use crate::numeric::cast::index;
+use crate::numeric::lanczos::{LOBES, Lanczos};
 use crate::numeric::view::View;
 use crate::scan::chamfer::distances;
 use crate::scan::clean::Page;
 use crate::scan::components::{Component, Run, components};
 use crate::scan::separation::{self, Separation};
 use crate::types::{Cell, Gray, Guides, Plate};
-use kurbo::{Affine, Point, Rect, Vec2};
-use std::f64::consts::PI;
+use kurbo::{Affine, Point, Rect};
 
 /// Paper around the ink of a cell, px: enough to see its level.
 const MARGIN: f64 = 12.0;
@@ -26,10 +30,6 @@ const EDGE: u16 = 3;
 const FAINT: f32 = 0.1;
 /// Standard deviations of noise above which paper far from the cell's ink is somebody else's.
 const NOISE: f32 = 4.0;
-/// Lobes of the kernel.
-const LOBES: usize = 3;
-/// Positions between two pixels for which the kernel is tabled.
-const PHASES: usize = 512;
 
 /// Takes pictures of cells.
 pub(super) struct Shutter<'a> {
@@ -64,22 +64,18 @@ impl Shutter<'_> {
             ink = turned.reduce(|a, b| a.union(b)).unwrap_or(ink);
         }
         let window = ink.inflate(MARGIN, MARGIN).expand();
-        let corner = Affine::translate(window.origin().to_vec2());
-        let to_sheet = upright.affine().map_or_else(
-            || upright.inverse() * View::from(corner),
-            |map| View::from(map.inverse() * corner),
-        );
-        let middle = (window.center() - window.origin()).to_point();
-        let (gray, plates) = self.pictures(parts, window, &to_sheet);
+        let frame = Frame::around(window, &upright);
+        let middle = Point::new(frame.width as f64 / 2.0, frame.height as f64 / 2.0);
+        let (gray, plates) = self.pictures(parts, &frame);
         Cell {
             label: slot.label.clone(),
             index: slot.index,
             gray,
             plates,
             in_sheet: union(|c| c.bounds).unwrap_or(Rect::ZERO),
-            to_sheet: to_sheet.affine().unwrap_or_else(|| to_sheet.near(middle)),
+            to_sheet: (frame.to_sheet.affine()).unwrap_or_else(|| frame.to_sheet.near(middle)),
             guides: Guides {
-                baseline_px: baseline - window.y0,
+                baseline_px: baseline - frame.top,
                 px_per_em,
                 row: Some(slot.row),
             },
@@ -87,16 +83,15 @@ impl Shutter<'_> {
     }
 
     /// The picture of all ink, and of each ink by itself where there are several.
-    fn pictures(&self, parts: &[&Component], window: Rect, to_sheet: &View) -> (Gray, Vec<Plate>) {
-        let (w, h) = (index(window.width()), index(window.height()));
-        let needed = to_sheet.bounds(Rect::new(0.0, 0.0, w as f64, h as f64));
+    fn pictures(&self, parts: &[&Component], frame: &Frame) -> (Gray, Vec<Plate>) {
+        let needed = frame.in_sheet();
         let mut patch = Patch::new(
             self,
             parts,
             needed.inflate(LOBES as f64 + 1.0, LOBES as f64 + 1.0),
         );
         let Some(separation) = self.separation else {
-            return (patch.picture((w, h), to_sheet), Vec::new());
+            return (patch.picture(frame), Vec::new());
         };
         let mut all = separation.plates(&separation::Part {
             corner: (index(patch.origin.x), index(patch.origin.y)),
@@ -106,26 +101,53 @@ impl Shutter<'_> {
         for (i, v) in patch.samples.iter_mut().enumerate() {
             *v = all.iter().map(|plate| plate[i]).sum();
         }
-        let gray = patch.picture((w, h), to_sheet);
+        let gray = patch.picture(frame);
         separation::trap(&mut all, patch.width);
         let plates = separation.colours().into_iter().zip(all);
         let plates = plates.map(|(colour, samples)| {
             patch.samples = samples;
             Plate {
                 ink: colour.ink,
-                gray: patch.picture((w, h), to_sheet),
+                gray: patch.picture(frame),
             }
         });
         (gray, plates.collect())
     }
 }
 
-/// The whole pixels by which a map moves all, where it does nothing else.
-fn whole_shift(map: Affine) -> Option<Vec2> {
-    let [a, b, c, d, e, f] = map.as_coeffs();
-    let whole = |v: f64| (v - v.round()).abs() < 1e-9;
-    let upright = [a, d].iter().all(|v| (v - 1.0).abs() < 1e-12) && b.abs() + c.abs() < 1e-12;
-    (upright && whole(e) && whole(f)).then(|| Vec2::new(e.round(), f.round()))
+/// Where a cell's picture is on the sheet.
+struct Frame {
+    width: usize,
+    height: usize,
+    /// From px of the upright drawing, y down, to px of the sheet.
+    to_sheet: View,
+    /// Its upper edge on the upright page, px.
+    top: f64,
+    /// The sheet's own pixels, where it consists of them.
+    own: Option<Askew>,
+}
+
+impl Frame {
+    /// Around a window of the upright page, to which `upright` takes the sheet.
+    fn around(window: Rect, upright: &View) -> Self {
+        let view = upright.inverse();
+        let own = Askew::around(window, &view);
+        let corner = Affine::translate(window.origin().to_vec2());
+        let size = own.map_or(window, |own| own.pixels).size();
+        Self {
+            width: index(size.width),
+            height: index(size.height),
+            to_sheet: own.map_or_else(|| view * View::from(corner), |own| own.to_picture.into()),
+            top: own.map_or(window.y0, |own| own.origin.y),
+            own,
+        }
+    }
+
+    /// The part of the sheet from which it is taken.
+    fn in_sheet(&self) -> Rect {
+        let all = Rect::new(0.0, 0.0, self.width as f64, self.height as f64);
+        (self.own).map_or_else(|| self.to_sheet.bounds(all), |own| own.pixels)
+    }
 }
 
 /// A piece of the sheet in which only one cell's ink is left.
@@ -218,19 +240,22 @@ impl Patch {
         }
     }
 
-    /// Its picture of a size in px, each of whose places `to_sheet` maps to the sheet's.
-    fn picture(&self, (w, h): (usize, usize), to_sheet: &View) -> Gray {
-        if let Some(shift) = to_sheet.affine().and_then(whole_shift) {
-            let shift = shift - self.origin.to_vec2();
+    /// The picture of a frame.
+    fn picture(&self, frame: &Frame) -> Gray {
+        let (w, h) = (frame.width, frame.height);
+        let gray = if let Some(own) = frame.own {
+            let shift = own.pixels.origin() - self.origin;
             let at = |x: usize, y: usize| self.at(x as f64 + shift.x, y as f64 + shift.y);
-            return Gray::from_fn(w, h, at).with_scatter(self.scatter_px);
-        }
-        let kernel = Kernel::new();
-        let to_patch = View::from(Affine::translate(-self.origin.to_vec2())) * *to_sheet;
-        let gray = Gray::from_fn(w, h, |x, y| {
-            let p = to_patch.at(Point::new(x as f64 + 0.5, y as f64 + 0.5));
-            kernel.sample(self, p.x - 0.5, p.y - 0.5)
-        });
+            Gray::from_fn(w, h, at).with_upright(own.upright)
+        } else {
+            let kernel = Lanczos::default();
+            let back = Affine::translate(-self.origin.to_vec2());
+            let to_patch = View::from(back) * frame.to_sheet;
+            Gray::from_fn(w, h, |x, y| {
+                let p = to_patch.at(Point::new(x as f64 + 0.5, y as f64 + 0.5));
+                kernel.sample(&self.samples, self.width, (p.x - 0.5, p.y - 0.5))
+            })
+        };
         gray.with_scatter(self.scatter_px)
     }
 
@@ -254,66 +279,5 @@ impl Patch {
         } else {
             0.0
         }
-    }
-}
-
-/// A Lanczos kernel at [`PHASES`] positions between two pixels.
-struct Kernel {
-    taps: Vec<[f32; 2 * LOBES]>,
-}
-
-impl Kernel {
-    fn new() -> Self {
-        let sinc = |x: f64| {
-            if x.abs() < 1e-9 {
-                1.0
-            } else {
-                libm::sin(PI * x) / (PI * x)
-            }
-        };
-        let weight = |x: f64| {
-            if x.abs() < LOBES as f64 {
-                sinc(x) * sinc(x / LOBES as f64)
-            } else {
-                0.0
-            }
-        };
-        let phase = |i: usize| {
-            let t = i as f64 / PHASES as f64;
-            let raw: [f64; 2 * LOBES] =
-                std::array::from_fn(|k| weight(k as f64 + 1.0 - LOBES as f64 - t));
-            let sum: f64 = raw.iter().sum();
-            raw.map(|w| single(w / sum))
-        };
-        Self {
-            taps: (0..=PHASES).map(phase).collect(),
-        }
-    }
-
-    /// The picture at a place between the centres of its pixels; paper outside.
-    fn sample(&self, patch: &Patch, x: f64, y: f64) -> f32 {
-        let split = |v: f64| {
-            (
-                v.floor(),
-                &self.taps[index((v - v.floor()) * PHASES as f64 + 0.5)],
-            )
-        };
-        let ((x, across), (y, down)) = (split(x), split(y));
-        let first = 1.0 - LOBES as f64;
-        let (left, top) = (x + first, y + first);
-        let side = (2 * LOBES) as f64;
-        let inside = left >= 0.0
-            && top >= 0.0
-            && left + side <= patch.width as f64
-            && top + side <= patch.height as f64;
-        if !inside {
-            return patch.at(x, y);
-        }
-        let start = index(top) * patch.width + index(left);
-        let line = |(k, w): (usize, &f32)| {
-            let row = &patch.samples[start + k * patch.width..][..2 * LOBES];
-            w * row.iter().zip(across).map(|(v, w)| v * w).sum::<f32>()
-        };
-        down.iter().enumerate().map(line).sum()
     }
 }

@@ -19,7 +19,7 @@ use crate::{
     refine::{curves::polygon_px, residual::Residual},
     types::Contour,
 };
-use kurbo::{CubicBez, ParamCurve, ParamCurveDeriv, Point, Rect, Vec2};
+use kurbo::{Affine, CubicBez, ParamCurve, ParamCurveDeriv, Point, Rect, Vec2};
 use normal::{Normal, Shared};
 use numbers::{nudge, numbers, shorten};
 use std::{cell::OnceCell, f64::consts::PI, ops::Range};
@@ -54,8 +54,8 @@ pub(super) struct Window {
     columns: Range<usize>,
     /// from the top
     rows: Range<usize>,
-    /// left and bottom, px, y up
-    origin: Vec2,
+    /// from px of the outlines to its own, y up
+    to_own: Affine,
     /// pixels at each side that only lend their light
     margin: usize,
     lens: f64,
@@ -107,11 +107,12 @@ impl Window {
             let c = index(c.max(0.0)).min(n.saturating_sub(1));
             c.saturating_sub(whole)..(c + whole + 1).min(n)
         };
-        let height = seen.height();
+        let (height, p) = (seen.height(), residual.to_picture() * p);
         let columns = around(p.x, seen.width());
         let rows = around(height as f64 - p.y, height);
+        let corner = Vec2::new(columns.start as f64, (height - rows.end) as f64);
         let mut window = Self {
-            origin: Vec2::new(columns.start as f64, (height - rows.end) as f64),
+            to_own: Affine::translate(-corner) * residual.to_picture(),
             columns,
             rows,
             margin,
@@ -121,11 +122,9 @@ impl Window {
             anchors: Vec::new(),
             shared: OnceCell::new(),
         };
-        let mut fill = Coverage::new(window.columns.len(), window.rows.len());
-        for line in lines {
-            let line: Vec<Point> = line.iter().map(|q| *q - window.origin).collect();
-            fill.line(&line);
-        }
+        let fill = Coverage::new(window.columns.len(), window.rows.len());
+        let mut fill = fill.mapped(window.to_own);
+        lines.for_each(|line| fill.line(line));
         window.still = window.blurred(&fill);
         let (columns, rows) = window.inner();
         let pixels = rows.flat_map(|y| &seen.row(y)[columns.clone()]);
@@ -139,7 +138,8 @@ impl Window {
     pub(super) fn bounds(residual: &Residual<'_>, (p, reach): (Point, f64)) -> Rect {
         let (_, whole) = margins(residual.lens_px(), reach);
         let side = 2.0 * (whole as f64 + 1.0);
-        Rect::from_center_size(p, (side, side))
+        let seen = Rect::from_center_size(residual.to_picture() * p, (side, side));
+        residual.to_picture().inverse().transform_rect_bbox(seen)
     }
 
     /// Pixels that count.
@@ -160,7 +160,7 @@ impl Window {
         let bounds: Vec<Rect> = chords.iter().map(around).collect();
         let mut last = 0;
         let feet = self.anchors.iter().map(|a| {
-            let foot = foot(a.at - self.origin, (&chords, &bounds), last);
+            let foot = foot(self.to_own * a.at, (&chords, &bounds), last);
             last = foot.0;
             foot
         });
@@ -266,7 +266,7 @@ impl Window {
                 index((6.0 * bend / (8.0 * CHORD_PX)).sqrt().ceil()).clamp(1, MOST_CHORDS)
             }
         };
-        let at = |k: usize| c.eval(k as f64 / count as f64) - self.origin;
+        let at = |k: usize| self.to_own * c.eval(k as f64 / count as f64);
         (0..=count).map(at).collect()
     }
 
@@ -290,7 +290,7 @@ impl Window {
 
     /// Whether a place counts with its pixels.
     fn holds(&self, p: Point) -> bool {
-        let q = p - self.origin;
+        let q = self.to_own * p;
         let m = self.margin as f64;
         (m..=self.columns.len() as f64 - m).contains(&q.x)
             && (m..=self.rows.len() as f64 - m).contains(&q.y)

@@ -15,7 +15,7 @@ use crate::numeric::{
     coverage::{blur, kernel},
     skyline::Skyline,
 };
-use kurbo::{Point, Vec2};
+use kurbo::{Affine, Point, Vec2};
 use std::array;
 
 /// Differences that the ways of control points are taken by, px and radians.
@@ -187,6 +187,8 @@ struct Inked {
     places: Vec<u32>,
     /// column, and row from the top
     cells: Vec<(usize, usize)>,
+    /// from px of the outlines to its own, y up
+    to_own: Affine,
     numbers: usize,
     values: Vec<f64>,
 }
@@ -199,6 +201,7 @@ impl Inked {
             height,
             places: vec![0; width * height],
             cells: Vec::new(),
+            to_own: window.to_own,
             numbers,
             values: Vec::new(),
         }
@@ -217,12 +220,18 @@ impl Inked {
     /// The chords of a segment, evenly in its parameter.
     fn add(&mut self, ways: &[Way], chords: &[Point]) {
         let count = (chords.len() - 1) as f64;
+        let [xx, yx, xy, yy, ..] = self.to_own.as_coeffs();
         let (mut parts, mut along) = (Vec::new(), Vec::new());
         for (k, (a, b)) in chords.iter().zip(chords.iter().skip(1)).enumerate() {
             if self.is_beyond(*a, *b) {
                 continue;
             }
             let outward = Vec2::new(b.y - a.y, a.x - b.x);
+            // as the outlines have it, by whose px the ways are
+            let outward = Vec2::new(
+                xx * outward.x + yx * outward.y,
+                xy * outward.x + yy * outward.y,
+            );
             along.clear();
             along.extend(
                 ways.iter()
@@ -399,19 +408,24 @@ impl Window {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::numeric::{chain::Join, coverage::Coverage};
+    use crate::numeric::{angles, chain::Join, coverage::Coverage};
     use crate::refine::{curves::polygon, mend::window::numbers::numbers, residual::Residual};
     use crate::types::{Contour, Gray};
     use kurbo::BezPath;
 
     const SIZE: usize = 48;
 
-    fn drawn(ring: &[Point], lens: f64) -> Gray {
-        let mut fill = Coverage::new(SIZE, SIZE);
+    /// A ring's fill on pixels that are turned by so many degrees.
+    fn drawn(ring: &[Point], lens: f64, turn_deg: f64) -> Gray {
+        let middle = (SIZE as f64 / 2.0, SIZE as f64 / 2.0);
+        let turn = angles::rotation_about(turn_deg.to_radians(), middle);
+        let mut fill = Coverage::new(SIZE, SIZE).mapped(turn);
         fill.add(ring);
         let mut samples = fill.samples();
         blur(&mut samples, SIZE, lens, 0);
-        Gray::new(SIZE, SIZE, samples).unwrap()
+        Gray::new(SIZE, SIZE, samples)
+            .unwrap()
+            .with_upright(turn.inverse())
     }
 
     #[test]
@@ -422,8 +436,16 @@ mod tests {
         let seen =
             read("M6.2 4.3L40.3 4.3C43.9 12.6 36.9 18.6 27.4 20.1L24.5 34.1L20.2 20.9L6.2 20.6Z");
         // the smaller window has edges that leave it level, upright and aslant
-        for (lens, reach) in [(0.0, 24.0), (0.9, 24.0), (0.0, 11.0), (0.9, 11.0)] {
-            let gray = drawn(&polygon(&seen, 0.001), lens);
+        let pictures = [
+            (0.0, 24.0, 0.0),
+            (0.9, 24.0, 0.0),
+            (0.0, 11.0, 0.0),
+            (0.9, 11.0, 0.0),
+            (0.0, 11.0, 1.0),
+            (0.9, 11.0, 30.0),
+        ];
+        for (lens, reach, turn) in pictures {
+            let gray = drawn(&polygon(&seen, 0.001), lens, turn);
             let ring = polygon(&path, 0.001);
             let blur = Contour::PIXEL_BLUR_PX.hypot(lens);
             let residual = Residual::new(&gray, std::iter::once(ring.as_slice()), blur);
@@ -454,7 +476,7 @@ mod tests {
                 let off = (slope - wanted).abs();
                 assert!(
                     off < 0.02 + 0.03 * wanted.abs(),
-                    "lens {lens}, reach {reach}, {number:?}: {slope} {wanted}"
+                    "lens {lens}, reach {reach}, turned by {turn}, {number:?}: {slope} {wanted}"
                 );
             }
         }

@@ -6,6 +6,7 @@ mod signs;
 mod slopes;
 mod small;
 mod told;
+mod turned;
 
 use super::super::clean::{Texture, clean, clean_otherwise};
 use super::super::options::{Layout, Order, Scale};
