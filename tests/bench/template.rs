@@ -16,11 +16,12 @@ mod camera;
 mod moments;
 
 use camera::Camera;
+use khatt::pipeline::picture::{self, trace_picture};
 use khatt::read::Pen;
-use khatt::scan::{self, Polarity};
+use khatt::scan::{self, InkStreaks, Polarity};
 use khatt::template::{self, Layout, Page};
 use khatt::types::{Cell, Direction};
-use kurbo::{Affine, BezPath, Shape};
+use kurbo::{Affine, BezPath, ParamCurve, ParamCurveNearest, PathSeg, Point, Shape, Vec2};
 use moments::Moments;
 use skrifa::instance::{LocationRef, Size};
 use skrifa::outline::DrawSettings;
@@ -60,16 +61,49 @@ fn camera(i: u64) -> Camera {
     }
 }
 
-/// Errors of one cell: scale that the page gives it, baseline in em, weight, radius of gyration.
-struct Row([f64; 4]);
+/// Errors of one cell: scale that the page gives it, baseline in em, weight, radius of gyration, mean distance of the
+/// outline in em.
+struct Row([f64; 5]);
+
+/// What they are called, and how many of its unit make one.
+const ERRORS: [(&str, f64); 5] = [
+    ("scale, %", 100.0),
+    ("baseline, % em", 100.0),
+    ("weight, %", 100.0),
+    ("radius of gyration, %", 100.0),
+    ("outline, ‰ em", 1000.0),
+];
 
 /// The whole shape says scale, height and weight; its extreme points would say the blur of its corners.
 fn measure(cell: &Cell, truth: &BezPath, scale: f64) -> Option<Row> {
-    let (seen, truth) = (Moments::of_cell(cell), Moments::of(truth));
-    let radius = (seen.radius / truth.radius - 1.0).abs();
-    let baseline = (seen.centre.y - truth.centre.y).abs();
-    let weight = (seen.area / truth.area - 1.0).abs();
-    (seen.area > 0.0).then_some(Row([scale, baseline, weight, radius]))
+    let (seen, known) = (Moments::of_cell(cell), Moments::of(truth));
+    let radius = (seen.radius / known.radius - 1.0).abs();
+    let baseline = (seen.centre.y - known.centre.y).abs();
+    let weight = (seen.area / known.area - 1.0).abs();
+    let outline = distance(cell, truth, seen.centre - known.centre)?;
+    (seen.area > 0.0).then_some(Row([scale, baseline, weight, radius, outline]))
+}
+
+/// Mean distance of a cell's outline from a letter's, em, after `shift` is taken back.
+fn distance(cell: &Cell, truth: &BezPath, shift: Vec2) -> Option<f64> {
+    const PLACES: u32 = 5;
+    let guides = cell.guides;
+    let below = cell.gray.height() as f64 - guides.baseline_px;
+    let to_em = Affine::translate(-shift)
+        * Affine::scale(1.0 / guides.px_per_em)
+        * Affine::translate((0.0, -below));
+    let options = picture::Options::default();
+    let traced = trace_picture(&cell.gray, InkStreaks::default(), &options).ok()?;
+    let segments = traced.paths.iter().flat_map(BezPath::segments);
+    let places = |s: PathSeg| (0..PLACES).map(move |k| s.eval(f64::from(k) / f64::from(PLACES)));
+    let near = |p: Point| {
+        let off = truth
+            .segments()
+            .map(|s| s.nearest(to_em * p, 1e-7).distance_sq);
+        off.fold(f64::INFINITY, f64::min).sqrt()
+    };
+    let offs: Vec<f64> = segments.flat_map(places).map(near).collect();
+    Some(offs.iter().sum::<f64>() / offs.len() as f64)
 }
 
 fn page_rows(
@@ -136,16 +170,8 @@ fn main() {
     }
     println!("| pages | cells read | pages lost | | median | 99 % | worst |");
     println!("|---|---|---|---|---|---|---|");
-    for (k, name) in [
-        "scale, %",
-        "baseline, % em",
-        "weight, %",
-        "radius of gyration, %",
-    ]
-    .iter()
-    .enumerate()
-    {
-        let mut v: Vec<f64> = rows.iter().map(|r| 100.0 * r.0[k]).collect();
+    for (k, (name, units)) in ERRORS.iter().enumerate() {
+        let mut v: Vec<f64> = rows.iter().map(|r| units * r.0[k]).collect();
         v.sort_by(f64::total_cmp);
         let at = |share: f64| {
             v.get(((v.len() - 1) as f64 * share) as usize)
