@@ -103,7 +103,9 @@ impl Trace {
             trace_picture(gray, streaks, &options).map_err(|e| Failure::at(&name, &e))
         };
         let mut drawn = trace(gray)?;
-        if let (true, Some(gray)) = (drawn.paths.is_empty(), scan::full_range(gray)) {
+        if drawn.paths.is_empty()
+            && let Some(gray) = scan::full_range(gray)
+        {
             drawn = trace(&gray)?;
         }
         tell(drawn.filled);

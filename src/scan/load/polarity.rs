@@ -200,19 +200,13 @@ impl<'a> Thresholded<'a> {
     fn edges(&self, mut tell: impl FnMut((usize, usize), f32, f32)) {
         for y in (0..self.height).step_by(self.step) {
             let row = &self.ink[y * self.width..][..self.width];
-            for (x, (a, b)) in row
-                .iter()
-                .zip(row.iter().skip(EDGE_PX))
-                .enumerate()
-                .step_by(self.step)
-            {
-                tell((x, y), *a, *b);
-            }
-            let Some(below) = self.ink.get((y + EDGE_PX) * self.width..) else {
-                continue;
-            };
-            for (x, (a, b)) in row.iter().zip(below).enumerate().step_by(self.step) {
-                tell((x, y), *a, *b);
+            let right = row.get(EDGE_PX..).unwrap_or_default();
+            let below = self.ink.get((y + EDGE_PX) * self.width..);
+            for other in [right, below.unwrap_or_default()] {
+                let pairs = row.len().min(other.len());
+                for x in (0..pairs).step_by(self.step) {
+                    tell((x, y), row[x], other[x]);
+                }
             }
         }
     }
