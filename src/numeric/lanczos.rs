@@ -8,7 +8,7 @@ pub const LOBES: usize = 3;
 /// Positions between two pixels for which the kernel is tabled.
 const PHASES: usize = 512;
 
-/// The kernel at [`PHASES`] positions between two pixels.
+/// The kernel, tabled.
 #[derive(Debug)]
 pub struct Lanczos {
     taps: Vec<[f32; 2 * LOBES]>,
