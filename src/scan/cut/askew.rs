@@ -30,15 +30,11 @@ impl Askew {
         let flat = view.near(window.center());
         let Rect { x0, y0, x1, y1 } = window;
         let corners = [(x0, y0), (x1, y0), (x1, y1), (x0, y1)].map(Point::from);
-        let bent = |p: &Point| view.at(*p).distance(flat * *p) > FLAT_PX;
+        let straight = |p: &Point| view.at(*p).distance(flat * *p) <= FLAT_PX;
         let [a, b, c, d, ..] = flat.as_coeffs();
-        let lengths = [
-            a.hypot(b),
-            c.hypot(d),
-            (a + c).hypot(b + d) / 2.0_f64.sqrt(),
-        ];
-        let stretched = lengths.iter().any(|l| (l - 1.0).abs() > STRETCH);
-        if stretched || corners.iter().any(bent) {
+        let diagonal = (a + c).hypot(b + d) / 2.0_f64.sqrt();
+        let mut lengths = [a.hypot(b), c.hypot(d), diagonal].into_iter();
+        if !(lengths.all(|l| (l - 1.0).abs() <= STRETCH) && corners.iter().all(straight)) {
             return None;
         }
         let pixels = flat.transform_rect_bbox(window).inset(-NOTHING.1).expand();
@@ -110,5 +106,6 @@ mod tests {
         assert!(Askew::around(window, &View::from(Affine::scale(1.2))).is_none());
         let lean = Affine::new([1.0, 0.0, 0.2, 1.0, 0.0, 0.0]);
         assert!(Askew::around(window, &View::from(lean)).is_none());
+        assert!(Askew::around(window, &tilted(f64::NAN)).is_none());
     }
 }
