@@ -351,6 +351,7 @@ fn ended(rows: usize, on: f64, blur_px: f64) -> Vec<f32> {
 mod tests {
     use super::super::{Options, trace_picture};
     use super::*;
+    use crate::numeric::angles;
     use crate::numeric::coverage::{Coverage, blur};
     use crate::scan::InkStreaks;
     use kurbo::{ParamCurve, ParamCurveNearest, Point};
@@ -391,7 +392,7 @@ mod tests {
         let mut worst: f64 = 0.0;
         for segment in paths[0].segments() {
             for k in 0..=20 {
-                let p = segment.eval(f64::from(k) / 20.0);
+                let p = gray.to_pixels() * segment.eval(f64::from(k) / 20.0);
                 let near = lines.iter().map(|l| l.nearest(p, 1e-6).distance_sq.sqrt());
                 let beyond = (-p.x).max(p.x - picture.x1).max(-p.y).max(p.y - picture.y1);
                 if beyond > -10.0 {
@@ -418,6 +419,15 @@ mod tests {
                     far < 0.1 + 0.1 * lens,
                     "{far} at a lens of {lens}: {stroke:?}"
                 );
+                // the same drawing, askew on its pixels
+                for turn in [1.0_f64, -7.0] {
+                    let turn = angles::rotation_about(turn.to_radians(), (35.0, 30.0));
+                    let far = off(&seen(stroke, lens).with_upright(turn), stroke);
+                    assert!(
+                        far < 0.2 + 0.2 * lens,
+                        "{far} at a lens of {lens}, turned: {stroke:?}"
+                    );
+                }
             }
         }
     }
