@@ -11,8 +11,8 @@
 //! Here the shape itself is drawn, blurred as the picture is and compared with it; each point then moves by
 //! what the difference around it says. Nothing is approximated but the linear step, which is repeated.
 //!
-//! Contours and paths stand upright. Where the picture's pixels do not ([`Gray::upright`]), they are drawn on the pixels
-//! as these lie: no step asks for a pixel that the scanner did not see.
+//! Contours and paths stand upright. Where the picture's pixels do not ([`Gray::upright`]), they are drawn on the
+//! pixels as these lie: no step asks for a pixel that the scanner did not see.
 
 mod blunt;
 mod comparison;

@@ -7,8 +7,8 @@
 //! | [`cut()`] | `Page` → [`Cell`](crate::types::Cell)s | upright px | each piece of ink in one cell or in the list of what was rejected, with a reason |
 //!
 //! Letters of a skewed page stay on the pixels of the scan, and say how they stand upright
-//! ([`Gray::upright`](crate::types::Gray::upright)): nothing is resampled between the scanner and the contour. Only where
-//! a page is seen in perspective are pixels interpolated, once.
+//! ([`Gray::upright`](crate::types::Gray::upright)): nothing is resampled between the scanner and the contour. Only
+//! where a page is seen in perspective are pixels interpolated, once.
 
 mod chamfer;
 mod clean;

@@ -116,8 +116,8 @@ impl Gray {
         self.scatter_px
     }
 
-    /// The same picture, whose drawing stands upright where `map` takes it: from px of the picture to px of the drawing,
-    /// both y up, the origin at the picture's bottom left. A turn, and a shift.
+    /// The same picture, whose drawing stands upright where `map` takes it: from px of the picture to px of the
+    /// drawing, both y up, the origin at the picture's bottom left. A turn and a shift, and lengths that hardly differ.
     #[must_use]
     pub const fn with_upright(mut self, map: Affine) -> Self {
         self.upright = map;

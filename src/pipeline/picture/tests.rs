@@ -6,9 +6,11 @@ use crate::numeric::coverage::{Coverage, blur};
 use crate::numeric::curves::polygon;
 use kurbo::{ParamCurve, ParamCurveNearest, Point};
 
-/// A stem with serifs and a bowl with its counter, px.
-const LETTER: &str = "M20.3 18.2L44.1 18.2L44.1 22.6L37.4 24.9L37.4 50.3C41.2 56.8 49.5 58.2 55.3 55.1C62.4 51.3 64.2 41.5 60.9 34.2L68.6 31.1\
-                      C74.4 43.2 70.1 58.3 58.8 63.6C51.4 67 42.6 65.2 37.4 58.9L37.4 78.4L20.3 78.4L20.3 74.2L27.6 71.9L27.6 24.9L20.3 22.6Z";
+/// A stem with serifs, and an arch that is open below, px.
+const LETTER: &str = "\
+    M20.3 18.2L44.1 18.2L44.1 22.6L37.4 24.9L37.4 50.3C41.2 56.8 49.5 58.2 55.3 55.1C62.4 51.3 64.2 41.5 60.9 34.2\
+    L68.6 31.1C74.4 43.2 70.1 58.3 58.8 63.6C51.4 67 42.6 65.2 37.4 58.9L37.4 78.4L20.3 78.4L20.3 74.2L27.6 71.9\
+    L27.6 24.9L20.3 22.6Z";
 
 /// The letter as pixels see it that are turned by so many degrees, under a lens of `lens` px.
 fn askew(turn_deg: f64, lens: f64) -> (BezPath, Gray) {

@@ -2,6 +2,7 @@
 
 use crate::numeric::view::View;
 use kurbo::{Affine, Point, Rect};
+use std::f64::consts::SQRT_2;
 
 /// Nothing by which a plane is turned or moved is as little, px a px and px.
 const NOTHING: (f64, f64) = (1e-12, 1e-6);
@@ -32,7 +33,7 @@ impl Askew {
         let corners = [(x0, y0), (x1, y0), (x1, y1), (x0, y1)].map(Point::from);
         let straight = |p: &Point| view.at(*p).distance(flat * *p) <= FLAT_PX;
         let [a, b, c, d, ..] = flat.as_coeffs();
-        let diagonal = (a + c).hypot(b + d) / 2.0_f64.sqrt();
+        let diagonal = (a + c).hypot(b + d) / SQRT_2;
         let mut lengths = [a.hypot(b), c.hypot(d), diagonal].into_iter();
         if !(lengths.all(|l| (l - 1.0).abs() <= STRETCH) && corners.iter().all(straight)) {
             return None;
