@@ -18,6 +18,8 @@ pub(crate) const FLATBED: Camera = Camera {
     skew_deg: 0.0,
     quarters: 0,
     tilt: [0.0, 0.0],
+    lens: 0.0,
+    bow_mm: [0.0, 0.0],
     blur: 0.8,
     gamma: 1.0,
     shade: 0.0,
@@ -89,8 +91,9 @@ fn check(layout: &Layout, page: &Page, camera: Camera) {
     let (bytes, truth) = camera.take(page, &letters(layout, page));
     let (sheet, found) = seen(layout, &bytes);
     assert_eq!(found.code, page.code, "{camera:?}: another page was read");
+    let found = found.bent(&sheet, layout, &page.places);
     for mark in layout.marks() {
-        let off = found.view.at(mark).distance(truth.at(mark));
+        let off = found.surface.at(mark).distance(truth.at(mark));
         assert!(off < 0.06, "{camera:?}: a mark is {off:.3} px off");
     }
     let stray = template::stray(&sheet, layout, &found, &page.places);
@@ -182,6 +185,61 @@ fn pages_are_read_from_any_side() {
             ..photo
         },
     );
+}
+
+#[test]
+fn pages_that_do_not_lie_flat_are_read() {
+    let layout = small();
+    let page = &pages(&layout, 16)[0];
+    let curled = Camera {
+        dpi: 240.0,
+        lens: -0.012,
+        bow_mm: [6.0, 0.8],
+        ..FLATBED
+    };
+    check(&layout, page, curled);
+    let held = Camera {
+        dpi: 240.0,
+        quarters: 1,
+        skew_deg: 6.0,
+        tilt: [0.06, -0.04],
+        lens: 0.02,
+        bow_mm: [-3.0, 1.0],
+        shade: 0.3,
+        jpeg: Some(70),
+        ..FLATBED
+    };
+    check(&layout, page, held);
+    // the code, too, is where paper and lens have bent it
+    let layout = Layout::default();
+    let page = &pages(&layout, 72)[0];
+    let bent = Camera {
+        dpi: 150.0,
+        lens: -0.02,
+        bow_mm: [8.0, 1.0],
+        tilt: [0.077, 0.044],
+        ..FLATBED
+    };
+    let (bytes, truth) = bent.take(page, &[]);
+    let (sheet, flat) = seen(&layout, &bytes);
+    let found = flat.clone().bent(&sheet, &layout, &page.places);
+    let off = |found: &Found| {
+        let places = page.places.iter().map(|p| p.field.center());
+        let off = places.map(|p| found.surface.at(p).distance(truth.at(p)) / truth.scale(p));
+        off.fold(0.0, f64::max)
+    };
+    let (before, after) = (off(&flat), off(&found));
+    assert!(before > 1.0 && after < 0.08, "{before} mm, then {after} mm");
+}
+
+#[test]
+fn a_page_without_guides_in_its_picture_lies_flat() {
+    let layout = small();
+    let mut page = pages(&layout, 16).swap_remove(0);
+    page.paints.retain(|p| p.ink != template::Ink::Guide);
+    let (bytes, _) = FLATBED.take(&page, &letters(&layout, &page));
+    let (sheet, found) = seen(&layout, &bytes);
+    assert_eq!(found.clone().bent(&sheet, &layout, &page.places), found);
 }
 
 #[test]

@@ -175,6 +175,7 @@ impl<'a> Printing<'a> {
                 expected: self.id.clone(),
             }));
         };
+        let found = found.bent(sheet, self.layout, places);
         let gain = template::gain(sheet, self.layout, &found);
         let mut drawings = template::drawings(sheet, self.layout, &found, places, gain.as_ref());
         let grain = match self.table.grain {
@@ -188,7 +189,9 @@ impl<'a> Printing<'a> {
             reason: Reason::Outside,
         });
         let rejected = rejected.collect();
-        let down = found.view.near(self.layout.paper_mm().to_rect().center());
+        let down = found
+            .surface
+            .near(self.layout.paper_mm().to_rect().center());
         let [a, b, ..] = down.as_coeffs();
         let scale = a.hypot(b);
         let cut = Cut {

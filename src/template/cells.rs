@@ -4,10 +4,10 @@ use super::draw::{GUIDE_WIDTH, Joins, guides, joining};
 use super::find::Found;
 use super::gain::Gain;
 use super::layout::{Layout, Place};
+use super::surface::Surface;
 use super::tile::Tile;
 use crate::numeric::cast::{index, single};
 use crate::numeric::tone;
-use crate::numeric::view::View;
 use crate::types::{Cell, Gray, Guides, Label, Sheet};
 use kurbo::{Affine, Line, Point, Rect, Vec2};
 use rayon::prelude::*;
@@ -56,8 +56,8 @@ fn drawing(
     (place, level): (&Place, f64),
 ) -> Drawing {
     let field = place.field.inset(-INSET);
-    let px_per_mm = found.view.scale(field.center());
-    let mut tile = resample(sheet, &found.view, field, px_per_mm);
+    let px_per_mm = found.surface.scale(field.center());
+    let mut tile = resample(sheet, &found.surface, field, px_per_mm);
     let (mut ink, mut specks) = (None, 0);
     if tile.normalise(found.contrast) {
         let to_tile = Affine::scale(px_per_mm) * Affine::translate(-field.origin().to_vec2());
@@ -80,8 +80,8 @@ fn drawing(
     let cell = Cell {
         label: Label(place.label.clone()),
         index: place.index,
-        in_sheet: found.view.bounds(seen),
-        to_sheet: found.view.near(field.center()) * to_mm,
+        in_sheet: found.surface.bounds(seen),
+        to_sheet: found.surface.near(field.center()) * to_mm,
         guides: Guides {
             baseline_px: (place.baseline - field.y0) * px_per_mm - window.y0,
             px_per_em: layout.em() * px_per_mm,
@@ -108,14 +108,14 @@ fn touches(ink: Rect, field: Rect, joins: &Joins) -> bool {
 }
 
 /// A rectangle of the page at `px_per_mm`.
-fn resample(sheet: &Sheet, view: &View, field: Rect, px_per_mm: f64) -> Tile {
+fn resample(sheet: &Sheet, surface: &Surface, field: Rect, px_per_mm: f64) -> Tile {
     let [w, h] = [field.width(), field.height()].map(|side| index(side * px_per_mm));
     let page = |p: Point| field.origin() + p.to_vec2() / px_per_mm;
     let mut samples = Vec::with_capacity(w * h);
     for y in 0..h {
         for x in 0..w {
             let p = page(Point::new(x as f64 + 0.5, y as f64 + 0.5));
-            samples.push(cubic_sample(&sheet.gray, view.at(p)));
+            samples.push(cubic_sample(&sheet.gray, surface.at(p)));
         }
     }
     Tile { samples, w, h }

@@ -3,6 +3,7 @@
 use super::TemplateError;
 use super::draw::RING;
 use super::layout::{Code, Layout};
+use super::surface::Surface;
 use crate::numeric::angles;
 use crate::numeric::cast::index;
 use crate::numeric::view::View;
@@ -10,7 +11,7 @@ use crate::types::{Gray, Sheet};
 use image::{GrayImage, Luma};
 use imageproc::definitions::Image;
 use imageproc::region_labelling::{Connectivity, connected_components};
-use kurbo::{Point, Rect, Vec2};
+use kurbo::{Affine, Point, Rect, Vec2};
 use rqrr::SimpleGrid;
 
 /// A page recognised.
@@ -19,7 +20,7 @@ pub struct Found {
     /// What its code says.
     pub code: Code,
     /// Where it lies in the picture.
-    pub view: View,
+    pub surface: Surface,
     /// Between the black of the marks and their paper, of black against white.
     pub contrast: f64,
 }
@@ -54,30 +55,28 @@ pub fn find(sheet: &Sheet, layout: &Layout) -> Result<Found, TemplateError> {
         });
     };
     let corners = corners.map(|p| (p.to_vec2() * factor as f64).to_point());
-    let mut foreign = None;
-    for turn in 0..4 {
+    let turned = |turn: usize| {
         let mut turned = corners;
         turned.rotate_left(turn);
-        let Some(view) = View::through(layout.marks(), turned) else {
-            continue;
-        };
-        let Some((view, contrast)) = refine(&sheet.gray, layout, view) else {
-            continue;
-        };
-        for text in MODULES
-            .iter()
-            .filter_map(|&n| read_code(&sheet.gray, layout.code(), &view, n))
-        {
-            match Code::parse(&text) {
-                Some(code) => {
-                    return Ok(Found {
-                        code,
-                        view,
-                        contrast,
-                    });
-                }
-                None => foreign = Some(text),
+        refine(&sheet.gray, layout, View::through(layout.marks(), turned)?)
+    };
+    let turns: Vec<(View, f64)> = (0..4).filter_map(turned).collect();
+    let all = || turns.iter().flat_map(|t| MODULES.map(|n| (*t, n)));
+    let read = |view: &View, n: usize| read_code(&sheet.gray, layout.code(), view, n);
+    let straight = all().filter_map(|(t, n)| Some((t, read(&t.0, n)?)));
+    let bent = |view: &View, n: usize| code_view(&sheet.gray, layout.code(), view, n);
+    let bent = all().filter_map(|(t, n)| Some((t, read(&bent(&t.0, n), n)?)));
+    let mut foreign = None;
+    for ((view, contrast), text) in straight.chain(bent) {
+        match Code::parse(&text) {
+            Some(code) => {
+                return Ok(Found {
+                    code,
+                    surface: view.into(),
+                    contrast,
+                });
             }
+            None => foreign = Some(text),
         }
     }
     Err(match foreign {
@@ -322,6 +321,45 @@ fn read_code(gray: &Gray, square: Rect, view: &View, modules: usize) -> Option<S
     let level = (low + high) / 2.0;
     let grid = SimpleGrid::from_func(modules, |x, y| values[y * modules + x] > level);
     rqrr::Grid::new(grid).decode().ok().map(|(_, text)| text)
+}
+
+/// The view of a QR code in `square` that paper or lens have bent away from where `view` puts it: its three corner
+/// patterns say where it lies.
+fn code_view(gray: &Gray, square: Rect, view: &View, modules: usize) -> View {
+    /// How far a pattern is looked for, mm, and in which steps, modules.
+    const REACH: f64 = 1.5;
+    const STEP: f64 = 0.25;
+    let module = square.width() / modules as f64;
+    let far = modules as f64 - 3.5;
+    let corners = [(3.5, 3.5), (far, 3.5), (3.5, far)]
+        .map(|(x, y)| square.origin() + Vec2::new(x, y) * module);
+    // rings of dark and light about a dark square of three modules
+    let ring = |x: i32, y: i32| match x.abs().max(y.abs()) {
+        2 | 4 => -1.0,
+        _ => 1.0,
+    };
+    let alike = |middle: Point| {
+        let near = (-4..=4).flat_map(|y| (-4..=4).map(move |x| (x, y)));
+        let values = near.map(|(x, y)| {
+            let p = middle + Vec2::new(f64::from(x), f64::from(y)) * module;
+            ring(x, y) * sample(gray, view.at(p))
+        });
+        values.sum::<f64>()
+    };
+    let steps = index(REACH / (STEP * module));
+    let seen = corners.map(|corner| {
+        let place = |k: usize| (k as f64 - steps as f64) * STEP * module;
+        let all = (0..=2 * steps).flat_map(|j| (0..=2 * steps).map(move |i| (i, j)));
+        let places = all.map(|(i, j)| corner + Vec2::new(place(i), place(j)));
+        let scored = places.map(|p| (alike(p), p));
+        let best = scored.max_by(|a, b| a.0.total_cmp(&b.0));
+        best.map_or(corner, |(_, p)| p)
+    });
+    let edges = |[a, b, c]: [Point; 3]| {
+        let (x, y) = (b - a, c - a);
+        Affine::new([x.x, x.y, y.x, y.y, a.x, a.y])
+    };
+    *view * View::from(edges(seen) * edges(corners).inverse())
 }
 
 /// Bilinear coverage at a point, px; paper outside the picture.

@@ -45,8 +45,8 @@ impl Gain {
 /// Measures the strip of a recognised page; `None` where it is hidden or too faint.
 #[must_use]
 pub fn gain(sheet: &Sheet, layout: &Layout, found: &Found) -> Option<Gain> {
-    let at = |p: Point| sample(&sheet.gray, found.view.at(p));
-    let step = 0.5 / found.view.scale(layout.gain_strip().center());
+    let at = |p: Point| sample(&sheet.gray, found.surface.at(p));
+    let step = 0.5 / found.surface.scale(layout.gain_strip().center());
     let strip = strip(layout);
     let edges: Option<Vec<Edge>> = strip
         .squares

@@ -7,8 +7,9 @@
 //! | both | [`Cell`](crate::types::Cell)s, upright, without the printed guides |
 //!
 //! A page says of itself what it is: four concentric ring marks give its place to a few hundredths of a
-//! pixel, a QR code its number and its way up. Nothing is taken from the picture's border or from the ink.
+//! pixel, a QR code its number and its way up, and its guides how paper and lens bend it. Nothing is taken from the picture's border or from the ink.
 
+mod bend;
 mod cells;
 mod draw;
 mod error;
@@ -18,6 +19,7 @@ mod layout;
 mod lettering;
 mod output;
 mod stray;
+mod surface;
 mod tile;
 
 pub use crate::numeric::view::View;
@@ -29,3 +31,4 @@ pub use gain::{Gain, gain};
 pub use layout::{Code, Field, Layout, Paper, Place};
 pub use output::{pdf, png, svg};
 pub use stray::stray;
+pub use surface::Surface;

@@ -33,7 +33,7 @@ pub fn stray(sheet: &Sheet, layout: &Layout, found: &Found, places: &[Place]) ->
         let at = |x: usize| {
             sample(
                 &sheet.gray,
-                found.view.at(page(x as f64 + 0.5, y as f64 + 0.5)),
+                found.surface.at(page(x as f64 + 0.5, y as f64 + 0.5)),
             )
         };
         (0..w).map(at).collect::<Vec<f64>>()
@@ -72,8 +72,8 @@ pub fn stray(sheet: &Sheet, layout: &Layout, found: &Found, places: &[Place]) ->
     let pieces = blots(&bits).into_iter().filter(large);
     let there = pieces.map(|Blot { bounds: r, area }| {
         let there = Rect::from_points(page(r.x0, r.y0), page(r.x1, r.y1));
-        let scale = found.view.scale(there.center()) / PER_MM;
-        (found.view.bounds(there), area * scale * scale)
+        let scale = found.surface.scale(there.center()) / PER_MM;
+        (found.surface.bounds(there), area * scale * scale)
     });
     there.collect()
 }

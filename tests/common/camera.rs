@@ -21,6 +21,11 @@ pub(crate) struct Camera {
     pub(crate) quarters: u32,
     /// How much nearer one side is than the other, share of the picture.
     pub(crate) tilt: [f64; 2],
+    /// How much farther from its middle the lens puts the picture's corners than its middle, share of their distance;
+    /// negative of a barrel.
+    pub(crate) lens: f64,
+    /// How high the paper's middle stands above its top and foot, and how high a wave across it, mm.
+    pub(crate) bow_mm: [f64; 2],
     /// Standard deviation of the lens' blur, px.
     pub(crate) blur: f64,
     /// What the sensor makes of the light, 1 for its own share: above, edges lie farther out.
@@ -35,7 +40,7 @@ pub(crate) struct Camera {
 
 impl Camera {
     /// The picture's bytes, and where every millimetre of the page went.
-    pub(crate) fn take(&self, page: &Page, drawn: &[BezPath]) -> (Vec<u8>, View) {
+    pub(crate) fn take(&self, page: &Page, drawn: &[BezPath]) -> (Vec<u8>, Sight) {
         let mut page = page.clone();
         let ink = |path: &BezPath| template::Paint {
             path: path.clone(),
@@ -47,8 +52,14 @@ impl Camera {
             .expect("a PNG reads back")
             .to_luma8();
         let (size, view) = self.aim(&page);
-        let back = View::through(corners(size), corners(size).map(|p| unproject(&view, p)))
-            .expect("a page is no line");
+        let sight = Sight {
+            view,
+            middle: (size / 2.0).to_point(),
+            lens: self.lens,
+            page: page.size.to_vec2(),
+            bow_mm: self.bow_mm,
+        };
+        let seen = Ground::of(&sight, size);
         let scale = f64::from(print.width()) / page.size.width;
         let mut rng = Noise(self.seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1);
         let mut out = image::GrayImage::new(size.x as u32, size.y as u32);
@@ -56,12 +67,9 @@ impl Camera {
         for (i, v) in light.iter_mut().enumerate() {
             let (x, y) = ((i % size.x as usize) as f64, (i / size.x as usize) as f64);
             let taps = [(0.25, 0.25), (0.75, 0.25), (0.25, 0.75), (0.75, 0.75)];
-            let seen = taps.iter().map(|(dx, dy)| {
-                bilinear(
-                    &print,
-                    back.at(Point::new(x + dx, y + dy)).to_vec2() * scale,
-                )
-            });
+            let seen = taps
+                .iter()
+                .map(|(dx, dy)| bilinear(&print, seen.at(Point::new(x + dx, y + dy)) * scale));
             *v = (seen.sum::<f64>() / 4.0) as f32;
         }
         let light = smooth(light, size.x as usize, self.blur);
@@ -84,7 +92,7 @@ impl Camera {
                 .write_to(&mut bytes, image::ImageFormat::Png)
                 .expect("a PNG in memory"),
         }
-        (bytes.into_inner(), view)
+        (bytes.into_inner(), sight)
     }
 
     /// Size of the picture and the view of the page in it: the whole page with a border of 4 %.
@@ -112,17 +120,101 @@ impl Camera {
     }
 }
 
-fn corners(size: Vec2) -> [Point; 4] {
-    [(0.0, 0.0), (size.x, 0.0), (size.x, size.y), (0.0, size.y)].map(Point::from)
+/// Where a page lies in its picture: paper that is not flat, seen in perspective through a lens that bends lines.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Sight {
+    view: View,
+    /// Of the picture, px.
+    middle: Point,
+    lens: f64,
+    /// mm.
+    page: Vec2,
+    bow_mm: [f64; 2],
 }
 
-/// The page point that a picture point shows, by Newton's method.
-fn unproject(view: &View, p: Point) -> Point {
-    let mut q = Point::new(100.0, 140.0);
-    for _ in 0..40 {
-        q = view.near(q).inverse() * p;
+/// How far away the camera is, mm.
+const FAR: f64 = 400.0;
+/// How long a wave of the paper is, mm.
+const WAVE: f64 = 110.0;
+
+impl Sight {
+    /// Where a point of the page is.
+    pub(crate) fn at(&self, p: Point) -> Point {
+        let middle = (self.page / 2.0).to_point();
+        let nearer = FAR / (FAR - self.height(p));
+        let p = self.view.at(middle + (p - middle) * nearer) - self.middle;
+        self.middle + p * self.bend(p)
     }
-    q
+
+    /// Pixels a millimetre around a point of the page.
+    pub(crate) fn scale(&self, p: Point) -> f64 {
+        let along = |d: Vec2| self.at(p + d) - self.at(p - d);
+        let (x, y) = (along(Vec2::new(0.5, 0.0)), along(Vec2::new(0.0, 0.5)));
+        x.cross(y).abs().sqrt()
+    }
+
+    /// The way back, `back` of the view, step by step.
+    fn page_at(&self, back: &View, p: Point) -> Point {
+        let (seen, middle) = (p - self.middle, (self.page / 2.0).to_point());
+        let mut straight = seen;
+        if self.lens.abs() > 0.0 {
+            (0..6).for_each(|_| straight = seen / self.bend(straight));
+        }
+        let flat = back.at(self.middle + straight);
+        let mut page = flat;
+        if self.bow_mm.iter().any(|h| h.abs() > 0.0) {
+            for _ in 0..6 {
+                page = middle + (flat - middle) * (1.0 - self.height(page) / FAR);
+            }
+        }
+        page
+    }
+
+    fn bend(&self, p: Vec2) -> f64 {
+        1.0 + self.lens * p.hypot2() / self.middle.to_vec2().hypot2()
+    }
+
+    /// How high the paper stands, mm.
+    fn height(&self, p: Point) -> f64 {
+        let down = 2.0 * p.y / self.page.y - 1.0;
+        let wave = libm::sin(std::f64::consts::TAU * (p.x + 0.3 * p.y) / WAVE);
+        self.bow_mm[0] * (1.0 - down * down) + self.bow_mm[1] * wave
+    }
+}
+
+/// The points of the page that the picture shows, at every so many px and straight between.
+struct Ground {
+    columns: usize,
+    points: Vec<Vec2>,
+}
+
+impl Ground {
+    const PX: f64 = 8.0;
+
+    fn of(sight: &Sight, size: Vec2) -> Self {
+        let back = sight.view.inverse();
+        let [columns, rows] = [size.x, size.y].map(|side| (side / Self::PX).ceil() as usize + 2);
+        let at = |i: usize| {
+            let p = Point::new((i % columns) as f64, (i / columns) as f64).to_vec2() * Self::PX;
+            sight.page_at(&back, p.to_point()).to_vec2()
+        };
+        Self {
+            columns,
+            points: (0..columns * rows).map(at).collect(),
+        }
+    }
+
+    fn at(&self, p: Point) -> Vec2 {
+        let (u, v) = (p.x / Self::PX, p.y / Self::PX);
+        let (s, t) = (u.fract(), v.fract());
+        let first = v as usize * self.columns + u as usize;
+        let row = |k: usize| self.points[first + k] * (1.0 - s) + self.points[first + k + 1] * s;
+        row(0) * (1.0 - t) + row(self.columns) * t
+    }
+}
+
+fn corners(size: Vec2) -> [Point; 4] {
+    [(0.0, 0.0), (size.x, 0.0), (size.x, size.y), (0.0, size.y)].map(Point::from)
 }
 
 fn bilinear(print: &image::GrayImage, p: Vec2) -> f64 {
