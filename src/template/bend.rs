@@ -23,17 +23,22 @@ const SHORTEST: f64 = 2.6;
 const END: f64 = 0.4;
 /// Sides of blocks whose lines are looked for together: while nothing is known of how they turn, and then. mm
 const BLOCKS: (f64, f64) = (15.0, 25.0);
-/// How far from where it is expected a block's lines are looked for, and in what steps. mm
-const SEARCH: (f64, f64) = (1.2, 0.1);
-/// The same of a single piece.
-const FINE: (f64, f64) = (0.4, 0.05);
+/// How a block's lines are looked for, and a single piece's.
+const SEARCH: Search = Search {
+    reach: 1.2,
+    step: 0.15,
+    along: 0.3,
+};
+const FINE: Search = Search {
+    reach: 0.4,
+    step: 0.05,
+    along: 0.15,
+};
 /// Deviation of the bell by which a line's profile is read: a line's width and its blur. mm
 const BELL: f64 = 0.12;
 /// Grey that is ink, and how far its blur reaches. share of the contrast that the page's marks have; mm
 const INK: f64 = 0.3;
 const RIM: f64 = 0.25;
-/// Distance of samples along a line at least. mm
-const ALONG: f64 = 0.15;
 /// Least share of a row of samples that is free of ink.
 const FREE: f64 = 0.25;
 /// Guides are at least as grey as this. share of the contrast
@@ -122,6 +127,24 @@ impl Piece {
     }
 }
 
+/// How a line is looked for. mm
+#[derive(Clone, Copy)]
+struct Search {
+    /// How far from where it is expected.
+    reach: f64,
+    /// Distance of samples across it.
+    step: f64,
+    /// Along it, a px at least.
+    along: f64,
+}
+
+impl Search {
+    /// How far a place of a profile lies from where the line is expected.
+    fn off(self, place: f64) -> f64 {
+        place * self.step - self.reach
+    }
+}
+
 /// Reads guides in a picture.
 struct Reader<'a> {
     gray: &'a Gray,
@@ -186,7 +209,7 @@ impl Reader<'_> {
         };
         let sums: Vec<f64> = (0..profiles.first()?.len()).map(grey).collect();
         let best = peak(&sums)?;
-        let near = |k: usize| (k as f64 - best).abs() * SEARCH.1 < 3.0 * BELL;
+        let near = |k: usize| (k as f64 - best).abs() * SEARCH.step < 3.0 * BELL;
         let others = sums.iter().enumerate().filter(|(k, _)| !near(*k));
         let next = others.map(|(_, v)| *v).fold(0.0, f64::max);
         let top = index(best + 0.5).min(sums.len() - 1);
@@ -196,7 +219,7 @@ impl Reader<'_> {
             ..*block.pieces.first()?
         };
         let is_sure = sums[top] > SURE * next && 2 * telling >= profiles.len();
-        let seen = piece.seen(surface, best * SEARCH.1 - SEARCH.0);
+        let seen = piece.seen(surface, SEARCH.off(best));
         is_sure.then_some((sums[top] / profiles.len() as f64, seen))
     }
 
@@ -206,7 +229,7 @@ impl Reader<'_> {
         let best = peak(&profile)?;
         let inside = best > 1.0 && best < (profile.len() - 2) as f64;
         let is_line = profile[index(best + 0.5)] > FAINTEST;
-        (inside && is_line).then(|| piece.seen(surface, best * FINE.1 - FINE.0))
+        (inside && is_line).then(|| piece.seen(surface, FINE.off(best)))
     }
 
     /// How grey a piece is across its line, in steps from one side to the other, weighed by a bell, above what is usual
@@ -215,13 +238,13 @@ impl Reader<'_> {
         &self,
         surface: &Surface,
         piece: &Piece,
-        (reach, step): (f64, f64),
+        Search { reach, step, along }: Search,
     ) -> Option<Vec<f64>> {
         let bell = index((2.5 * BELL / step).ceil());
         let rows = 2 * (index(reach / step + 0.5) + bell) + 1;
         // so little of the page hardly bends
         let near = surface.near(piece.middle);
-        let along = near.determinant().abs().sqrt().recip().max(ALONG);
+        let along = near.determinant().abs().sqrt().recip().max(along);
         let columns = index(2.0 * piece.half.hypot() / along).max(2);
         let place = |k: usize, i: usize| {
             let off = (k as f64 - (rows / 2) as f64) * step;

@@ -132,7 +132,7 @@ impl Bend {
             vertices: vec![Vec2::ZERO; count],
         };
         let stiff = bend.stiffness(stiffness);
-        for axis in 0..2 {
+        let solved = |axis: usize| {
             let own: Vec<(Vec<(usize, f64)>, Seen)> = seen
                 .iter()
                 .filter(|s| s.axis == axis)
@@ -153,13 +153,15 @@ impl Bend {
                     *trust = 1.0 / (1.0 + ((here - seen.by) / AMISS_MM).powi(2));
                 }
             }
-            for (vertex, v) in bend.vertices.iter_mut().zip(found.iter()) {
-                match axis {
-                    0 => vertex.x = *v,
-                    _ => vertex.y = *v,
-                }
-            }
-        }
+            Some(found)
+        };
+        let (x, y) = rayon::join(|| solved(0), || solved(1));
+        let both = x?
+            .iter()
+            .zip(y?.iter())
+            .map(|(x, y)| Vec2::new(*x, *y))
+            .collect();
+        bend.vertices = both;
         let is_told = bend.vertices.iter().all(|v| v.is_finite());
         is_told.then_some(bend)
     }
