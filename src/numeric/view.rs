@@ -99,11 +99,16 @@ impl View {
     /// The rectangle around a rectangle's image.
     #[must_use]
     pub fn bounds(&self, r: Rect) -> Rect {
-        let corners = [(r.x0, r.y0), (r.x1, r.y0), (r.x1, r.y1), (r.x0, r.y1)];
-        let seen = corners.map(|c| self.at(c.into()));
-        seen.iter()
-            .fold(Rect::from_points(seen[0], seen[2]), |b, &p| b.union_pt(p))
+        bounds(r, |p| self.at(p))
     }
+}
+
+/// The rectangle around where a rectangle's corners go.
+pub fn bounds(r: Rect, at: impl Fn(Point) -> Point) -> Rect {
+    let corners = [(r.x0, r.y0), (r.x1, r.y0), (r.x1, r.y1), (r.x0, r.y1)];
+    let seen = corners.map(|c| at(c.into()));
+    seen.iter()
+        .fold(Rect::from_points(seen[0], seen[2]), |b, &p| b.union_pt(p))
 }
 
 impl From<Affine> for View {

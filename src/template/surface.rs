@@ -1,7 +1,7 @@
 //! Where every millimetre of a page lies in its picture.
 
 use crate::numeric::cast::index;
-use crate::numeric::view::View;
+use crate::numeric::view::{self, View};
 use kurbo::{Affine, Point, Rect, Size, Vec2};
 use nalgebra::{DMatrix, DVector};
 
@@ -41,10 +41,7 @@ impl Surface {
     /// The rectangle around a rectangle's image.
     #[must_use]
     pub fn bounds(&self, r: Rect) -> Rect {
-        let corners = [(r.x0, r.y0), (r.x1, r.y0), (r.x1, r.y1), (r.x0, r.y1)];
-        let seen = corners.map(|c| self.at(c.into()));
-        seen.iter()
-            .fold(Rect::from_points(seen[0], seen[2]), |b, &p| b.union_pt(p))
+        view::bounds(r, |p| self.at(p))
     }
 
     /// The same, bent.
