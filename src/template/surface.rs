@@ -80,15 +80,15 @@ pub(super) struct Seen {
 
 /// Distance of the knots, mm; a sixteenth of the page's longer side where that is more.
 const KNOTS_MM: f64 = 25.0;
-/// What squared derivatives cost beside squared distances, for each mm²: of second rank, mm², and of third, mm⁴. Where
-/// guides lie all over a page neither damps a wave that the knots can follow by more than a hundredth.
+/// What squared derivatives cost beside squared distances, for each mm²: of second rank, mm², and of third, mm⁴.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Stiffness([f64; 2]);
 
 impl Stiffness {
     /// What was not seen goes on straight.
     pub(super) const STRAIGHT: Self = Self([6.0, 0.0]);
-    /// What was not seen goes on as bent as it was, and straight from some 100 mm on.
+    /// What was not seen goes on as bent as it was, and straight from some 100 mm on. Where guides lie all over a page,
+    /// waves of 60 mm keep 0.99 of their height.
     pub(super) const CURVED: Self = Self([0.01, 100.0]);
 }
 
