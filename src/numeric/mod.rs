@@ -3,6 +3,7 @@
 pub mod angles;
 pub mod assignment;
 pub mod banded;
+pub mod bilinear;
 pub mod bspline;
 pub mod cast;
 pub mod chain;
@@ -26,6 +27,7 @@ pub mod sets;
 pub mod shortest;
 pub mod side;
 pub mod skyline;
+pub mod surface;
 pub mod svg;
 pub mod tone;
 pub mod turns;

@@ -56,6 +56,13 @@ pub struct Page {
     pub(super) lit: Option<Paper>,
 }
 
+impl Page {
+    /// Where the paper lies for all that is known.
+    pub(super) fn paper(&self) -> Option<&Paper> {
+        self.paper.as_ref().or(self.lit.as_ref())
+    }
+}
+
 /// Evens out the light of a page, of two levels once its steps are softened ([`softened`]). Where the paper covers
 /// less than half of the picture, what lies beside it counts for nothing.
 ///

@@ -2,7 +2,7 @@
 
 use crate::numeric::cast::index;
 use crate::numeric::sets::Sets;
-use crate::numeric::view::View;
+use crate::numeric::surface::Surface;
 use crate::types::Gray;
 use kurbo::{Affine, Point, Rect};
 use rayon::prelude::*;
@@ -88,7 +88,7 @@ impl Component {
     }
 
     /// Measures it on the upright page that `upright` maps the sheet's picture to.
-    pub(super) fn stand(&mut self, upright: &View) {
+    pub(super) fn stand(&mut self, upright: &Surface) {
         // boxes around the pixels' centres, half a pixel wider: turned corners would widen every box
         let ends = self
             .runs
@@ -215,7 +215,7 @@ impl Component {
     }
 
     /// The pieces of it whose runs' middles lie inside a rectangle of the upright page.
-    pub(super) fn within(&self, upright: &View, area: Rect) -> Vec<Self> {
+    pub(super) fn within(&self, upright: &Surface, area: Rect) -> Vec<Self> {
         let back = upright.inverse().bounds(area);
         let clip = |r: &Run| {
             let (start, end) = (r.start.max(index(back.x0)), r.end.min(index(back.x1)));

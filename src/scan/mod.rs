@@ -8,8 +8,9 @@
 //!
 //! Letters of a skewed page stay on the pixels of the scan, and say how they stand upright
 //! ([`Gray::upright`](crate::types::Gray::upright)): nothing is resampled between the scanner and the contour. Only
-//! where a page is seen in perspective are pixels interpolated, once.
+//! where a page is seen in perspective, or bent, are pixels interpolated, once.
 
+mod bent;
 mod chamfer;
 mod clean;
 mod components;

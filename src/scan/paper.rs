@@ -4,6 +4,7 @@
 //! neighbours' grow together; of these regions the one that is large and light, with the holes in it, is the page.
 
 use crate::numeric::pieces::around;
+use kurbo::{Point, Rect};
 
 /// Neighbouring blocks of one sheet of paper differ by less than this, of black against white.
 const STEP: f32 = 0.03;
@@ -81,6 +82,18 @@ impl Paper {
             inside: rim,
             share,
         }
+    }
+
+    /// The rectangle around it, px; it can reach beyond the picture.
+    pub(super) fn bounds(&self) -> Rect {
+        let block = self.block as f64;
+        let own = (0..self.inside.len()).filter(|&i| self.inside[i]);
+        let blocks = own.map(|i| {
+            let (x, y) = (i % self.columns, i / self.columns);
+            let corner = Point::new(x as f64 * block, y as f64 * block);
+            Rect::from_origin_size(corner, (block, block))
+        });
+        blocks.reduce(|a, b| a.union(b)).unwrap_or(Rect::ZERO)
     }
 
     /// Side of a block, px.

@@ -5,11 +5,12 @@
 //! expect, all lines of a block together; then each piece of a line says its own place.
 
 use super::draw::guides;
-use super::find::{Found, sample};
+use super::find::Found;
 use super::layout::{Layout, Place};
-use super::surface::{Bend, Seen, Stiffness, Surface};
+use crate::numeric::bilinear::bilinear;
 use crate::numeric::cast::index;
 use crate::numeric::median::{median, quantile};
+use crate::numeric::surface::{Bend, Seen, Stiffness, Surface};
 use crate::types::{Gray, Sheet};
 use kurbo::{Line, Point, Vec2};
 use rayon::prelude::*;
@@ -264,7 +265,9 @@ impl Reader<'_> {
         }
         let all = (0..rows).flat_map(|k| (0..columns).map(move |i| (k, i)));
         let samples: Vec<f64> = all
-            .map(|(k, i)| sample(self.gray, place(k, i)) / self.contrast)
+            .map(|(k, i)| {
+                bilinear(self.gray.samples(), self.gray.width(), place(k, i)) / self.contrast
+            })
             .collect();
         let paper = quantile(&mut samples.clone(), 0.3, f64::total_cmp)?;
         let dark: Vec<bool> = samples.iter().map(|v| *v > paper + INK).collect();

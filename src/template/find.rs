@@ -3,9 +3,10 @@
 use super::TemplateError;
 use super::draw::RING;
 use super::layout::{Code, Layout};
-use super::surface::Surface;
 use crate::numeric::angles;
+use crate::numeric::bilinear::bilinear;
 use crate::numeric::cast::index;
+use crate::numeric::surface::Surface;
 use crate::numeric::view::View;
 use crate::types::{Gray, Sheet};
 use image::{GrayImage, Luma};
@@ -304,7 +305,7 @@ fn read_code(gray: &Gray, square: Rect, view: &View, modules: usize) -> Option<S
         let offsets = [-0.2, 0.0, 0.2];
         let at = |dx: f64, dy: f64| {
             let p = Vec2::new(x as f64 + 0.5 + dx, y as f64 + 0.5 + dy) * module;
-            sample(gray, view.at(square.origin() + p))
+            bilinear(gray.samples(), gray.width(), view.at(square.origin() + p))
         };
         offsets
             .iter()
@@ -342,7 +343,7 @@ fn code_view(gray: &Gray, square: Rect, view: &View, modules: usize) -> View {
         let near = (-4..=4).flat_map(|y| (-4..=4).map(move |x| (x, y)));
         let values = near.map(|(x, y)| {
             let p = middle + Vec2::new(f64::from(x), f64::from(y)) * module;
-            ring(x, y) * sample(gray, view.at(p))
+            ring(x, y) * bilinear(gray.samples(), gray.width(), view.at(p))
         });
         values.sum::<f64>()
     };
@@ -360,23 +361,4 @@ fn code_view(gray: &Gray, square: Rect, view: &View, modules: usize) -> View {
         Affine::new([x.x, x.y, y.x, y.y, a.x, a.y])
     };
     *view * View::from(edges(seen) * edges(corners).inverse())
-}
-
-/// Bilinear coverage at a point, px; paper outside the picture.
-pub(super) fn sample(gray: &Gray, p: Point) -> f64 {
-    let q = p - Vec2::new(0.5, 0.5);
-    if !(q.x > -1.0 && q.y > -1.0 && q.x < gray.width() as f64 && q.y < gray.height() as f64) {
-        return 0.0;
-    }
-    let (x, y) = (q.x.max(0.0).floor(), q.y.max(0.0).floor());
-    let (fx, fy) = ((q.x - x).max(0.0), (q.y - y).max(0.0));
-    let (x, y) = (index(x), index(y));
-    let (x1, y1) = (
-        (x + 1).min(gray.width() - 1),
-        (y + 1).min(gray.height() - 1),
-    );
-    let v = |x, y| f64::from(gray.at(x, y));
-    let top = v(x, y) * (1.0 - fx) + v(x1, y) * fx;
-    let bottom = v(x, y1) * (1.0 - fx) + v(x1, y1) * fx;
-    top * (1.0 - fy) + bottom * fy
 }

@@ -1,9 +1,10 @@
 //! Ink gain: how printer, paper and scanner blur and spread what is black, from the strip at the page's foot.
 
 use super::draw::{SQUARE, strip};
-use super::find::{Found, sample};
+use super::find::Found;
 use super::layout::Layout;
 use crate::numeric::angles;
+use crate::numeric::bilinear::bilinear;
 use crate::numeric::cast::index;
 use crate::types::Sheet;
 use kurbo::Point;
@@ -45,7 +46,13 @@ impl Gain {
 /// Measures the strip of a recognised page; `None` where it is hidden or too faint.
 #[must_use]
 pub fn gain(sheet: &Sheet, layout: &Layout, found: &Found) -> Option<Gain> {
-    let at = |p: Point| sample(&sheet.gray, found.surface.at(p));
+    let at = |p: Point| {
+        bilinear(
+            sheet.gray.samples(),
+            sheet.gray.width(),
+            found.surface.at(p),
+        )
+    };
     let step = 0.5 / found.surface.scale(layout.gain_strip().center());
     let strip = strip(layout);
     let edges: Option<Vec<Edge>> = strip

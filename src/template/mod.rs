@@ -20,9 +20,9 @@ mod layout;
 mod lettering;
 mod output;
 mod stray;
-mod surface;
 mod tile;
 
+pub use crate::numeric::surface::Surface;
 pub use crate::numeric::view::View;
 pub use cells::{Drawing, drawings};
 pub use draw::{Ink, Page, Paint, pages};
@@ -32,4 +32,3 @@ pub use gain::{Gain, gain};
 pub use layout::{Code, Field, Layout, Paper, Place};
 pub use output::{pdf, png, svg};
 pub use stray::stray;
-pub use surface::Surface;

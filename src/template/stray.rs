@@ -1,7 +1,8 @@
 //! Ink that lies outside all fields of a recognised page.
 
-use super::find::{Blot, Found, blots, sample};
+use super::find::{Blot, Found, blots};
 use super::layout::{Layout, Place};
+use crate::numeric::bilinear::bilinear;
 use crate::numeric::cast::index;
 use crate::numeric::median::quantile;
 use crate::types::Sheet;
@@ -31,9 +32,11 @@ pub fn stray(sheet: &Sheet, layout: &Layout, found: &Found, places: &[Place]) ->
     let page = |x: f64, y: f64| area.origin() + Point::new(x, y).to_vec2() / PER_MM;
     let row = |y: usize| {
         let at = |x: usize| {
-            sample(
-                &sheet.gray,
-                found.surface.at(page(x as f64 + 0.5, y as f64 + 0.5)),
+            let p = page(x as f64 + 0.5, y as f64 + 0.5);
+            bilinear(
+                sheet.gray.samples(),
+                sheet.gray.width(),
+                found.surface.at(p),
             )
         };
         (0..w).map(at).collect::<Vec<f64>>()

@@ -152,14 +152,19 @@ def sharpened(rng, ink, dot, em):
     return np.clip(np.rint(seen + 1.5 * (seen - gaussian_filter(seen, 2))), 0, 255).astype(np.uint8)
 
 
-def photographed(zoom_out, table):
-    """A little barrel, a farther end; of a table around the page its dark grain."""
+def photographed(zoom_out, table, curl_mm=0):
+    """A little barrel, a farther end; paper whose middle stands so high, in waves a sixth as high; of a table around the page its dark grain."""
 
     def way(rng, ink, dot, em):
         (h, w), (y, x) = ink.shape, places(ink)
         u, v = 2 * x / w - 1, 2 * y / h - 1
         u, v = (c * (1 + 0.01 * (u * u + (v * h / w) ** 2 - 1)) for c in (u, v))
         u, v = (zoom_out * c / (1 + 0.03 * v + 0.015 * u) for c in (u, v))
+        if curl_mm:
+            seen = u, v
+            for _ in range(12):  # an A4 page from 400 mm away
+                near = 1 - curl_mm * (1 - u * u + np.sin(6 * u) / 6) / 400
+                u, v = (c * near for c in seen)
         at = [(v + 1) * h / 2, (u + 1) * w / 2]
         seen = map_coordinates(scanned(rng, ink, dot).astype(np.float32), at, order=1, mode="nearest")
         if table:
@@ -203,6 +208,7 @@ WAYS = {
     "sharpened": sharpened,
     "jpeg 50": lambda rng, ink, dot, em: saved(scanned(rng, ink, dot), 50),
     "bent": photographed(1, False),
+    "curled": photographed(1, False, 6),
     "on a table": photographed(1.25, True),
 }
 

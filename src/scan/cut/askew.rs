@@ -1,6 +1,6 @@
 //! Pixels of a picture around what lies askew on them.
 
-use crate::numeric::view::View;
+use crate::numeric::surface::Surface;
 use kurbo::{Affine, Point, Rect};
 use std::f64::consts::SQRT_2;
 
@@ -27,7 +27,7 @@ pub(super) struct Askew {
 impl Askew {
     /// Those around a rectangle of a plane, px, y down, that `view` takes to the picture. Nothing where perspective,
     /// or another scale than that of the pixels, would have to be undone.
-    pub(super) fn around(window: Rect, view: &View) -> Option<Self> {
+    pub(super) fn around(window: Rect, view: &Surface) -> Option<Self> {
         let flat = view.near(window.center());
         let Rect { x0, y0, x1, y1 } = window;
         let corners = [(x0, y0), (x1, y0), (x1, y1), (x0, y1)].map(Point::from);
@@ -64,6 +64,7 @@ impl Askew {
 mod tests {
     use super::*;
     use crate::numeric::angles;
+    use crate::numeric::view::View;
 
     #[test]
     fn pixels_stand_where_the_plane_has_them() {
@@ -76,7 +77,7 @@ mod tests {
             Affine::new([1.02, 0.01, -0.02, 0.99, 5.5, 3.0]),
         ];
         for plane in planes {
-            let askew = Askew::around(window, &View::from(plane)).expect("a flat plane");
+            let askew = Askew::around(window, &Surface::from(plane)).expect("a flat plane");
             let (pixels, height) = (askew.pixels, askew.pixels.height());
             assert_eq!(pixels, pixels.round());
             let seen = plane.transform_rect_bbox(window);
@@ -94,19 +95,19 @@ mod tests {
                 assert!((askew.to_picture * drawn).distance(there) < 1e-9);
             }
         }
-        let whole = Askew::around(window, &View::from(planes[0])).map(|a| (a.upright, a.origin));
+        let whole = Askew::around(window, &Surface::from(planes[0])).map(|a| (a.upright, a.origin));
         assert_eq!(whole, Some((Affine::IDENTITY, window.origin())));
     }
 
     #[test]
     fn perspective_and_scale_are_not_hidden() {
         let window = Rect::new(0.0, 0.0, 100.0, 100.0);
-        let tilted = |g: f64| View::of_pencils([1.0, 0.0, 0.0, 1.0, g, 0.0]);
+        let tilted = |g: f64| Surface::from(View::of_pencils([1.0, 0.0, 0.0, 1.0, g, 0.0]));
         assert!(Askew::around(window, &tilted(1e-6)).is_some());
         assert!(Askew::around(window, &tilted(1e-4)).is_none());
-        assert!(Askew::around(window, &View::from(Affine::scale(1.2))).is_none());
+        assert!(Askew::around(window, &Surface::from(Affine::scale(1.2))).is_none());
         let lean = Affine::new([1.0, 0.0, 0.2, 1.0, 0.0, 0.0]);
-        assert!(Askew::around(window, &View::from(lean)).is_none());
+        assert!(Askew::around(window, &Surface::from(lean)).is_none());
         assert!(Askew::around(window, &tilted(f64::NAN)).is_none());
     }
 }

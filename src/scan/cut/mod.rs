@@ -29,6 +29,7 @@ mod window;
 pub use pins::{Pin, Region};
 pub(crate) use remarks::{SMALL_LETTER, SMALL_SHARE, is_full};
 
+use super::bent;
 use super::clean::Page;
 use super::components::{Component, gap};
 use super::deskew::{self, Edges};
@@ -66,7 +67,7 @@ pub struct Cut {
     /// Degrees by which the page lay turned clockwise.
     pub skew_deg: f64,
     /// From px of the sheet's picture to px of the upright page; at the picture's middle, where it was seen in
-    /// perspective.
+    /// perspective or bent.
     pub upright: Affine,
     /// Pieces of ink below the speckle limit, which are in no list.
     pub specks: usize,
@@ -269,7 +270,8 @@ fn cut_page(
     let separation = Separation::measure(&page.sheet, &all, &options.ink, speck_limit(&all))?;
     let telling = telling(&all, page);
     let middle = Point::new(gray.width() as f64 / 2.0, gray.height() as f64 / 2.0);
-    let (skew_deg, upright) = seen(page, &telling, middle, options, told);
+    let (skew_deg, flat) = seen(page, &telling, middle, options, told);
+    let upright = bent::upright(page, flat);
     let claims = pins::claim(&mut all, pins);
     all.par_iter_mut().for_each(|c| c.stand(&upright));
     pins::stand(&mut all, &claims, pins, &upright);
@@ -278,7 +280,7 @@ fn cut_page(
     let task = layout::Task {
         page,
         low,
-        upright,
+        upright: &upright,
         options,
         claims: &claims,
         separation: separation.as_ref(),
@@ -331,7 +333,7 @@ fn cut_page(
         misfit: stance.misfit(),
     };
     let rows = guides.apart.as_deref();
-    let told = rows.and_then(|rows| Told::by(rows, &upright, middle));
+    let told = rows.and_then(|rows| Told::by(rows, &flat, middle));
     Ok((cut, told))
 }
 

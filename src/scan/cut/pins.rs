@@ -1,6 +1,7 @@
 //! Letters whose place on the page a user says.
 
 use super::{Layer, Reason};
+use crate::numeric::surface::Surface;
 use crate::numeric::view::View;
 use crate::scan::components::{Component, Run};
 use kurbo::{BezPath, PathEl, Point, Rect, Shape, Vec2};
@@ -134,14 +135,14 @@ pub(super) fn settle(layer: &mut Layer, claims: &[(usize, Vec<usize>)]) {
 
 /// How a cell is seen upright, and how far its letter is turned then, degrees clockwise; `upright` is the page's own
 /// view.
-pub(super) fn stance(index: usize, pins: &[Pin], upright: &View) -> (View, f64) {
+pub(super) fn stance(index: usize, pins: &[Pin], upright: &Surface) -> (Surface, f64) {
     let pin = pins.iter().find(|p| p.index == index);
     let quad = pin.and_then(|p| match &p.region {
         Some(Region::Quad(corners)) => straight(*corners, upright),
         _ => None,
     });
     (
-        quad.unwrap_or(*upright),
+        quad.map_or_else(|| upright.clone(), Surface::from),
         pin.map_or(0.0, |p| p.rotation_deg),
     )
 }
@@ -151,7 +152,7 @@ pub(super) fn stand(
     all: &mut [Component],
     claims: &[(usize, Vec<usize>)],
     pins: &[Pin],
-    upright: &View,
+    upright: &Surface,
 ) {
     for (index, parts) in claims {
         let (view, _) = stance(*index, pins, upright);
@@ -161,7 +162,7 @@ pub(super) fn stand(
 
 /// The view that makes four corners a rectangle: its middle and the mean lengths of its sides stay what they are on
 /// the upright page.
-fn straight(corners: [Point; 4], upright: &View) -> Option<View> {
+fn straight(corners: [Point; 4], upright: &Surface) -> Option<View> {
     let seen = corners.map(|p| upright.at(p));
     let middle = seen.iter().fold(Vec2::ZERO, |s, p| s + p.to_vec2()) / 4.0;
     let side = |a: usize, b: usize| seen[a].distance(seen[b]);

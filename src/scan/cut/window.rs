@@ -2,7 +2,7 @@
 //!
 //! What lies nearer to other ink than to its own, and what stands out of the noise far from its own, becomes
 //! paper. The pixels are the scan's own; where the letter lies askew on them its picture says how it stands upright.
-//! Where a page is seen in perspective they are interpolated once, by a kernel that keeps what the scanner could
+//! Where a page is seen in perspective, or bent, they are interpolated once, by a kernel that keeps what the scanner could
 //! resolve ([`lanczos`]).
 //!
 //! [`lanczos`]: crate::numeric::lanczos
@@ -12,7 +12,7 @@ use super::{Slot, holes};
 use crate::numeric::angles;
 use crate::numeric::cast::index;
 use crate::numeric::lanczos::{LOBES, Lanczos};
-use crate::numeric::view::View;
+use crate::numeric::surface::Surface;
 use crate::scan::chamfer::distances;
 use crate::scan::clean::Page;
 use crate::scan::components::{Component, Run, components};
@@ -48,14 +48,14 @@ impl Shutter<'_> {
         slot: &Slot,
         parts: &[&Component],
         (baseline, px_per_em): (f64, f64),
-        (mut upright, rotation_deg): (View, f64),
+        (mut upright, rotation_deg): (Surface, f64),
     ) -> Cell {
         let union =
             |of: fn(&Component) -> Rect| parts.iter().map(|c| of(c)).reduce(|a, b| a.union(b));
         let mut ink = union(|c| c.upright).unwrap_or(Rect::ZERO);
         if rotation_deg.abs() > 0.0 {
             let foot = Point::new(ink.center().x, baseline);
-            upright = View::from(angles::rotation_about(rotation_deg.to_radians(), foot)) * upright;
+            upright = angles::rotation_about(rotation_deg.to_radians(), foot) * &upright;
             let turned = parts.iter().map(|&c| {
                 let mut c = c.clone();
                 c.stand(&upright);
@@ -120,7 +120,7 @@ struct Frame {
     width: usize,
     height: usize,
     /// From px of the upright drawing, y down, to px of the sheet.
-    to_sheet: View,
+    to_sheet: Surface,
     /// Its upper edge on the upright page, px.
     top: f64,
     /// The sheet's own pixels, where it consists of them.
@@ -129,7 +129,7 @@ struct Frame {
 
 impl Frame {
     /// Around a window of the upright page, to which `upright` takes the sheet.
-    fn around(window: Rect, upright: &View) -> Self {
+    fn around(window: Rect, upright: &Surface) -> Self {
         let view = upright.inverse();
         let own = Askew::around(window, &view);
         let corner = Affine::translate(window.origin().to_vec2());
@@ -137,7 +137,7 @@ impl Frame {
         Self {
             width: index(size.width),
             height: index(size.height),
-            to_sheet: own.map_or_else(|| view * View::from(corner), |own| own.to_picture.into()),
+            to_sheet: own.map_or_else(|| &view * corner, |own| own.to_picture.into()),
             top: own.map_or(window.y0, |own| own.origin.y),
             own,
         }
@@ -250,7 +250,7 @@ impl Patch {
         } else {
             let kernel = Lanczos::default();
             let back = Affine::translate(-self.origin.to_vec2());
-            let to_patch = View::from(back) * frame.to_sheet;
+            let to_patch = back * &frame.to_sheet;
             Gray::from_fn(w, h, |x, y| {
                 let p = to_patch.at(Point::new(x as f64 + 0.5, y as f64 + 0.5));
                 kernel.sample(&self.samples, self.width, (p.x - 0.5, p.y - 0.5))

@@ -1,7 +1,7 @@
 //! Where a letter ends above and below, to a fraction of a pixel.
 
 use crate::numeric::median::median;
-use crate::numeric::view::View;
+use crate::numeric::surface::Surface;
 use crate::scan::components::{Component, Run};
 use crate::types::Gray;
 use kurbo::Point;
@@ -15,7 +15,7 @@ const BLUR: usize = 4;
 const DEPTH: f64 = 1.0;
 
 /// The highest and the lowest ink of a piece on the upright page, px.
-pub(super) fn ends(c: &Component, gray: &Gray, upright: &View) -> (f64, f64) {
+pub(super) fn ends(c: &Component, gray: &Gray, upright: &Surface) -> (f64, f64) {
     let outermost = |sign: f64, rough: f64, steps: [Step; 2]| {
         let near = |r: &&Run| {
             let tips = [r.start, r.end].map(|x| Point::new(x as f64, r.y as f64 + 0.5));

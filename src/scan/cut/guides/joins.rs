@@ -1,6 +1,6 @@
 //! Where the joining strokes of Arabic letters end.
 
-use crate::numeric::view::View;
+use crate::numeric::surface::Surface;
 use crate::scan::components::Component;
 use kurbo::Point;
 
@@ -12,14 +12,14 @@ const THICK: f64 = 1.6;
 
 /// Heights of the ends of a letter's strokes on its left and on its right where these are `joined` to others, upright
 /// px.
-pub(super) fn joins(letter: &Component, joined: [bool; 2], upright: &View) -> Vec<f64> {
+pub(super) fn joins(letter: &Component, joined: [bool; 2], upright: &Surface) -> Vec<f64> {
     let sides = [1.0, -1.0].into_iter().zip(joined);
     let sides = sides.filter_map(|(side, joined)| joined.then_some(side));
     sides.filter_map(|s| end(letter, s, upright)).collect()
 }
 
 /// The middle height of the outermost ink; `side` times x grows inwards.
-fn end(letter: &Component, side: f64, upright: &View) -> Option<f64> {
+fn end(letter: &Component, side: f64, upright: &Surface) -> Option<f64> {
     let at = |x: usize, y: usize| upright.at(Point::new(x as f64 + 0.5, y as f64 + 0.5));
     let inward = |x: usize, y: usize| side * at(x, y).x;
     let outer = letter.runs.iter().map(|r| {
@@ -57,12 +57,12 @@ mod tests {
         let pixels = (0..70 * 70).map(|i| f32::from(u8::from(ink(i % 70, i / 70))));
         let gray = Gray::new(70, 70, pixels.collect()).unwrap();
         let letter = &components(&gray, 0.33, 0.5)[0];
-        let view = View::from(Affine::IDENTITY);
+        let view = Surface::from(Affine::IDENTITY);
         let at = |joined| joins(letter, joined, &view);
         assert_eq!(at([true, true]), [33.0, 43.0]);
         assert_eq!(at([false, true]), [43.0]);
         assert!(at([false, false]).is_empty());
-        let lower = View::from(Affine::translate((0.0, 100.0)));
+        let lower = Surface::from(Affine::translate((0.0, 100.0)));
         assert_eq!(joins(letter, [true, false], &lower), [133.0]);
     }
 
@@ -76,7 +76,7 @@ mod tests {
         let pixels = (0..70 * 70).map(|i| f32::from(u8::from(ink(i % 70, i / 70))));
         let gray = Gray::new(70, 70, pixels.collect()).unwrap();
         let letter = &components(&gray, 0.33, 0.5)[0];
-        let view = View::from(Affine::IDENTITY);
+        let view = Surface::from(Affine::IDENTITY);
         assert!(joins(letter, [false, true], &view).is_empty());
     }
 }

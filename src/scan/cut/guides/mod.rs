@@ -10,7 +10,7 @@ mod votes;
 
 use super::{Layer, Levels, Slot, Warning, bounds};
 use crate::numeric::median::median;
-use crate::numeric::view::View;
+use crate::numeric::surface::Surface;
 use crate::scan::clean::Page;
 use crate::scan::components::Component;
 use crate::scan::cut::largest;
@@ -47,7 +47,7 @@ pub(super) fn measure(
     all: &[Component],
     page: &Page,
     options: &Options,
-    upright: impl Fn(&Slot) -> View,
+    upright: impl Fn(&Slot) -> Surface,
 ) -> Result<Guides, Fault> {
     let letter = |s: &Slot| {
         let (view, gray) = (upright(s), &page.sheet.gray);

@@ -6,7 +6,6 @@
 use super::named::{Place, named};
 use super::rows::rows;
 use super::{Task, listed};
-use crate::numeric::view::View;
 use crate::scan::components::{Component, Touch, enclosed};
 use crate::scan::cut::{Layer, Levels, Reason};
 use crate::scan::error::Fault;
@@ -57,7 +56,7 @@ pub(super) fn place(
                 freed.extend(
                     touched
                         .into_iter()
-                        .map(|f| (f, c.within(&task.upright, free(frames[f])))),
+                        .map(|f| (f, c.within(task.upright, free(frames[f])))),
                 );
             }
         }
@@ -134,7 +133,7 @@ fn frames(task: &Task<'_>) -> Vec<Rect> {
     let step = w.max(h).div_ceil(REDUCED).max(1);
     let least = LEAST_SIDE * w.min(h) as f64;
     let middle = |c: &Component| {
-        let scaled = task.upright * View::from(Affine::scale(step as f64));
+        let scaled = task.upright * Affine::scale(step as f64);
         let mut turned = c.clone();
         turned.stand(&scaled);
         turned.upright

@@ -11,7 +11,7 @@ mod ruling;
 mod touching;
 
 use super::Layer;
-use crate::numeric::view::View;
+use crate::numeric::surface::Surface;
 use crate::scan::clean::Page;
 use crate::scan::components::Component;
 use crate::scan::error::Fault;
@@ -24,7 +24,7 @@ pub(super) struct Task<'a> {
     pub(super) page: &'a Page,
     /// Coverage from which pixels are ink.
     pub(super) low: f32,
-    pub(super) upright: View,
+    pub(super) upright: &'a Surface,
     pub(super) options: &'a Options,
     /// The letters whose places a user says, and their ink.
     pub(super) claims: &'a [(usize, Vec<usize>)],

@@ -1,7 +1,9 @@
 mod across;
 mod bare;
+mod bent;
 mod dust;
 mod lid;
+mod paper;
 mod signs;
 mod slopes;
 mod small;
@@ -11,95 +13,11 @@ mod turned;
 use super::super::clean::{Texture, clean, clean_otherwise};
 use super::super::options::{Layout, Order, Scale};
 use super::*;
-use crate::numeric::angles;
 use crate::numeric::cast::index;
 use crate::numeric::view::View;
 use crate::types::{Direction, Gray, Sheet};
 use kurbo::Vec2;
-
-/// Paper on which letters are drawn as bars, turned, unevenly lit and noisy.
-#[derive(Clone)]
-struct Paper {
-    width: usize,
-    height: usize,
-    skew_deg: f64,
-    /// How much nearer the right and the lower side are than the middle.
-    tilt: [f64; 2],
-    bars: Vec<(Rect, f32)>,
-}
-
-impl Paper {
-    fn new(width: usize, height: usize, skew_deg: f64) -> Self {
-        Self {
-            width,
-            height,
-            skew_deg,
-            tilt: [0.0; 2],
-            bars: Vec::new(),
-        }
-    }
-
-    fn bar(&mut self, x: f64, y: f64, w: f64, h: f64) {
-        self.bars.push((Rect::new(x, y, x + w, y + h), 1.0));
-    }
-
-    /// A letter of x-height 30 and stroke 6 whose foot stands at (x, y).
-    fn letter(&mut self, c: char, x: f64, y: f64) {
-        match c {
-            'i' => {
-                self.bar(x, y - 30.0, 6.0, 30.0);
-                self.bar(x, y - 42.0, 6.0, 6.0);
-            }
-            'l' => self.bar(x, y - 45.0, 6.0, 45.0),
-            'p' => {
-                self.bar(x, y - 30.0, 6.0, 55.0);
-                self.bar(x + 6.0, y - 30.0, 20.0, 6.0);
-                self.bar(x + 20.0, y - 24.0, 6.0, 24.0);
-                self.bar(x + 6.0, y - 6.0, 14.0, 6.0);
-            }
-            _ => {
-                self.bar(x, y - 30.0, 6.0, 30.0);
-                self.bar(x + 22.0, y - 30.0, 6.0, 30.0);
-                self.bar(x + 6.0, y - 30.0, 16.0, 6.0);
-            }
-        }
-    }
-
-    /// From the page to its picture.
-    fn view(&self) -> View {
-        let middle = Vec2::new(self.width as f64 / 2.0, self.height as f64 / 2.0);
-        let [g, k] = self.tilt;
-        let tilt = View::of_pencils([1.0, 0.0, 0.0, 1.0, g / middle.x, k / middle.y]);
-        let turn = Affine::translate(middle) * angles::rotation(self.skew_deg.to_radians());
-        View::from(turn) * tilt * View::from(Affine::translate(-middle))
-    }
-
-    /// The picture: light falls off to the right, and every pixel has its own noise.
-    fn scan(&self) -> Sheet {
-        let back = self.view().inverse();
-        let mut seed = 1u32;
-        let gray = Gray::from_fn(self.width, self.height, |x, y| {
-            seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-            let noise = (seed >> 16) as f32 / 65_536.0 - 0.5;
-            let samples = [(0.25, 0.25), (0.75, 0.25), (0.25, 0.75), (0.75, 0.75)];
-            let ink = samples.iter().map(|(dx, dy)| {
-                let p = back.at(Point::new(x as f64 + dx, y as f64 + dy));
-                let here = self.bars.iter().filter(|b| b.0.contains(p)).map(|b| b.1);
-                here.fold(0.0, f32::max)
-            });
-            let ink = ink.sum::<f32>() / 4.0;
-            let light = 0.95 - 0.35 * x as f32 / self.width as f32;
-            1.0 - light * (1.0 - 0.8 * ink) + 0.02 * noise
-        });
-        Sheet {
-            gray,
-            colours: None,
-            dpi: Some(300.0),
-            guessed: None,
-            source: "page.png".to_owned(),
-        }
-    }
-}
+use paper::Paper;
 
 fn labels(text: &str) -> Vec<Label> {
     text.split_whitespace()

@@ -75,7 +75,7 @@ pub(super) fn place(
         });
     }
     let freed = lattices(all).into_iter();
-    let freed = freed.flat_map(|i| ruling::freed(&all[i], &task.upright));
+    let freed = freed.flat_map(|i| ruling::freed(&all[i], task.upright));
     let freed: Vec<Component> = freed.collect();
     all.extend(freed);
     let known = |l: &&Label| l.0 != "_";
@@ -141,7 +141,7 @@ fn read(
     let mut other = all.clone();
     let cut = across
         .iter()
-        .flat_map(|t| t.part(&mut other, (task.gray(), &task.upright)).pieces);
+        .flat_map(|t| t.part(&mut other, (task.gray(), task.upright)).pieces);
     let cut: Vec<usize> = cut.collect();
     let whole = read_beside(all, Vec::new(), names, task);
     match (whole, read_beside(&mut other, cut, names, task)) {
@@ -169,7 +169,7 @@ fn read_beside(
         };
         let before = parted.len();
         for touch in &unread.touching {
-            parted.extend(touch.part(all, (task.gray(), &task.upright)).pieces);
+            parted.extend(touch.part(all, (task.gray(), task.upright)).pieces);
         }
         if parted.len() == before {
             return Err(unread);

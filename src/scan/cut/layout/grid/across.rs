@@ -108,7 +108,7 @@ impl<'a> Page<'a> {
         loop {
             let before = all.len();
             for (touch, sides) in self.touching(all, shared, examples) {
-                let of = touch.part(all, (task.gray(), &task.upright));
+                let of = touch.part(all, (task.gray(), task.upright));
                 parted.extend(of.pieces);
                 for (sides, cost) in sides.into_iter().zip(of.costs) {
                     costs.extend(sides.into_iter().map(|s| (s, cost)));
@@ -158,7 +158,7 @@ impl<'a> Page<'a> {
             let example = |other: &usize| {
                 let body = largest(all, &shared.cells[*other])?;
                 let by = begin(cell) - begin(*other);
-                let page = (task.gray(), &task.upright);
+                let page = (task.gray(), task.upright);
                 Some(Example::of((&all[body], side), page, by))
             };
             ((cell, side), others.iter().filter_map(example).collect())
@@ -192,9 +192,8 @@ impl<'a> Page<'a> {
                 // more of it than of what lies there alone, be it dots
                 let holds = |k: usize| {
                     let cell = place(k);
-                    let here = |p: &(usize, usize)| {
-                        cells.cell(along.at(*p, &plan.task.upright)) == Some(k)
-                    };
+                    let here =
+                        |p: &(usize, usize)| cells.cell(along.at(*p, plan.task.upright)) == Some(k);
                     let ink = || all[i].pixels().filter(here).count();
                     self.open[cell] && (least.max(own[cell] as f64)..).contains(&(ink() as f64))
                 };

@@ -45,14 +45,14 @@ pub(super) fn place(
     let is_lined = !lines.is_empty();
     let freed = lines
         .iter()
-        .flat_map(|&i| ruling::freed(&all[i], &plan.task.upright));
+        .flat_map(|&i| ruling::freed(&all[i], plan.task.upright));
     let freed: Vec<Component> = freed.collect();
     all.extend(freed);
     let mut letters: Vec<usize> = (0..all.len()).filter(|i| !lines.contains(i)).collect();
     let mut rejected: Vec<(usize, Reason)> = lines.iter().map(|&i| (i, Reason::Line)).collect();
     let lattice: Vec<&Component> = lines.iter().map(|&i| &all[i]).collect();
     let plan = &Plan {
-        printed: ruling::heights(&lattice, &plan.task.upright),
+        printed: ruling::heights(&lattice, plan.task.upright),
         ..plan.clone()
     };
     let mut shared = share(all, &letters, labels, plan).ok_or(Fault::Blank)?;

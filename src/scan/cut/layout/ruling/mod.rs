@@ -9,7 +9,7 @@ mod hidden;
 mod stripes;
 
 use crate::numeric::median::middle;
-use crate::numeric::view::View;
+use crate::numeric::surface::Surface;
 use crate::scan::components::Component;
 use hidden::Hidden;
 use kurbo::Point;
@@ -21,7 +21,7 @@ use stripes::{THICK, inked, lines_of};
 const WAYS: [f64; 5] = [0.0, -0.5, 0.5, -1.0, 1.0];
 
 /// How far down the page printed lines lie, upright px.
-pub(super) fn heights(lines: &[&Component], upright: &View) -> Vec<f64> {
+pub(super) fn heights(lines: &[&Component], upright: &Surface) -> Vec<f64> {
     let of = |line: &&Component| {
         let [columns, rows] = lines_of(line, upright);
         let thick = |line: &Range<f64>| line.end - line.start;
@@ -35,7 +35,7 @@ pub(super) fn heights(lines: &[&Component], upright: &View) -> Vec<f64> {
 }
 
 /// What is left of a lattice, or of a single line, without its lines: pieces that are wider than a line is thick.
-pub(super) fn freed(lattice: &Component, upright: &View) -> Vec<Component> {
+pub(super) fn freed(lattice: &Component, upright: &Surface) -> Vec<Component> {
     let b = lattice.upright;
     let at = |x: usize, y: usize| upright.at(Point::new(x as f64 + 0.5, y as f64 + 0.5));
     let [mut columns, mut rows] = lines_of(lattice, upright);

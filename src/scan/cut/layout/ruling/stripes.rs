@@ -2,7 +2,7 @@
 
 use crate::numeric::cast::index;
 use crate::numeric::median::median;
-use crate::numeric::view::View;
+use crate::numeric::surface::Surface;
 use crate::scan::components::Component;
 use kurbo::Point;
 use std::iter;
@@ -21,7 +21,7 @@ const PLACES: u32 = 500;
 const EDGE: f64 = 1.5;
 
 /// The stripes down the page and across it in which a lattice, or a single line, has ink for most of its length.
-pub(super) fn lines_of(lattice: &Component, upright: &View) -> [Vec<Range<f64>>; 2] {
+pub(super) fn lines_of(lattice: &Component, upright: &Surface) -> [Vec<Range<f64>>; 2] {
     let b = lattice.upright;
     let at = |x: usize, y: usize| upright.at(Point::new(x as f64 + 0.5, y as f64 + 0.5));
     let mut profiles = [b.width(), b.height()].map(|length| vec![0.0; index(length) + 2]);
@@ -45,7 +45,7 @@ pub(super) fn lines_of(lattice: &Component, upright: &View) -> [Vec<Range<f64>>;
 }
 
 /// Whether there is ink of a lattice at a place of the upright page.
-pub(super) fn inked(lattice: &Component, upright: &View) -> impl Fn(f64, f64) -> bool {
+pub(super) fn inked(lattice: &Component, upright: &Surface) -> impl Fn(f64, f64) -> bool {
     let back = upright.inverse();
     move |x, y| {
         let p = back.at(Point::new(x, y));

@@ -11,7 +11,7 @@ mod tests;
 pub(super) use overlap::{Example, Side};
 pub(super) use seam::Along;
 
-use crate::numeric::view::View;
+use crate::numeric::surface::Surface;
 use crate::scan::components::Component;
 use crate::types::Gray;
 use kurbo::{Point, Rect};
@@ -105,7 +105,11 @@ impl Touch {
     /// Cuts the ink of `page` in `all`, where new pieces go to the end, and says which pieces were cut from others.
     ///
     /// The surest border comes first: where it is tells how far the letters beside it reach, and so of the next ones.
-    pub(super) fn part(&self, all: &mut Vec<Component>, (page, upright): (&Gray, &View)) -> Parted {
+    pub(super) fn part(
+        &self,
+        all: &mut Vec<Component>,
+        (page, upright): (&Gray, &Surface),
+    ) -> Parted {
         let ink: Vec<Component> = self.ink.iter().map(|&i| all[i].clone()).collect();
         let mut pieces: Vec<Vec<Component>> = ink.iter().map(|c| vec![c.clone()]).collect();
         let mut left: Vec<usize> = (0..self.ends.len()).collect();
@@ -157,7 +161,7 @@ impl Touch {
     }
 
     /// The border number `k`, where those that are `left` are not cut yet.
-    fn border<'a>(&'a self, k: usize, left: &[usize], upright: &'a View) -> Border<'a> {
+    fn border<'a>(&'a self, k: usize, left: &[usize], upright: &'a Surface) -> Border<'a> {
         let is_left = |k: Option<usize>| k.is_some_and(|k| left.contains(&k));
         let End {
             stretch,
@@ -180,7 +184,7 @@ impl Touch {
         &self,
         pieces: Vec<Vec<Component>>,
         all: &mut Vec<Component>,
-        upright: &View,
+        upright: &Surface,
     ) -> Vec<usize> {
         let mut parted = Vec::new();
         for (&i, mut pieces) in self.ink.iter().zip(pieces) {
@@ -213,7 +217,7 @@ struct Border<'a> {
     meeting: Meeting,
     /// Letters drawn alike as the one before it and the one after it, where they lie free.
     examples: [&'a [Example]; 2],
-    upright: &'a View,
+    upright: &'a Surface,
     /// How far apart the middles of the cells are, px, where letters stand in the middle of theirs.
     cells: Option<f64>,
     /// Whether one letter alone is before it, and after it.

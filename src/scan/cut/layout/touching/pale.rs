@@ -103,7 +103,7 @@ impl Nearest {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::numeric::view::View;
+    use crate::numeric::surface::Surface;
     use crate::scan::components::components;
     use crate::scan::cut::layout::touching::{Along, Meeting};
     use kurbo::{Affine, Rect};
@@ -122,7 +122,7 @@ mod tests {
             stretch: &(40.0..80.0),
             meeting: Meeting::Any,
             examples: [&[], &[]],
-            upright: &View::from(Affine::IDENTITY),
+            upright: &Surface::from(Affine::IDENTITY),
             cells: None,
             is_single: [true; 2],
         };

@@ -6,7 +6,7 @@
 //! into ink or out of it is the longer, the less ink lies around.
 
 use crate::numeric::cast::index;
-use crate::numeric::view::View;
+use crate::numeric::surface::Surface;
 use crate::scan::components::Component;
 use kurbo::Point;
 use std::ops::Range;
@@ -39,7 +39,7 @@ impl Along {
     }
 
     /// How far a pixel is along it, upright px.
-    pub(in crate::scan::cut::layout) fn at(self, (x, y): (usize, usize), upright: &View) -> f64 {
+    pub(in crate::scan::cut::layout) fn at(self, (x, y): (usize, usize), upright: &Surface) -> f64 {
         let at = upright.at(Point::new(x as f64 + 0.5, y as f64 + 0.5));
         match self {
             Self::Row => at.x,
@@ -64,7 +64,7 @@ impl Seam {
     pub(super) fn within(
         stretch: &Range<f64>,
         (along, ink): (Along, &[Component]),
-        upright: &View,
+        upright: &Surface,
     ) -> Option<Self> {
         let bounds = ink.iter().map(|c| c.bounds).reduce(|a, b| a.union(b))?;
         let stroke = ink.iter().max_by_key(|c| c.area)?.stroke().max(1.0);
@@ -242,7 +242,7 @@ mod tests {
                 f32::from(u8::from(bars.iter().any(here)))
             });
             let ink = components(&gray, 0.5, 0.5);
-            let upright = View::from(Affine::IDENTITY);
+            let upright = Surface::from(Affine::IDENTITY);
             Seam::within(&stretch, (along, &ink), &upright).unwrap().at
         })
     }

@@ -23,7 +23,7 @@ fn the_surest_border_tells_where_the_next_letter_ends() {
             0.0
         }
     });
-    let upright = View::from(Affine::IDENTITY);
+    let upright = Surface::from(Affine::IDENTITY);
     let mut all = components(&gray, 0.25, 0.5);
     assert_eq!(all.len(), 1, "the letters touch");
     let end = |place: f64, meeting| End {

@@ -8,7 +8,7 @@ use super::Field;
 use super::shape::{Ink, pixel};
 use crate::numeric::cast::index;
 use crate::numeric::pieces::around;
-use crate::numeric::view::View;
+use crate::numeric::surface::Surface;
 use crate::scan::components::Component;
 use crate::types::Gray;
 use kurbo::{Point, Vec2};
@@ -63,7 +63,7 @@ impl Example {
     /// One half of a letter, moved by so many px of the sheet.
     pub(in crate::scan::cut::layout) fn of(
         (letter, side): (&Component, Side),
-        (page, upright): (&Gray, &View),
+        (page, upright): (&Gray, &Surface),
         by: Vec2,
     ) -> Self {
         let field = Field::new(letter, page);

@@ -1,5 +1,5 @@
 use super::*;
-use crate::numeric::view::View;
+use crate::numeric::surface::Surface;
 use crate::scan::components::components;
 use crate::scan::cut::layout::touching::{Along, Meeting};
 use kurbo::Affine;
@@ -31,7 +31,7 @@ fn parted_in(
         stretch: &(at - 20.0..at + 20.0),
         meeting,
         examples: [&[], &[]],
-        upright: &View::from(Affine::IDENTITY),
+        upright: &Surface::from(Affine::IDENTITY),
         cells,
         is_single: [true; 2],
     };

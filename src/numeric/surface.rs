@@ -4,32 +4,78 @@ use crate::numeric::cast::index;
 use crate::numeric::view::{self, View};
 use kurbo::{Affine, Point, Rect, Size, Vec2};
 use nalgebra::{DMatrix, DVector};
+use std::iter;
+use std::ops::Mul;
+use std::sync::Arc;
 
-/// A page as its picture shows it: in perspective, and bent by paper that does not lie flat and by the lens.
+/// A page as its picture shows it, or a picture as it shows its page ([`Surface::inverse`]): in perspective, and bent
+/// by paper that does not lie flat and by the lens.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Surface {
-    view: View,
-    bend: Option<Bend>,
+    /// To the plane in which it is bent; the identity where nothing is.
+    before: View,
+    bend: Option<(Arc<Bend>, Way)>,
+    after: View,
+}
+
+/// Which way a bend goes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Way {
+    /// From where places of a page would be if it were flat.
+    There,
+    Back,
 }
 
 impl Surface {
-    /// Where a point of the page, mm, lies in the picture, px.
+    /// Where a point goes: of the page, mm or px, to the picture, px.
     #[must_use]
     pub fn at(&self, p: Point) -> Point {
-        self.view.at(p + self.moved(p))
+        let Some((bend, way)) = &self.bend else {
+            return self.after.at(p);
+        };
+        let p = self.before.at(p);
+        self.after.at(match way {
+            Way::There => p + bend.at(p),
+            Way::Back => bend.before(p),
+        })
     }
 
     /// The affine map that it is near one point.
     #[must_use]
     pub fn near(&self, p: Point) -> Affine {
-        let Some(bend) = &self.bend else {
-            return self.view.near(p);
+        let Some((bend, way)) = &self.bend else {
+            return self.after.near(p);
         };
-        let [x, y] = bend.slopes(p);
-        let moved = bend.at(p);
-        let there = Affine::translate((p + moved).to_vec2());
-        let turn = Affine::new([1.0 + x.x, x.y, y.x, 1.0 + y.y, 0.0, 0.0]);
-        self.view.near(p + moved) * there * turn * Affine::translate(-p.to_vec2())
+        let plane = self.before.at(p);
+        let bent = match way {
+            Way::There => bend.near(plane),
+            Way::Back => bend.near(bend.before(plane)).inverse(),
+        };
+        self.after.near(bent * plane) * bent * self.before.near(p)
+    }
+
+    /// The map back.
+    #[must_use]
+    pub fn inverse(&self) -> Self {
+        let Some((bend, way)) = &self.bend else {
+            return self.after.inverse().into();
+        };
+        let way = match way {
+            Way::There => Way::Back,
+            Way::Back => Way::There,
+        };
+        Self {
+            before: self.after.inverse(),
+            bend: Some((Arc::clone(bend), way)),
+            after: self.before.inverse(),
+        }
+    }
+
+    /// The map itself, where it is affine.
+    #[must_use]
+    pub fn affine(&self) -> Option<Affine> {
+        let is_flat = self.bend.is_none();
+        is_flat.then(|| self.after.affine())?
     }
 
     /// How many px a millimetre has near one point.
@@ -44,57 +90,103 @@ impl Surface {
         view::bounds(r, |p| self.at(p))
     }
 
-    /// The same, bent.
-    pub(super) fn with_bend(self, bend: Bend) -> Self {
+    /// The same, bent; `self` lies flat, or bends in the same plane.
+    #[must_use]
+    pub fn with_bend(self, bend: Bend) -> Self {
         Self {
-            bend: Some(bend),
+            bend: Some((Arc::new(bend), Way::There)),
             ..self
         }
     }
 
-    /// How far a point of the page lies from where it would be if the page were flat, mm of the flat page.
-    pub(super) fn moved(&self, p: Point) -> Vec2 {
-        self.bend.as_ref().map_or(Vec2::ZERO, |bend| bend.at(p))
+    /// How far a point of the page lies from where it would be if the page were flat, in the units of its bend.
+    #[must_use]
+    pub fn moved(&self, p: Point) -> Vec2 {
+        let bend = self.bend.as_ref();
+        bend.map_or(Vec2::ZERO, |(bend, _)| bend.at(self.before.at(p)))
     }
 }
 
 impl From<View> for Surface {
     /// A page that lies flat.
     fn from(view: View) -> Self {
-        Self { view, bend: None }
+        Self {
+            before: Affine::IDENTITY.into(),
+            bend: None,
+            after: view,
+        }
+    }
+}
+
+impl From<Affine> for Surface {
+    fn from(map: Affine) -> Self {
+        View::from(map).into()
+    }
+}
+
+impl Mul<Affine> for &Surface {
+    type Output = Surface;
+
+    /// First `then`, then `self`, as with [`Affine`].
+    fn mul(self, then: Affine) -> Surface {
+        let new = self.clone();
+        if self.bend.is_none() {
+            (self.after * View::from(then)).into()
+        } else {
+            Surface {
+                before: self.before * View::from(then),
+                ..new
+            }
+        }
+    }
+}
+
+impl Mul<&Surface> for Affine {
+    type Output = Surface;
+
+    fn mul(self, then: &Surface) -> Surface {
+        Surface {
+            after: View::from(self) * then.after,
+            ..then.clone()
+        }
     }
 }
 
 /// A coordinate of a place that was seen elsewhere than where it would be on a flat page.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Seen {
+pub struct Seen {
     /// The place on the page, mm.
-    pub(super) at: Point,
+    pub at: Point,
     /// Which coordinate: 0 for x, 1 for y.
-    pub(super) axis: usize,
+    pub axis: usize,
     /// How far it has moved, mm.
-    pub(super) by: f64,
+    pub by: f64,
     /// What it counts.
-    pub(super) weight: f64,
+    pub weight: f64,
 }
 
 /// Distance of the knots, mm; a sixteenth of the page's longer side where that is more.
 const KNOTS_MM: f64 = 25.0;
 /// What squared derivatives cost beside squared distances, for each mm²: of second rank, mm², and of third, mm⁴.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Stiffness([f64; 2]);
+pub struct Stiffness([f64; 2]);
 
 impl Stiffness {
     /// What was not seen goes on straight.
-    pub(super) const STRAIGHT: Self = Self([6.0, 0.0]);
+    pub const STRAIGHT: Self = Self([6.0, 0.0]);
     /// What was not seen goes on as bent as it was, and straight from some 100 mm on. Where guides lie all over a page,
     /// waves of 60 mm keep 0.99 of their height.
-    pub(super) const CURVED: Self = Self([0.01, 100.0]);
+    pub const CURVED: Self = Self([0.01, 100.0]);
+    /// The same of what is seen along lines alone, some 25 mm apart: what one of them does by itself is no bend.
+    pub const SHARED: Self = Self([0.01, 1e4]);
 }
 
 /// Rounds in which what was seen amiss loses its weight, and the distance at which half of it is lost, mm.
 const ROUNDS: usize = 4;
 const AMISS_MM: f64 = 0.1;
+/// Most steps to where a place was, and how near they come.
+const BACK: usize = 30;
+const EXACT: f64 = 1e-7;
 /// Places in each field of knots at which its stiffness is taken, and Gauss' weights and places for them.
 const GAUSS: [(f64, f64); 3] = [
     (0.112_701_665_379_258_3, 5.0 / 18.0),
@@ -104,7 +196,7 @@ const GAUSS: [(f64, f64); 3] = [
 
 /// How a page is bent within the plane of its marks: cubic B-splines of both coordinates over a lattice of knots.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Bend {
+pub struct Bend {
     /// Fields of knots from side to side and from top to foot.
     fields: [usize; 2],
     /// Their sizes, mm.
@@ -115,7 +207,7 @@ pub(super) struct Bend {
 
 impl Bend {
     /// The smooth bend of a page that was seen so; `None` where too little was seen to say one.
-    pub(super) fn fitted(size: Size, seen: &[Seen], stiffness: Stiffness) -> Option<Self> {
+    pub fn fitted(size: Size, seen: &[Seen], stiffness: Stiffness) -> Option<Self> {
         let knots = KNOTS_MM.max(size.max_side() / 16.0);
         let fields = [size.width, size.height].map(|side| index((side / knots).ceil()).max(1));
         let step = Vec2::new(
@@ -223,8 +315,39 @@ impl Bend {
         sum
     }
 
-    fn at(&self, p: Point) -> Vec2 {
+    /// How far a place lies from where it would be flat.
+    #[must_use]
+    pub fn at(&self, p: Point) -> Vec2 {
         self.sum(p, [0, 0])
+    }
+
+    /// How fast it changes near a place at most, as a share of the way.
+    #[must_use]
+    pub fn slope(&self, p: Point) -> f64 {
+        let [x, y] = self.slopes(p);
+        x.hypot().max(y.hypot())
+    }
+
+    /// The affine map that it is near one place: from there to where that lies.
+    fn near(&self, p: Point) -> Affine {
+        let [x, y] = self.slopes(p);
+        let turn = Affine::new([1.0 + x.x, x.y, y.x, 1.0 + y.y, 0.0, 0.0]);
+        Affine::translate((p + self.at(p)).to_vec2()) * turn * Affine::translate(-p.to_vec2())
+    }
+
+    /// The place that lies at `p`.
+    #[must_use]
+    pub fn before(&self, p: Point) -> Point {
+        // bends are slight: each step leaves a twentieth or so
+        let steps = iter::successors(Some(p - self.at(p)), |q| Some(p - self.at(*q)));
+        let mut steps = steps.take(BACK);
+        let mut last = p;
+        let near = steps.find(|q| {
+            let off = q.distance(last);
+            last = *q;
+            off < EXACT
+        });
+        near.unwrap_or(last)
     }
 
     /// How it changes along x and along y.
@@ -321,6 +444,31 @@ mod tests {
     fn nothing_seen_is_flat() {
         let bend = Bend::fitted(SIZE, &[], Stiffness::STRAIGHT).expect("a bend");
         assert!(places().all(|p| bend.at(p).hypot() < 1e-12));
+    }
+
+    #[test]
+    fn there_and_back_is_where_one_was() {
+        let view = View::of_pencils([1.1, 0.05, -0.03, 0.97, 2e-4, -1e-4]);
+        let bend = Bend::fitted(SIZE, &seen(bent), Stiffness::CURVED).expect("a bend");
+        let steepest = inner().map(|p| bend.slope(p)).fold(0.0, f64::max);
+        assert!((0.01..0.03).contains(&steepest), "{steepest}");
+        let scaled = Affine::translate((7.0, -3.0)) * Affine::scale(0.2);
+        let page = &Surface::from(view).with_bend(bend) * scaled;
+        let back = page.inverse();
+        let turned = Affine::scale(3.0) * &back;
+        for p in places().map(|p| scaled.inverse() * p) {
+            let there = page.at(p);
+            assert!(back.at(there).distance(p) < 1e-5);
+            assert!(back.inverse().at(p).distance(there) < 1e-9);
+            assert!((back.near(there) * there).distance(p) < 1e-5);
+            let both = back.near(there) * page.near(p);
+            let off = both
+                .as_coeffs()
+                .into_iter()
+                .zip(Affine::IDENTITY.as_coeffs());
+            assert!(off.take(4).all(|(a, b)| (a - b).abs() < 1e-5), "{both:?}");
+            assert!(turned.at(there).distance(Affine::scale(3.0) * p) < 1e-4);
+        }
     }
 
     #[test]
