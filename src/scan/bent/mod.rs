@@ -228,8 +228,8 @@ fn levels(lines: &[Line], middle: f64) -> Vec<f64> {
     places.iter().map(|p| level + pitch * (p - at)).collect()
 }
 
-/// How far lines are apart in the middle of a page, by the cubic through where they were `found`: there neither lens nor
-/// bow stretch a page more one way than the other. Of few lines the straight one through them tells it.
+/// How far lines are apart in the middle of a page, by the cubic through where they were `found`: there neither lens
+/// nor bow stretch a page more one way than the other. Of few lines the straight one through them tells it.
 fn pitch_amid(places: &[f64], found: &[f64]) -> Option<f64> {
     let ends = || places.iter().copied();
     let (low, high) = (ends().reduce(f64::min)?, ends().reduce(f64::max)?);

@@ -2,8 +2,8 @@
 //!
 //! What lies nearer to other ink than to its own, and what stands out of the noise far from its own, becomes
 //! paper. The pixels are the scan's own; where the letter lies askew on them its picture says how it stands upright.
-//! Where a page is seen in perspective, or bent, they are interpolated once, by a kernel that keeps what the scanner could
-//! resolve ([`lanczos`]).
+//! Where a page is seen in perspective, or bent, they are interpolated once, by a kernel that keeps what the scanner
+//! could resolve ([`lanczos`]).
 //!
 //! [`lanczos`]: crate::numeric::lanczos
 
