@@ -13,6 +13,7 @@ use super::streaks::InkStreaks;
 use crate::numeric::cast::{index, single};
 use crate::types::{Gray, Sheet};
 use rayon::prelude::*;
+use std::ops::Range;
 
 /// Standard deviations of the paper's noise above which a pixel may be ink.
 const NOISE: f32 = 6.0;
@@ -27,6 +28,9 @@ const BINS: usize = 1280;
 
 /// A page that covers less than this share of its picture is surely surrounded by something else.
 const SURROUNDED: f64 = 0.5;
+/// A table's grain swallows so much of its light, and so large a share of what lies beside the page shows it: 0.5 to
+/// 0.6 of wood and cloth, 0.02 of paper in a shadow with letters on it.
+const GRAINY: (Range<f32>, f64) = (0.1..0.5, 0.2);
 
 /// What becomes of ink that is not one even tone.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -64,16 +68,16 @@ impl Page {
 }
 
 /// Evens out the light of a page, of two levels once its steps are softened ([`softened`]). Where the paper covers
-/// less than half of the picture, what lies beside it counts for nothing.
+/// less than half of the picture, or what lies beside it is all grain, that counts for nothing.
 ///
 /// # Errors
 /// Nothing on the page is darker than its paper.
 pub fn clean(sheet: Sheet, texture: Texture) -> Result<Page, ScanError> {
     let sheet = grey(sheet);
     let field = Field::measure(&sheet.gray);
-    let found = field.paper();
+    let found = field.paper(sheet.colours.as_ref());
     let seen = match found {
-        Some(p) if is_surrounded(&p) => (Some(p), None),
+        Some(p) if is_surrounded(&p, &sheet.gray, &field) => (Some(p), None),
         other => (None, other),
     };
     even(sheet, &field, seen, texture)
@@ -88,8 +92,8 @@ pub fn clean(sheet: Sheet, texture: Texture) -> Result<Page, ScanError> {
 pub fn clean_otherwise(sheet: Sheet, texture: Texture) -> Result<Option<Page>, ScanError> {
     let sheet = grey(sheet);
     let field = Field::measure(&sheet.gray);
-    let seen = field.paper().map(|p| {
-        if is_surrounded(&p) {
+    let seen = field.paper(sheet.colours.as_ref()).map(|p| {
+        if is_surrounded(&p, &sheet.gray, &field) {
             (None, Some(p))
         } else {
             (Some(p), None)
@@ -100,8 +104,16 @@ pub fn clean_otherwise(sheet: Sheet, texture: Texture) -> Result<Option<Page>, S
 }
 
 /// Whether a page is surely surrounded by something else.
-fn is_surrounded(paper: &Paper) -> bool {
-    paper.share < SURROUNDED
+fn is_surrounded(paper: &Paper, gray: &Gray, field: &Field) -> bool {
+    if paper.share < SURROUNDED {
+        return true;
+    }
+    let rim = paper.rim();
+    let is_beyond = |x, y| !paper.holds(x, y) && !rim.holds(x, y);
+    let beyond = histogram(gray, field, is_beyond, step(gray));
+    let grain = (0..BINS).filter(|&i| GRAINY.0.contains(&level(i)));
+    let grain: usize = grain.map(|i| beyond[i]).sum();
+    grain as f64 > GRAINY.1 * beyond.iter().sum::<usize>() as f64
 }
 
 /// The sheet in grey levels, softened where it has but two.
@@ -170,8 +182,8 @@ struct Levels {
 
 impl Levels {
     fn measure(gray: &Gray, field: &Field, paper: Option<&Paper>) -> Option<Self> {
-        let step = (gray.width().min(gray.height()) / 1500).max(1);
-        let histogram = histogram(gray, field, paper, step);
+        let counts = |x, y| paper.is_none_or(|p| p.holds(x, y));
+        let histogram = histogram(gray, field, counts, step(gray));
         let peak = (0..BINS).max_by_key(|&i| histogram[i])?;
         let paper = level(peak);
         let below = (0..peak).map(|i| (f64::from(level(i) - paper).powi(2), histogram[i]));
@@ -204,15 +216,25 @@ fn level(bin: usize) -> f32 {
     1.25 * (bin as f32 + 0.5) / BINS as f32 - 0.25
 }
 
-/// Every `step`-th sample of every `step`-th row, light divided out.
-fn histogram(gray: &Gray, field: &Field, paper: Option<&Paper>, step: usize) -> Vec<usize> {
+/// How far the samples lie apart that tell a picture's levels, px.
+fn step(gray: &Gray) -> usize {
+    (gray.width().min(gray.height()) / 1500).max(1)
+}
+
+/// The samples that count, of every `step`-th one of every `step`-th row, light divided out.
+fn histogram(
+    gray: &Gray,
+    field: &Field,
+    counts: impl Fn(usize, usize) -> bool + Sync,
+    step: usize,
+) -> Vec<usize> {
     let rows: Vec<usize> = (0..gray.height()).step_by(step).collect();
     let add = |mut sum: Vec<usize>, &y: &usize| {
         let mut buffer = Vec::new();
         field.row(y, &mut buffer);
         let pixels = gray.row(y).iter().zip(field.along(&buffer)).enumerate();
         for (x, (v, light)) in pixels.step_by(step) {
-            if paper.is_some_and(|p| !p.holds(x, y)) {
+            if !counts(x, y) {
                 continue;
             }
             let place = f64::from(reflected(*v, light) + 0.25) / 1.25;

@@ -5,8 +5,9 @@
 
 use super::paper::{Paper, beside, is_outermost, regions};
 use crate::numeric::median::quantile;
-use crate::types::Gray;
+use crate::types::{Colours, Gray};
 use rayon::prelude::*;
+use std::cmp::Reverse;
 
 /// Blocks along the shorter side of a page: shadows are wider than 1/100 of it.
 const BLOCKS: usize = 100;
@@ -58,9 +59,26 @@ impl Field {
         field
     }
 
-    /// Where the picture shows more than a page, the blocks of the page.
-    pub(super) fn paper(&self) -> Option<Paper> {
-        Paper::find(&self.values, self.columns, self.block)
+    /// Where the picture shows more than a page, the blocks of the page; `colours` are the picture's.
+    pub(super) fn paper(&self, colours: Option<&Colours>) -> Option<Paper> {
+        let hue = |i: usize| colours.map_or([0.0; 2], |c| self.hue(c, i));
+        let hues: Vec<[f32; 2]> = (0..self.values.len()).into_par_iter().map(hue).collect();
+        Paper::find((&self.values, &hues), self.columns, self.block)
+    }
+
+    /// The shares of red and of blue in the light of a block's lighter half.
+    fn hue(&self, colours: &Colours, i: usize) -> [f32; 2] {
+        let (x0, y0) = (i % self.columns * self.block, i / self.columns * self.block);
+        let places = |from: usize| (from..from + self.block).step_by(colours.block.max(1));
+        let all = places(y0).flat_map(|y| places(x0).map(move |x| (x, y)));
+        let lights = all.map(|(x, y)| colours.at(x, y).map(|v| u32::from(u8::MAX - v)));
+        let mut lights: Vec<[u32; 3]> = lights.collect();
+        lights.sort_unstable_by_key(|light| Reverse(light.iter().sum::<u32>()));
+        let lighter = &lights[..lights.len().div_ceil(2)];
+        let of = |part: usize| lighter.iter().map(|light| light[part]).sum::<u32>() as f32;
+        let [red, green, blue] = [of(0), of(1), of(2)];
+        let whole = (red + green + blue).max(1.0);
+        [red / whole, blue / whole]
     }
 
     /// Ink that is wider than the opening's window gets the level of the paper on its four sides, the nearer the

@@ -8,6 +8,9 @@ use kurbo::{Point, Rect};
 
 /// Neighbouring blocks of one sheet of paper differ by less than this, of black against white.
 const STEP: f32 = 0.03;
+/// And their shares of red and blue light by less than this, of all light, where a corner of the page is as dark as the
+/// table.
+const HUE: f32 = 0.012;
 /// The page covers at least this share of the picture.
 const LEAST: f64 = 0.1;
 /// A page that covers more than this share of the picture is all of it: the rest are corners and punched holes.
@@ -27,24 +30,29 @@ pub(super) struct Paper {
 }
 
 impl Paper {
-    /// Finds the page among the paper levels of a picture's blocks; `None` where the picture shows nothing else,
-    /// or no region is large enough to be a page.
-    pub(super) fn find(levels: &[f32], columns: usize, block: usize) -> Option<Self> {
-        let regions = regions(levels.len(), columns, |a, b| {
-            (levels[a] - levels[b]).abs() < STEP
-        });
-        let mut light = vec![0.0f32; levels.len()];
-        for (&r, level) in regions.iter().zip(levels) {
-            light[r] += (1.0 - level).powi(2);
-        }
-        let page = (0..levels.len()).max_by(|&a, &b| light[a].total_cmp(&light[b]))?;
-        let inside = with_holes(&regions, page, columns);
-        let share = inside.iter().filter(|i| **i).count() as f64 / levels.len() as f64;
-        (LEAST..MOST).contains(&share).then_some(Self {
-            block,
-            columns,
-            inside,
-            share,
+    /// Finds the page among a picture's blocks by their paper levels, or, where these do not part it from what lies
+    /// beside it, by their shares of red and of blue light, too; `None` where the picture shows nothing else, or no
+    /// region is large enough to be a page.
+    pub(super) fn find(
+        (levels, hues): (&[f32], &[[f32; 2]]),
+        columns: usize,
+        block: usize,
+    ) -> Option<Self> {
+        let is_level = |a: usize, b: usize| (levels[a] - levels[b]).abs() < STEP;
+        let is_hue = |a: usize, b: usize| (0..2).all(|i| (hues[a][i] - hues[b][i]).abs() < HUE);
+        let page = |regions: Vec<usize>| {
+            let inside = lightest(&regions, levels, columns)?;
+            let share = inside.iter().filter(|i| **i).count() as f64 / levels.len() as f64;
+            (LEAST..MOST).contains(&share).then_some(Self {
+                block,
+                columns,
+                inside,
+                share,
+            })
+        };
+        page(regions(levels.len(), columns, is_level)).or_else(|| {
+            let is_alike = |a, b| is_level(a, b) && is_hue(a, b);
+            page(regions(levels.len(), columns, is_alike))
         })
     }
 
@@ -136,6 +144,16 @@ fn line(points: &[(f64, f64)], block: f64) -> Option<(f64, f64)> {
     fine.then(|| fit(&on)).filter(|l| l.1.is_finite())
 }
 
+/// The blocks of the region that is large and light, and of the holes in it.
+fn lightest(regions: &[usize], levels: &[f32], columns: usize) -> Option<Vec<bool>> {
+    let mut light = vec![0.0f32; levels.len()];
+    for (&r, level) in regions.iter().zip(levels) {
+        light[r] += (1.0 - level).powi(2);
+    }
+    let page = (0..levels.len()).max_by(|&a, &b| light[a].total_cmp(&light[b]))?;
+    Some(with_holes(regions, page, columns))
+}
+
 /// The blocks of one region and of the holes in it.
 pub(super) fn with_holes(regions: &[usize], one: usize, columns: usize) -> Vec<bool> {
     let outside: Vec<bool> = regions.iter().map(|&r| r != one).collect();
@@ -211,9 +229,27 @@ mod tests {
         (0..600).map(level).collect()
     }
 
+    /// The page among blocks of one hue, 10 px wide.
+    fn found(levels: &[f32], columns: usize) -> Option<Paper> {
+        Paper::find((levels, &vec![[0.33; 2]; levels.len()]), columns, 10)
+    }
+
+    #[test]
+    fn a_page_on_a_table_as_light_as_it_is_told_by_its_hue() {
+        let levels = vec![0.3; 600];
+        assert!(found(&levels, 30).is_none());
+        let hue = |i: usize| {
+            let page = (3..22).contains(&(i % 30)) && (2..19).contains(&(i / 30));
+            if page { [0.33, 0.34] } else { [0.41, 0.28] }
+        };
+        let hues: Vec<[f32; 2]> = (0..600).map(hue).collect();
+        let page = Paper::find((&levels, &hues), 30, 10).unwrap();
+        assert!(page.holds(35, 25) && !page.holds(25, 25) && !page.holds(225, 100));
+    }
+
     #[test]
     fn a_page_on_a_table_is_told_from_it() {
-        let paper = Paper::find(&table(3..22, 2..19), 30, 10).unwrap();
+        let paper = found(&table(3..22, 2..19), 30).unwrap();
         assert!(paper.holds(35, 25) && paper.holds(215, 185) && paper.holds(95, 65));
         assert!(!paper.holds(25, 25) && !paper.holds(225, 100) && !paper.holds(299, 199));
         assert!(!paper.holds(5000, 5000));
@@ -228,7 +264,7 @@ mod tests {
             if page { 0.05 } else { 0.7 }
         };
         let levels: Vec<f32> = (0..2400).map(level).collect();
-        let [left, right] = Paper::find(&levels, 60, 10).unwrap().sides().unwrap();
+        let [left, right] = found(&levels, 60).unwrap().sides().unwrap();
         assert!(
             (left.1 + 0.2).abs() < 0.02 && (left.0 - 204.0).abs() < 8.0,
             "{left:?}"
@@ -241,7 +277,7 @@ mod tests {
 
     #[test]
     fn a_page_that_fills_its_picture_needs_no_telling() {
-        assert!(Paper::find(&table(0..30, 0..20), 30, 10).is_none());
-        assert!(Paper::find(&[], 0, 10).is_none());
+        assert!(found(&table(0..30, 0..20), 30).is_none());
+        assert!(found(&[], 0).is_none());
     }
 }

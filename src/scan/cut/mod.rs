@@ -102,7 +102,7 @@ pub enum Reason {
     Outside,
     /// Its cell is marked to be skipped.
     Skipped,
-    /// The edge of the scan: it touches the picture's border and is far larger than a letter.
+    /// The edge of the scan: it touches the picture's border and is far larger than a letter, or thinner than a stroke.
     Border,
     /// It is of another colour than the letters' ink.
     OtherInk,

@@ -62,7 +62,8 @@ pub(super) fn sort(all: Vec<Component>, page: &Page, options: &Options) -> Resul
     small.retain(|c| c.area as f64 >= least * (LEAST_DOT / SPECK).powi(2));
     take(&mut other);
     take(&mut beyond);
-    let borders = take_borders(&mut letters, (gray.width(), gray.height()));
+    let thin = SPECK * stroke_width(&letters);
+    let borders = take_borders(&mut letters, (gray.width(), gray.height()), thin);
     let borders = borders.iter().map(|c| Rejected::of(c, Reason::Border));
     let other = other.iter().map(|c| Rejected::of(c, Reason::OtherInk));
     let beyond = beyond.iter().map(|c| Rejected::of(c, Reason::OffPage));
@@ -151,12 +152,17 @@ pub(super) fn stroke_width(all: &[Component]) -> f64 {
     weighted(letters.map(|c| (c.stroke(), c.area))).unwrap_or(1.0)
 }
 
-/// Takes out ink that touches the picture's border and reaches along half of a side.
-fn take_borders(all: &mut Vec<Component>, size: (usize, usize)) -> Vec<Component> {
+/// Takes out ink that touches the picture's border and reaches along half of a side, or lies within `thin` px of the
+/// border: what a scanning program leaves of the table.
+fn take_borders(all: &mut Vec<Component>, size: (usize, usize), thin: f64) -> Vec<Component> {
     let (w, h) = (size.0 as f64, size.1 as f64);
-    let long = |c: &Component| c.bounds.width() > w / 2.0 || c.bounds.height() > h / 2.0;
-    all.extract_if(.., |c| at_edge(c, size) && long(c))
-        .collect()
+    let is_border = |c: &Component| {
+        let Rect { x0, y0, x1, y1 } = c.bounds;
+        let long = x1 - x0 > w / 2.0 || y1 - y0 > h / 2.0;
+        let beside = x1 <= thin || y1 <= thin || x0 >= w - thin || y0 >= h - thin;
+        at_edge(c, size) && (long || beside)
+    };
+    all.extract_if(.., |c| is_border(c)).collect()
 }
 
 /// Whether a piece of ink touches the border of a picture of this size.

@@ -1,42 +1,41 @@
 //! Printed boxes, each around one letter: separate frames or the meshes of ruled lines.
-//!
-//! A box is seen by its inside: paper that ink encloses. Slanted, warped and touched boxes enclose their
-//! paper all the same; gaps in a line close at the reduced size at which they are looked for.
 
+use super::frames::frames;
 use super::named::{Place, named};
 use super::rows::rows;
 use super::{Task, listed};
-use crate::scan::components::{Component, Touch, enclosed};
+use crate::scan::components::Component;
 use crate::scan::cut::{Layer, Levels, Reason};
 use crate::scan::error::Fault;
 use crate::scan::options::Order;
 use crate::types::{Direction, Label};
-use kurbo::{Affine, Rect};
+use kurbo::Rect;
 use std::mem;
 
-/// Longer side of the reduced picture in which boxes are looked for, px.
-const REDUCED: usize = 1800;
-/// Side of a box at least, as a share of the picture's shorter side.
-const LEAST_SIDE: f64 = 0.015;
-/// Share of a box's rectangle that is paper at least.
-const PAPER: f64 = 0.55;
-/// How far a box's sides may differ from the usual ones, as a share.
-const ALIKE: f64 = 0.25;
 /// Share of a box's side along its line in which ink that reaches the line is taken for line.
 const RIM: f64 = 0.07;
 /// Least ink that boxes hold, as a share of what lies outside them: more can be printed beside boxes than is written
 /// in them.
 const HELD: f64 = 0.25;
 
-/// Shares the ink out to the boxes. Pieces of ink that a letter forms with its box are cut free and appended
-/// to `all`.
+/// Shares the ink out to the boxes that are found.
 pub(super) fn place(
     all: &mut Vec<Component>,
     labels: &[Label],
     task: &Task<'_>,
 ) -> Result<Layer, Fault> {
-    let frames = frames(task);
-    let order = rows(&frames);
+    let frames = frames(all, task, labels.len());
+    share(all, &frames, labels, task)
+}
+
+/// Shares the ink out to boxes. Pieces of ink that a letter forms with its box are cut free and appended to `all`.
+pub(super) fn share(
+    all: &mut Vec<Component>,
+    frames: &[Rect],
+    labels: &[Label],
+    task: &Task<'_>,
+) -> Result<Layer, Fault> {
+    let order = rows(frames);
     let rows: Vec<usize> = order.iter().map(Vec::len).collect();
     listed::check(&task.options.lines, (Order::Rows, &rows))?;
     let mut rejected = Vec::new();
@@ -125,37 +124,4 @@ fn reaches(ink: Rect, frame: Rect) -> bool {
 /// Whether a piece of ink lies along one side of a box.
 fn in_rim(ink: Rect, frame: Rect) -> bool {
     !ink.overlaps(free(frame))
-}
-
-/// Insides of the boxes that are most alike, upright px.
-fn frames(task: &Task<'_>) -> Vec<Rect> {
-    let (w, h) = (task.gray().width(), task.gray().height());
-    let step = w.max(h).div_ceil(REDUCED).max(1);
-    let least = LEAST_SIDE * w.min(h) as f64;
-    let middle = |c: &Component| {
-        let scaled = task.upright * Affine::scale(step as f64);
-        let mut turned = c.clone();
-        turned.stand(&scaled);
-        turned.upright
-    };
-    // blocks of the reduced picture without any ink
-    let is_paper = |x: usize, y: usize| {
-        let mut rows = (y * step..(y + 1) * step).map(|row| task.gray().row(row));
-        !rows.any(|row| row[x * step..(x + 1) * step].iter().any(|&v| v >= task.low))
-    };
-    let papers = enclosed((w / step, h / step), Touch::Sides, is_paper);
-    let boxes: Vec<Rect> = papers
-        .iter()
-        .filter(|c| c.area as f64 > PAPER * c.bounds.area())
-        .map(middle)
-        .filter(|b| b.width() > least && b.height() > least)
-        .collect();
-    let alike = |a: &Rect, b: &Rect| {
-        (a.width() / b.width() - 1.0).abs() < ALIKE && (a.height() / b.height() - 1.0).abs() < ALIKE
-    };
-    let size = |b: &Rect| boxes.iter().filter(|o| alike(o, b)).count() as f64 * b.area().sqrt();
-    let usual = boxes.iter().max_by(|a, b| size(a).total_cmp(&size(b)));
-    usual.map_or_else(Vec::new, |u| {
-        boxes.iter().filter(|b| alike(b, u)).copied().collect()
-    })
 }

@@ -2,6 +2,7 @@
 //! page.
 
 mod boxes;
+mod frames;
 mod free;
 mod grid;
 mod listed;

@@ -128,7 +128,7 @@ fn stacked(boxes: &[Rect], one: &[usize], other: &[usize]) -> bool {
 }
 
 /// Whether two boxes share half of the narrower one's width.
-fn lies_over(a: &Rect, b: &Rect) -> bool {
+pub(super) fn lies_over(a: &Rect, b: &Rect) -> bool {
     a.x1.min(b.x1) - a.x0.max(b.x0) > a.width().min(b.width()) / 2.0
 }
 

@@ -32,12 +32,14 @@ pub(super) fn warning(page: &Page) -> Option<Warning> {
     if page.averaged_px > 0.0 {
         return Some(Warning::of_averaged(page.averaged_px));
     }
-    followed(&page.sheet.gray, page.texture.grain).map(Warning::of_page)
+    let counts = |x, y| page.paper().is_none_or(|p| p.holds(x, y));
+    followed(&page.sheet.gray, counts, page.texture.grain).map(Warning::of_page)
 }
 
-/// What is said of a page, paper 0 and ink 1, much of whose ink is grain that outlines follow.
-fn followed(gray: &Gray, grain: InkGrain) -> Option<String> {
-    let share = share(gray);
+/// What is said of a page, paper 0 and ink 1, much of whose ink is grain that outlines follow: that of the pixels that
+/// count, not a table's.
+fn followed(gray: &Gray, counts: impl Fn(usize, usize) -> bool, grain: InkGrain) -> Option<String> {
+    let share = share(gray, counts);
     let ours = match grain {
         InkGrain::Soften => "",
         InkGrain::Keep => "write grain = \"soften\" under [[sheet]]; where that finds no grain, ",
@@ -51,14 +53,14 @@ fn followed(gray: &Gray, grain: InkGrain) -> Option<String> {
     })
 }
 
-/// The part of the ink that is grey and rough, and no edge.
-fn share(gray: &Gray) -> f32 {
+/// The part of the ink that is grey and rough, and no edge, of the pixels that count.
+fn share(gray: &Gray, counts: impl Fn(usize, usize) -> bool) -> f32 {
     let (mut inked, mut grainy) = (0_usize, 0_usize);
     for y in 2..gray.height().saturating_sub(2) {
         let rows = [y - 2, y - 1, y, y + 1, y + 2].map(|y| gray.row(y));
         for x in 2..rows[2].len().saturating_sub(2) {
             let v = rows[2][x];
-            if v >= INK {
+            if v >= INK && counts(x, y) {
                 inked += 1;
                 grainy += usize::from(v < GREY && is_grain(rows, x));
             }
@@ -101,11 +103,11 @@ mod tests {
         };
         let pencil = bars(|| if noise() < 0.4 { 0.2 } else { 1.0 });
         for (grain, names_it) in [(InkGrain::Soften, false), (InkGrain::Keep, true)] {
-            let told = followed(&pencil, grain).expect("grain");
+            let told = followed(&pencil, |_, _| true, grain).expect("grain");
             assert!(told.contains("grey grain"), "{told}");
             assert_eq!(told.contains("grain = \"soften\""), names_it, "{told}");
         }
-        let followed = |gray: &Gray| followed(gray, InkGrain::Keep);
+        let followed = |gray: &Gray| followed(gray, |_, _| true, InkGrain::Keep);
         assert!(
             followed(&bars(|| 0.85 + 0.3 * noise())).is_none(),
             "the grain of paper"

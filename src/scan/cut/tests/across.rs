@@ -142,3 +142,23 @@ fn letters_drawn_alike_show_how_hidden_edges_go_on() {
         "the hook"
     );
 }
+
+#[test]
+fn low_letters_close_below_high_ones_are_a_row() {
+    let mut paper = Paper::new(700, 420, 0.0);
+    for i in 0..6 {
+        let x = 80.0 + 90.0 * f64::from(i);
+        paper.letter('n', x, 130.0);
+        paper.letter('p', x, 200.0);
+        if i < 4 {
+            // 5 px below the tails of the row above
+            paper.letter('n', x + 4.0, 260.0);
+        }
+    }
+    let names = "n n n n n n p p p p p p n n n n";
+    let cut = cut_page(&paper, names, &options(Layout::Free)).unwrap();
+    let feet: Vec<f64> = cut.cells.iter().map(|c| c.in_sheet.y1.round()).collect();
+    let is_low = |y: &f64| (y - 260.0).abs() < 3.0;
+    assert!(feet[12..].iter().all(is_low), "{feet:?}");
+    assert!(!feet[..12].iter().any(is_low), "{feet:?}");
+}

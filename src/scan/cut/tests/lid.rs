@@ -98,3 +98,47 @@ fn a_shadow_over_half_of_a_page_can_be_read_as_the_page() {
         .expect("another way");
     assert_eq!(cut(&page).unwrap().cells.len(), 20);
 }
+
+#[test]
+fn slivers_at_the_border_are_what_a_scanning_program_left_of_the_table() {
+    let mut sheet = grid_page(0.0).scan();
+    let sliver = |x: usize, y: usize| {
+        y < 4 && (x / 70).is_multiple_of(2) || x >= 697 && (y / 60).is_multiple_of(2)
+    };
+    sheet.gray = Gray::from_fn(700, 500, |x, y| {
+        if sliver(x, y) {
+            0.94
+        } else {
+            sheet.gray.at(x, y)
+        }
+    });
+    let page = clean(sheet, Texture::default()).unwrap();
+    let cut = cut(&page, &labels(NAMES), &options(Layout::Free), &[]).unwrap();
+    assert_eq!(cut.cells.len(), 20);
+    let mut borders = cut.rejected.iter().map(|r| r.reason);
+    assert!(borders.any(|r| r == Reason::Border), "{:?}", cut.rejected);
+}
+
+#[test]
+fn the_grain_of_a_table_is_no_ink() {
+    let plain = grid_page(0.0).scan();
+    let mut seed = 1_u32;
+    let mut noise = || {
+        seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        (seed >> 16) as f32 / 65_536.0
+    };
+    // the page covers two thirds of the picture
+    let gray = Gray::from_fn(860, 620, |x, y| {
+        let on_page = (80..780).contains(&x) && (60..560).contains(&y);
+        let grain = 0.55 + 0.3 * noise();
+        if on_page {
+            plain.gray.at(x - 80, y - 60)
+        } else {
+            grain
+        }
+    });
+    let page = clean(Sheet { gray, ..plain }, Texture::default()).unwrap();
+    assert!(page.paper.is_some(), "the page is told from the table");
+    let cut = cut(&page, &labels(NAMES), &options(Layout::Free), &[]).unwrap();
+    assert_eq!(cut.cells.len(), 20);
+}

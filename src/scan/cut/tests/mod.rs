@@ -1,6 +1,7 @@
 mod across;
 mod bare;
 mod bent;
+mod boxes;
 mod dust;
 mod lid;
 mod paper;

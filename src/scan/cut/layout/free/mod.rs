@@ -10,7 +10,7 @@ mod order;
 mod pieces;
 mod reading;
 
-use super::rows::{nearest, rows};
+use super::rows::{lies_over, nearest, rows};
 use super::ruling;
 use super::touching::Touch;
 use super::{Task, listed};
@@ -26,7 +26,7 @@ use doubts::Unread;
 use kurbo::Rect;
 use lines::Lines;
 use nearest::{Gathered, gather};
-use order::{across, in_rows};
+use order::{Close, across, in_rows};
 use pieces::{Joined, Piece, Tie, Usual, pieces, ties};
 use std::ops::RangeInclusive;
 
@@ -269,7 +269,6 @@ impl Read {
 struct Found {
     pieces: Vec<Piece>,
     ties: Vec<Vec<Tie>>,
-    rows: Vec<Vec<usize>>,
     /// Whether each piece may be dirt.
     dirt: Vec<bool>,
     usual: Usual,
@@ -408,34 +407,71 @@ impl<'a> Bare<'a> {
         let least = DIRT * usual_area(&pieces, letters);
         let is_dirt = |p: &Piece| p.is_mote(usual) || (p.area as f64) < least;
         let ties = ties(&pieces, self.all, usual);
-        let dirt: Vec<bool> = pieces.iter().map(is_dirt).collect();
-        let mut rows = in_rows(&pieces, &ties, usual, |i| dirt[i]);
-        if self.rtl {
-            rows.iter_mut().for_each(|r| r.reverse());
-        }
         Found {
+            dirt: pieces.iter().map(is_dirt).collect(),
             pieces,
             ties,
-            rows,
-            dirt,
             usual,
             scattered,
         }
     }
 
-    /// Reads some ink: pieces, rows, and what each piece is.
+    /// The pieces in rows as they are read.
+    fn rows(&self, found: &Found, close: Close) -> Vec<Vec<usize>> {
+        let usual = (found.usual, close);
+        let mut rows = in_rows(&found.pieces, &found.ties, usual, |i| found.dirt[i]);
+        if self.rtl {
+            rows.iter_mut().for_each(|r| r.reverse());
+        }
+        rows
+    }
+
+    /// Reads some ink: pieces, rows, and what each piece is. Where both ways to find rows can be read, the one in
+    /// which fewer letters of a row lie over each other is right, or the likelier one.
     fn read(&self, ink: &[usize], names: &[Option<Shape>]) -> Result<Read, Unread> {
         let found = self.found(ink, names);
-        let pieces = found.rows.iter().map(Vec::len).sum();
+        let [parts, letters] = [Close::Part, Close::Letter].map(|close| self.rows(&found, close));
+        let one = self.read_rows((ink, &found), &parts, names);
+        if letters == parts {
+            return one;
+        }
+        match (one, self.read_rows((ink, &found), &letters, names)) {
+            (Ok(one), Ok(other)) => {
+                let rank = |r: &Read| (self.stacked(r), r.cost);
+                let ((a, one_cost), (b, other_cost)) = (rank(&one), rank(&other));
+                let first = a.cmp(&b).then(one_cost.total_cmp(&other_cost)).is_le();
+                Ok(if first { one } else { other })
+            }
+            (Err(_), Ok(other)) => Ok(other),
+            (one, Err(_)) => one,
+        }
+    }
+
+    /// How many letters lie over or under the next one of their row.
+    fn stacked(&self, read: &Read) -> usize {
+        let boxes = |row: &Vec<Vec<usize>>| row.iter().map(|l| bounds(self.all, l)).collect();
+        let rows = read.rows.iter().map(boxes);
+        let over = |row: Vec<Rect>| row.windows(2).filter(|w| lies_over(&w[0], &w[1])).count();
+        rows.map(over).sum()
+    }
+
+    /// Reads what was found as rows have it.
+    fn read_rows(
+        &self,
+        (ink, found): (&[usize], &Found),
+        rows: &[Vec<usize>],
+        names: &[Option<Shape>],
+    ) -> Result<Read, Unread> {
+        let pieces = rows.iter().map(Vec::len).sum();
         if names.len().saturating_mul(pieces) > MOST {
             return Err(Unread::crowded(pieces));
         }
-        let lines = Lines::new(&found.pieces, &found.ties, &found.rows, found.usual);
-        let dirt = found.rows.iter().flatten().map(|&i| found.dirt[i]);
+        let lines = Lines::new(&found.pieces, &found.ties, rows, found.usual);
+        let dirt = rows.iter().flatten().map(|&i| found.dirt[i]);
         let (reading, owners) = lines.read(names, &dirt.collect::<Vec<_>>());
         let touching = lines.touching(&reading);
         if !reading.agrees() || !touching.is_empty() {
-            let lengths: Vec<usize> = found.rows.iter().map(Vec::len).collect();
+            let lengths: Vec<usize> = rows.iter().map(Vec::len).collect();
             return Err(Unread::new(&reading, &lengths, touching));
         }
         let letters = lines.letters(&reading, &owners);

@@ -14,6 +14,15 @@ const LIKELY: f64 = 0.5;
 /// What is smaller than a letter belongs to a row within this share of a usual letter's size.
 const REACH: f64 = 0.75;
 
+/// What a piece as large as a letter is that is close to a heavier one, while rows are looked for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Close {
+    /// A part of it, as a stem is that stands apart from its bowl.
+    Part,
+    /// A letter: low ones hang close below those of the row above.
+    Letter,
+}
+
 /// Indices of pieces in rows from the top, each row from the left.
 ///
 /// Letters make the rows. What is smaller or touches one is in the row that it stands in, in that of its letter, or
@@ -21,10 +30,10 @@ const REACH: f64 = 0.75;
 pub(super) fn in_rows(
     pieces: &[Piece],
     ties: &[Vec<Tie>],
-    usual: Usual,
+    (usual, close): (Usual, Close),
     is_dirt: impl Fn(usize) -> bool,
 ) -> Vec<Vec<usize>> {
-    let letters = Letters::new(pieces, ties, usual);
+    let letters = Letters::new(pieces, ties, (usual, close));
     let boxes = letters.boxes(pieces, usual);
     let (frame, mut rest): (Vec<usize>, Vec<usize>) =
         (0..pieces.len()).partition(|&i| letters.is_letter[i]);
@@ -79,12 +88,12 @@ struct Letters {
 }
 
 impl Letters {
-    fn new(pieces: &[Piece], ties: &[Vec<Tie>], usual: Usual) -> Self {
+    fn new(pieces: &[Piece], ties: &[Vec<Tie>], (usual, close): (Usual, Close)) -> Self {
         let all = 0..pieces.len();
         let body: Vec<Option<Tie>> = all.map(|i| heavier(pieces, ties, i)).collect();
         let is_letter = |(piece, body): (&Piece, &Option<Tie>)| match (piece.full(usual), body) {
             (full, None) => full >= LIKELY,
-            (full, Some(body)) => full >= 1.0 && body.off >= CLOSE,
+            (full, Some(body)) => full >= 1.0 && (body.off >= CLOSE || close == Close::Letter),
         };
         Self {
             is_letter: pieces.iter().zip(&body).map(is_letter).collect(),

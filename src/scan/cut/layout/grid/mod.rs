@@ -8,9 +8,9 @@ mod shared;
 
 pub(super) use plan::Plan;
 
-use super::listed;
 use super::named::{Place, named};
 use super::ruling;
+use super::{boxes, frames, listed};
 use crate::scan::components::Component;
 use crate::scan::cut::largest;
 use crate::scan::cut::marks::{self, SMALL, groups};
@@ -18,6 +18,7 @@ use crate::scan::cut::sieve::LATTICE_COVER;
 use crate::scan::cut::{Layer, Levels, Reason, gap};
 use crate::scan::error::Fault;
 use crate::scan::letters::{Pieces, Shape};
+use crate::scan::options::Order;
 use crate::types::Label;
 use axis::Axis;
 use kurbo::{Point, Rect};
@@ -43,6 +44,12 @@ pub(super) fn place(
     plan.too_many(labels)?;
     let lines = lines(all, plan);
     let is_lined = !lines.is_empty();
+    // cells with a label's place between them are boxes: what lies there is no letter's
+    let boxed = is_lined && options.order == Order::Rows;
+    let boxes = boxed.then(|| frames::apart(plan.task, (plan.rows, plan.columns)));
+    if let Some(frames) = boxes.flatten() {
+        return boxes::share(all, &frames, labels, plan.task);
+    }
     let freed = lines
         .iter()
         .flat_map(|&i| ruling::freed(&all[i], plan.task.upright));
