@@ -61,9 +61,11 @@ impl Field {
 
     /// Where the picture shows more than a page, the blocks of the page; `colours` are the picture's.
     pub(super) fn paper(&self, colours: Option<&Colours>) -> Option<Paper> {
-        let hue = |i: usize| colours.map_or([0.0; 2], |c| self.hue(c, i));
-        let hues: Vec<[f32; 2]> = (0..self.values.len()).into_par_iter().map(hue).collect();
-        Paper::find((&self.values, &hues), self.columns, self.block)
+        let hues = || -> Option<Vec<[f32; 2]>> {
+            let all = (0..self.values.len()).into_par_iter();
+            colours.map(|c| all.map(|i| self.hue(c, i)).collect())
+        };
+        Paper::find(&self.values, hues, self.columns, self.block)
     }
 
     /// The shares of red and of blue in the light of a block's lighter half.

@@ -31,15 +31,15 @@ pub(super) struct Paper {
 
 impl Paper {
     /// Finds the page among a picture's blocks by their paper levels, or, where these do not part it from what lies
-    /// beside it, by their shares of red and of blue light, too; `None` where the picture shows nothing else, or no
-    /// region is large enough to be a page.
+    /// beside it, by `hues`, too, their shares of red and of blue light, which a grey picture has not; `None` where the
+    /// picture shows nothing else, or no region is large enough to be a page.
     pub(super) fn find(
-        (levels, hues): (&[f32], &[[f32; 2]]),
+        levels: &[f32],
+        hues: impl FnOnce() -> Option<Vec<[f32; 2]>>,
         columns: usize,
         block: usize,
     ) -> Option<Self> {
         let is_level = |a: usize, b: usize| (levels[a] - levels[b]).abs() < STEP;
-        let is_hue = |a: usize, b: usize| (0..2).all(|i| (hues[a][i] - hues[b][i]).abs() < HUE);
         let page = |regions: Vec<usize>| {
             let inside = lightest(&regions, levels, columns)?;
             let share = inside.iter().filter(|i| **i).count() as f64 / levels.len() as f64;
@@ -51,6 +51,8 @@ impl Paper {
             })
         };
         page(regions(levels.len(), columns, is_level)).or_else(|| {
+            let hues = hues()?;
+            let is_hue = |a: usize, b: usize| (0..2).all(|i| (hues[a][i] - hues[b][i]).abs() < HUE);
             let is_alike = |a, b| is_level(a, b) && is_hue(a, b);
             page(regions(levels.len(), columns, is_alike))
         })
@@ -229,9 +231,9 @@ mod tests {
         (0..600).map(level).collect()
     }
 
-    /// The page among blocks of one hue, 10 px wide.
+    /// The page among grey blocks, 10 px wide.
     fn found(levels: &[f32], columns: usize) -> Option<Paper> {
-        Paper::find((levels, &vec![[0.33; 2]; levels.len()]), columns, 10)
+        Paper::find(levels, || None, columns, 10)
     }
 
     #[test]
@@ -243,7 +245,7 @@ mod tests {
             if page { [0.33, 0.34] } else { [0.41, 0.28] }
         };
         let hues: Vec<[f32; 2]> = (0..600).map(hue).collect();
-        let page = Paper::find((&levels, &hues), 30, 10).unwrap();
+        let page = Paper::find(&levels, || Some(hues), 30, 10).unwrap();
         assert!(page.holds(35, 25) && !page.holds(25, 25) && !page.holds(225, 100));
     }
 

@@ -9,6 +9,7 @@ use super::rows::rows;
 use crate::numeric::median::median;
 use crate::scan::components::{Component, Touch, enclosed};
 use kurbo::{Affine, Rect};
+use rayon::prelude::*;
 
 /// Longer side of the reduced picture in which boxes are looked for, px.
 const REDUCED: usize = 1800;
@@ -36,9 +37,10 @@ const APART: f64 = 0.1;
 /// names, or the most; where these are fewer, with those of their rows and columns that are not seen, else with those
 /// between others that hold ink.
 pub(super) fn frames(all: &[Component], task: &Task<'_>, names: usize) -> Vec<Rect> {
+    let small = Reduced::of(task);
     let mut most = Seen::default();
     for level in levels(task) {
-        let seen = Seen::from(enclosed_from(task, level));
+        let seen = Seen::from(small.enclosed(task, level));
         if seen.count() > most.count() {
             most = seen;
         }
@@ -81,16 +83,21 @@ impl Seen {
     }
 }
 
-/// The boxes of a table of so many rows and columns whose cells have more than a line between them, as printed labels;
-/// row by row, upright px.
-pub(super) fn apart(task: &Task<'_>, (rows, columns): (usize, usize)) -> Option<Vec<Rect>> {
+/// The boxes of a table of so many rows and columns that hold letters and have more than a line between them, as
+/// printed labels; row by row, upright px.
+pub(super) fn apart(
+    all: &[Component],
+    task: &Task<'_>,
+    (rows, columns): (usize, usize),
+) -> Option<Vec<Rect>> {
+    let small = Reduced::of(task);
     let tables = levels(task).into_iter();
-    let mut tables = tables.filter_map(|level| Table::of(&enclosed_from(task, level)));
+    let mut tables = tables.filter_map(|level| Table::of(&small.enclosed(task, level)));
     let is_whole = |t: &Table| {
         (t.cells.len(), t.columns()) == (rows, columns) && t.full().len() == rows * columns
     };
     let table = tables.find(is_whole);
-    Some(table.filter(Table::is_apart)?.full())
+    Some(table.filter(|t| t.is_apart() && t.holds(all))?.full())
 }
 
 /// The coverages at which boxes are looked for.
@@ -99,29 +106,64 @@ fn levels(task: &Task<'_>) -> [f32; 3] {
     FAINTER.map(|part| (part * task.low).max(floor))
 }
 
-/// Insides of the boxes that are most alike, of lines from a coverage on, upright px.
-fn enclosed_from(task: &Task<'_>, low: f32) -> Vec<Rect> {
-    let (w, h) = (task.gray().width(), task.gray().height());
-    let step = w.max(h).div_ceil(REDUCED).max(1);
-    let least = LEAST_SIDE * w.min(h) as f64;
-    let middle = |c: &Component| {
-        let scaled = task.upright * Affine::scale(step as f64);
-        let mut turned = c.clone();
-        turned.stand(&scaled);
-        turned.upright
-    };
-    // blocks of the reduced picture without any ink
-    let is_paper = |x: usize, y: usize| {
-        let mut rows = (y * step..(y + 1) * step).map(|row| task.gray().row(row));
-        !rows.any(|row| row[x * step..(x + 1) * step].iter().any(|&v| v >= low))
-    };
-    let papers = enclosed((w / step, h / step), Touch::Sides, is_paper);
-    let boxes: Vec<Rect> = papers
-        .iter()
-        .filter(|c| c.area as f64 > PAPER * c.bounds.area())
-        .map(middle)
-        .filter(|b| b.width() > least && b.height() > least)
-        .collect();
+/// A page's picture, reduced so that no line is lost: the darkest coverage of each block.
+struct Reduced {
+    /// Side of a block, px.
+    step: usize,
+    /// Blocks in a row.
+    columns: usize,
+    darkest: Vec<f32>,
+}
+
+impl Reduced {
+    fn of(task: &Task<'_>) -> Self {
+        let gray = task.gray();
+        let (w, h) = (gray.width(), gray.height());
+        let step = w.max(h).div_ceil(REDUCED).max(1);
+        let columns = w / step;
+        let row = |y: usize| {
+            let mut darkest = vec![0.0_f32; columns];
+            for row in (y * step..(y + 1) * step).map(|y| gray.row(y)) {
+                let blocks = row.chunks_exact(step);
+                for (least, block) in darkest.iter_mut().zip(blocks) {
+                    *least = block.iter().fold(*least, |a, &v| if v > a { v } else { a });
+                }
+            }
+            darkest
+        };
+        let rows: Vec<Vec<f32>> = (0..h / step).into_par_iter().map(row).collect();
+        Self {
+            step,
+            columns,
+            darkest: rows.concat(),
+        }
+    }
+
+    /// Insides of the boxes that are most alike, of lines from a coverage on, upright px.
+    fn enclosed(&self, task: &Task<'_>, low: f32) -> Vec<Rect> {
+        let (w, h) = (task.gray().width(), task.gray().height());
+        let least = LEAST_SIDE * w.min(h) as f64;
+        let middle = |c: &Component| {
+            let scaled = task.upright * Affine::scale(self.step as f64);
+            let mut turned = c.clone();
+            turned.stand(&scaled);
+            turned.upright
+        };
+        let is_paper = |x: usize, y: usize| self.darkest[y * self.columns + x] < low;
+        let size = (self.columns, h / self.step);
+        let papers = enclosed(size, Touch::Sides, is_paper);
+        let boxes: Vec<Rect> = papers
+            .iter()
+            .filter(|c| c.area as f64 > PAPER * c.bounds.area())
+            .map(middle)
+            .filter(|b| b.width() > least && b.height() > least)
+            .collect();
+        most_alike(&boxes)
+    }
+}
+
+/// The boxes of one size that are many and large.
+fn most_alike(boxes: &[Rect]) -> Vec<Rect> {
     let alike = |a: &Rect, b: &Rect| {
         (a.width() / b.width() - 1.0).abs() < ALIKE && (a.height() / b.height() - 1.0).abs() < ALIKE
     };
@@ -238,6 +280,13 @@ impl Table {
         let (x0, x1) = (across(|f| f.x0)?, across(|f| f.x1)?);
         let (y0, y1) = (down(|f| f.y0)?, down(|f| f.y1)?);
         self.cells[r][c].or(Some(Rect::new(x0, y0, x1, y1)))
+    }
+
+    /// Whether most of its boxes hold ink: the counters of letters hold none.
+    fn holds(&self, all: &[Component]) -> bool {
+        let seen = || self.cells.iter().flatten().flatten();
+        let holds = |frame: &&Rect| all.iter().any(|c| frame.contains_rect(c.upright));
+        2 * seen().filter(holds).count() > seen().count()
     }
 
     /// Whether its boxes have more than a line between them.

@@ -68,6 +68,7 @@ fn labels_between_the_cells_of_a_table_are_no_letters() {
     let names = ["n p i"; 4].join(" ");
     for (layout, shade) in [
         (Layout::Grid(3, 4), 1.0),
+        (Layout::Grid(3, 4), 0.2),
         (Layout::Boxes, 1.0),
         (Layout::Boxes, 0.2),
     ] {
@@ -78,4 +79,25 @@ fn labels_between_the_cells_of_a_table_are_no_letters() {
             assert!(size.max_side() < 60.0, "{layout:?}, {shade}: {size}");
         }
     }
+}
+
+#[test]
+fn boxes_that_stand_apart_are_a_grid() {
+    let names = BOXED.replacen("n l i l", "_ l i l", 1);
+    let cut = cut_page(&boxed(0.0), &names, &options(Layout::Grid(3, 4))).unwrap();
+    assert_eq!(cut.cells.len(), 11);
+    assert!(cut.cells.iter().all(|c| c.in_sheet.width() < 36.0));
+}
+
+#[test]
+fn the_counters_of_letters_are_no_boxes() {
+    let mut paper = Paper::new(700, 500, 0.0);
+    for i in 0..12 {
+        let (column, row) = (f64::from(i % 4), f64::from(i / 4));
+        paper.letter('p', 90.0 + 150.0 * column, 100.0 + 150.0 * row);
+    }
+    let names = ["p"; 12].join(" ");
+    let cut = cut_page(&paper, &names, &options(Layout::Grid(3, 4))).unwrap();
+    assert_eq!(cut.cells.len(), 12);
+    assert!(cut.cells.iter().all(|c| c.in_sheet.height() > 50.0));
 }

@@ -42,14 +42,14 @@ pub(super) fn place(
     let options = plan.task.options;
     listed::check(&options.lines, (options.order, &plan.lines()))?;
     plan.too_many(labels)?;
-    let lines = lines(all, plan);
-    let is_lined = !lines.is_empty();
-    // cells with a label's place between them are boxes: what lies there is no letter's
-    let boxed = is_lined && options.order == Order::Rows;
-    let boxes = boxed.then(|| frames::apart(plan.task, (plan.rows, plan.columns)));
+    // boxes with a label's place between them: what lies there is no letter's
+    let boxed = options.order == Order::Rows;
+    let boxes = boxed.then(|| frames::apart(all, plan.task, (plan.rows, plan.columns)));
     if let Some(frames) = boxes.flatten() {
         return boxes::share(all, &frames, labels, plan.task);
     }
+    let lines = lines(all, plan);
+    let is_lined = !lines.is_empty();
     let freed = lines
         .iter()
         .flat_map(|&i| ruling::freed(&all[i], plan.task.upright));
