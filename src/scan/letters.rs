@@ -10,13 +10,13 @@ const FLAT: &str = "12ABDEFHIKLMNPRTXYZfhiklmnrxzΑΒΓΔΕΗΙΚΛΜΝΠΡΤΧ�
 /// Letters, figures and signs whose foot is a bow, a dot or a point that dips below the baseline a little.
 const ROUND: &str = "068&!?CGOSUVWabcdeostuvwΘΟΩОСЭЮасеов";
 /// Capitals with a flat head.
-const CAP_HEADS: &str = "BDEFHIKLMNPRTXYZ";
+const CAP_HEADS: &str = "BDEFHIKLMNPRTXYZΒΓΕΖΗΙΚΜΝΠΡΤΥΧБВГЕЖИКМНПРТХЧШ";
 /// Capitals with a bow above.
-const CAP_BOWS: &str = "COSGQ";
+const CAP_BOWS: &str = "COSGQΘΟΩОСЭ";
 /// Small letters with a flat head at x-height.
-const X_HEADS: &str = "xzvwu";
+const X_HEADS: &str = "xzvwuгикмнптхчш";
 /// Small letters with a bow at x-height.
-const X_BOWS: &str = "acemnors";
+const X_BOWS: &str = "acemnorsасео";
 /// Arabic letters whose body stands on the line when nothing follows.
 const ARABIC_STANDING: &str = "اأإآٱدذڈهةطظ";
 /// Arabic letters that end in a bowl which dips below the line when nothing follows.
@@ -304,6 +304,7 @@ mod tests {
             ("beh-ar.init", Foot::Flat, Head::None),
             ("uni062C.medi", Foot::None, Head::None),
             ("uni0628.fina", Foot::Round, Head::None),
+            ("Н", Foot::Flat, Head::Cap),
             ("alef-ar", Foot::Flat, Head::Alef),
             ("ب.fina", Foot::Round, Head::None),
             ("beh-ar.init.ss01", Foot::Flat, Head::None),

@@ -16,6 +16,9 @@ LETTERS = "! \" ' , . :|; ? A B C D|E F G H I J K L|M N O P Q R S T|U V W X Y Z 
 ROUND = "! \" & ' ( )|+ , - . / 0|1 2 3 4 5 6 7 8|9 : ? A B C D E|F G H I J K L M|N O P Q R S T U|V W X Y Z a b c|d e f g h i j k"
 FONT = ("A B C D E F G H I J|K L M N O P Q R S T|U V W X Y Z 0 1 2 3|4 5 6 7 8 9 a b c d|e f g h i j k l m n|o p q r s t u v w x|"
         "y z ! @ # $ % ^ & *|( ) - underscore + = { } bar bracketleft|bracketright backslash : \" ; ' < > ? ,|. /")
+ALL = ("_ _ _ _ _ _ _ _ _ _ _ _ _ _|_ _ _ _ _ _ _ _ _ _ _ _|A B C D E F G H I J K L M N O P Q R S|"
+       "T U V W X Y Z 0 1 2 3 4 5 6 7 8 9 a b|c d e f g h i j k l m n o p q r s t u v|"
+       "w x _ y z ! @ # $ % ^ & _ * ( ) - underscore +|= { } bar bracketleft bracketright backslash : \" ; ' < > ? , . /")
 EEZYCADE = "EEzycade/handwriting-font-software/test-images/full-handwriting/"
 MANISH = "manishgun/hand-written-font-maker/public/"
 # page, layout ("boxes", "free", or the columns of a grid), names of each row
@@ -34,6 +37,8 @@ PAGES = [
     ("GintarasDev/RoundFont/RoundFont_page_0.png", 8, ROUND),
     ("SettSatyaki98/handwritten-image-from-text-file/font.jpg", "boxes", FONT),
     ("SettSatyaki98/handwritten-image-from-text-file/font.jpg", 10, FONT),
+    ("SettSatyaki98/handwritten-image-from-text-file/all.jpg", "free", ALL),
+    ("jsamaviciusstudent/IS-Lab4/letters.jpg", "free", "|".join(["A B C D E F G H I J K"] * 8)),
 ]
 
 

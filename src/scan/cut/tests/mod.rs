@@ -4,6 +4,7 @@ mod bent;
 mod boxes;
 mod dust;
 mod lid;
+mod listed;
 mod paper;
 mod signs;
 mod slopes;

@@ -112,6 +112,13 @@ impl Unread {
         }
     }
 
+    /// Whether its rows have as many letters as names stand in lines, but for one of them.
+    pub(super) fn is_nearly(&self, lines: &[usize]) -> bool {
+        let rows: Vec<usize> = self.rows.iter().copied().filter(|&n| n > 0).collect();
+        let odd = rows.iter().zip(lines).filter(|(a, b)| a != b).count();
+        rows.len() == lines.len() && odd < 2
+    }
+
     /// Of a page of so many pieces of ink, too many for its names.
     pub(super) fn crowded(pieces: usize) -> Self {
         Self {

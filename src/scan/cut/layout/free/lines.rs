@@ -1,7 +1,7 @@
 //! Pieces in reading order, and the letters that they make.
 
 use super::pieces::{Piece, Tie, Usual};
-use super::reading::{Body, Reading, Role, Seen, Side, align, unwanted};
+use super::reading::{Body, Names, Reading, Role, Seen, Side, align, unwanted};
 use crate::scan::cut::layout::rows::beside;
 use crate::scan::cut::layout::touching::Touch;
 use crate::scan::letters::Shape;
@@ -45,16 +45,12 @@ impl<'a> Lines<'a> {
     }
 
     /// What each piece is, and of which name its letter is. `dirt` says which pieces may be none.
-    pub(super) fn read(
-        &self,
-        names: &[Option<Shape>],
-        dirt: &[bool],
-    ) -> (Reading, Vec<Option<usize>>) {
+    pub(super) fn read(&self, names: Names<'_>, dirt: &[bool]) -> (Reading, Vec<Option<usize>>) {
         let mut bodies: Vec<Option<Tie>> = (0..self.pieces.len()).map(|i| self.body(i)).collect();
         let mut seen = self.seen(&bodies, dirt);
         loop {
             let reading = align(&seen, names);
-            let owners = self.share(&reading.roles, names);
+            let owners = self.share(&reading.roles, names.shapes);
             let mut wrong = self.lost(&reading.roles, &owners, dirt);
             let mut others = self.twins(&reading.roles, &bodies);
             others.extend(self.standing(&reading.roles, &bodies));
@@ -162,6 +158,7 @@ impl<'a> Lines<'a> {
             body: bodies[i].map(|b| self.as_body(i, b)),
             within: bodies[i].is_some_and(|b| self.pieces[b.to].holds(piece)),
             dirt: dirt[i],
+            first: i == 0 || self.row[i] != self.row[i - 1],
             letters: piece.letters(self.usual),
         };
         let mut seen: Vec<Seen> = self.pieces.iter().enumerate().map(seen).collect();

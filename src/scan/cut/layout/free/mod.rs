@@ -28,6 +28,7 @@ use lines::Lines;
 use nearest::{Gathered, gather};
 use order::{Close, across, in_rows};
 use pieces::{Joined, Piece, Tie, Usual, pieces, ties};
+use reading::Names;
 use std::ops::RangeInclusive;
 
 /// Thickness of a ruled line or a piece of it at most, as a share of its length.
@@ -85,9 +86,7 @@ pub(super) fn place(
         let index = names.get(k).copied().unwrap_or_default();
         (labels.get(index).map_or("", |l| l.0.as_str()), index + 1)
     };
-    // a row that lacks letters whose places are given says nothing of its line
-    let lines = Some(task.options.lines.as_slice()).filter(|_| claims.is_empty());
-    let given = (names.len(), lines.unwrap_or_default());
+    let given = (names.len(), listed(task));
     let (read, parted) = read(all, &shapes, task).map_err(|unread| unread.error(given, label))?;
     let spare = read.spare.map(|s| [*s.start(), *s.end()].map(|k| names[k]));
     let doubtful = read.doubtful.iter().map(|&k| names[k]).collect();
@@ -109,6 +108,13 @@ pub(super) fn place(
     layer.parted = parted;
     layer.doubtful = doubtful;
     Ok(layer)
+}
+
+/// How many names stand in each line, where lines may be rows: one that lacks letters whose places are given says
+/// nothing of its row.
+fn listed<'a>(task: &Task<'a>) -> &'a [usize] {
+    let lines = Some(task.options.lines.as_slice());
+    lines.filter(|_| task.claims.is_empty()).unwrap_or_default()
 }
 
 fn spare_name(labels: &[Label], among: [usize; 2]) -> Fault {
@@ -145,7 +151,7 @@ fn read(
     let cut: Vec<usize> = cut.collect();
     let whole = read_beside(all, Vec::new(), names, task);
     match (whole, read_beside(&mut other, cut, names, task)) {
-        (Ok(whole), Ok(parted)) if whole.0.cost <= parted.0.cost => Ok(whole),
+        (Ok(whole), Ok(parted)) if whole.0.rank() <= parted.0.rank() => Ok(whole),
         (_, Ok(parted)) => {
             *all = other;
             Ok(parted)
@@ -237,6 +243,8 @@ struct Bare<'a> {
     lines: Vec<usize>,
     /// What was cut off letters that it touched.
     parted: &'a [usize],
+    /// How many names stand in each line, where lines may be rows.
+    listed: &'a [usize],
     /// Of a usual letter, px.
     height: f64,
     /// Of a usual stroke, px.
@@ -253,15 +261,23 @@ struct Read {
     /// Names of which one may be too many.
     spare: Option<RangeInclusive<usize>>,
     cost: f64,
+    /// Whether rows have other numbers of letters than lines have names.
+    astray: bool,
     /// How many pieces were joined that are not surely one.
     scattered: usize,
 }
 
 impl Read {
+    /// What is less of the likelier reading.
+    fn rank(&self) -> (bool, f64) {
+        (self.astray, self.cost)
+    }
+
     /// Whether it is likelier than another one, or of far fewer pieces: labels that were joined to letters look like
     /// letters in pieces.
     fn is_better(&self, other: &Self) -> bool {
-        self.cost < other.cost || other.scattered > 0 && other.scattered >= FEWER * self.scattered
+        self.rank() < other.rank()
+            || other.scattered > 0 && other.scattered >= FEWER * self.scattered
     }
 }
 
@@ -277,7 +293,7 @@ struct Found {
 }
 
 impl<'a> Bare<'a> {
-    fn new(all: &'a [Component], parted: &'a [usize], task: &Task<'_>) -> Self {
+    fn new(all: &'a [Component], parted: &'a [usize], task: &Task<'a>) -> Self {
         let lattices = lattices(all);
         let (height, stroke) = (usual_height(all, &lattices), stroke_width(all));
         let claimed = |i: &usize| task.claims.iter().any(|(_, parts)| parts.contains(i));
@@ -289,6 +305,7 @@ impl<'a> Bare<'a> {
             ink,
             lines,
             parted,
+            listed: listed(task),
             height,
             stroke,
             rtl: task.options.direction == Direction::Rtl,
@@ -372,8 +389,10 @@ impl<'a> Bare<'a> {
         }
         let letter = |&g: &usize| groups[g].clone();
         let row = |row: &Vec<usize>| row.iter().map(letter).collect();
+        let letters: Vec<Vec<Vec<usize>>> = order.iter().map(row).collect();
         Some(Read {
-            rows: order.iter().map(row).collect(),
+            astray: self.is_astray(&letters),
+            rows: letters,
             out,
             doubtful: Vec::new(),
             spare: None,
@@ -426,25 +445,58 @@ impl<'a> Bare<'a> {
         rows
     }
 
-    /// Reads some ink: pieces, rows, and what each piece is. Where both ways to find rows can be read, the one in
-    /// which fewer letters of a row lie over each other is right, or the likelier one.
-    fn read(&self, ink: &[usize], names: &[Option<Shape>]) -> Result<Read, Unread> {
-        let found = self.found(ink, names);
-        let [parts, letters] = [Close::Part, Close::Letter].map(|close| self.rows(&found, close));
-        let one = self.read_rows((ink, &found), &parts, names);
+    /// Reads some ink: pieces, rows, and what each piece is. Where letters do not stand in rows as names do in lines,
+    /// they are read once more as if they did.
+    fn read(&self, ink: &[usize], shapes: &[Option<Shape>]) -> Result<Read, Unread> {
+        let found = self.found(ink, shapes);
+        let rows = [Close::Part, Close::Letter].map(|close| self.rows(&found, close));
+        let read = |lines| self.read_either((ink, &found), &rows, Names { shapes, lines });
+        let free = read(&[]);
+        if self.listed.len() < 2 || free.as_ref().is_ok_and(|r| !r.astray) {
+            return free;
+        }
+        let shifts = |r: &Read| {
+            let lengths: Vec<usize> = r.rows.iter().map(Vec::len).collect();
+            listed::check(self.listed, (Order::Rows, &lengths)).is_err()
+        };
+        // a line that shifts those after it is told as that
+        let told = free.as_ref().is_ok_and(shifts);
+        match (free, read(self.listed)) {
+            (_, Ok(held)) if !held.astray => Ok(held),
+            (_, Err(held)) if !told && held.is_nearly(self.listed) => Err(held),
+            (free, _) => free,
+        }
+    }
+
+    /// Reads what was found. Where both ways to find rows can be read, the one in which rows are as lines, or fewer
+    /// letters of a row lie over each other, is right, or the likelier one.
+    fn read_either(
+        &self,
+        found: (&[usize], &Found),
+        [parts, letters]: &[Vec<Vec<usize>>; 2],
+        names: Names<'_>,
+    ) -> Result<Read, Unread> {
+        let one = self.read_rows(found, parts, names);
         if letters == parts {
             return one;
         }
-        match (one, self.read_rows((ink, &found), &letters, names)) {
+        match (one, self.read_rows(found, letters, names)) {
             (Ok(one), Ok(other)) => {
-                let rank = |r: &Read| (self.stacked(r), r.cost);
-                let ((a, one_cost), (b, other_cost)) = (rank(&one), rank(&other));
-                let first = a.cmp(&b).then(one_cost.total_cmp(&other_cost)).is_le();
-                Ok(if first { one } else { other })
+                let rank = |r: &Read| (r.astray, self.stacked(r), r.cost);
+                Ok(if rank(&one) <= rank(&other) {
+                    one
+                } else {
+                    other
+                })
             }
             (Err(_), Ok(other)) => Ok(other),
             (one, Err(_)) => one,
         }
+    }
+
+    /// Whether rows have other numbers of letters than lines have names.
+    fn is_astray(&self, rows: &[Vec<Vec<usize>>]) -> bool {
+        !rows.iter().map(Vec::len).eq(self.listed.iter().copied())
     }
 
     /// How many letters lie over or under the next one of their row.
@@ -460,10 +512,10 @@ impl<'a> Bare<'a> {
         &self,
         (ink, found): (&[usize], &Found),
         rows: &[Vec<usize>],
-        names: &[Option<Shape>],
+        names: Names<'_>,
     ) -> Result<Read, Unread> {
         let pieces = rows.iter().map(Vec::len).sum();
-        if names.len().saturating_mul(pieces) > MOST {
+        if names.shapes.len().saturating_mul(pieces) > MOST {
             return Err(Unread::crowded(pieces));
         }
         let lines = Lines::new(&found.pieces, &found.ties, rows, found.usual);
@@ -481,6 +533,7 @@ impl<'a> Bare<'a> {
         let out = ink.iter().filter(|&&i| !used[i]);
         Ok(Read {
             out: out.map(|&i| (i, Reason::Dirt)).collect(),
+            astray: self.is_astray(&letters),
             rows: letters,
             doubtful: reading.doubtful(),
             spare: reading.spare(),

@@ -1,6 +1,6 @@
 //! What it costs to take a piece for something: how badly a letter stands for its name.
 
-use super::{Role, Seen, Side};
+use super::{Names, Role, Seen, Side};
 use crate::scan::letters::{Foot, Pieces, Shape};
 
 /// Cost of a piece as small as a dot for the name of a letter or a figure, and for any other name: commas are small.
@@ -20,6 +20,9 @@ const DIRT: f64 = 0.8;
 /// so that pages whose names agree are never refused for one, and less than that of a row whose letters all have
 /// their neighbours' names.
 const UNMATCHED: f64 = 2.5;
+/// Cost of a row whose first letter does not have the first name of a line, where lines are taken for rows: as much as
+/// that of the letter or the name by which they would agree.
+const ASTRAY: f64 = UNMATCHED;
 /// Cost of a piece as wide as several letters for one name. It is less than that of a part as large as a letter:
 /// letters are not joined for being wide.
 const WIDE: f64 = 0.4;
@@ -36,19 +39,26 @@ pub(super) enum Step {
 /// The steps from a beginning of so many pieces and names, where each leads, and what it costs.
 pub(super) fn steps<'a>(
     pieces: &'a [Seen],
-    names: &'a [Option<Shape>],
+    names: Names<'a>,
     (i, j): (usize, usize),
 ) -> impl Iterator<Item = (Step, (usize, usize), f64)> + 'a {
-    let pass = (j < names.len()).then_some((Step::Pass, (i, j + 1), UNMATCHED));
+    let shapes = names.shapes;
+    let pass = (j < shapes.len()).then_some((Step::Pass, (i, j + 1), UNMATCHED));
     let take = pieces.get(i).into_iter().flat_map(move |piece| {
-        let letter = names.get(j).map(|name| {
+        let astray = if piece.first && !names.begins(j) {
+            ASTRAY
+        } else {
+            0.0
+        };
+        let letter = shapes.get(j).map(|name| {
             let cost = name.map_or(0.0, |shape| misfit(piece, &shape));
             (Role::Letter(j), 1, cost + odd(piece))
         });
-        let touching = 2..=piece.letters.min(names.len() - j);
+        let touching = 2..=piece.letters.min(shapes.len() - j);
         let touching = touching.map(move |n| (Role::Touching(j, n), n, 0.0));
-        let others = nameless(piece, names, j).map(|(role, cost)| (role, 0, cost));
-        letter.into_iter().chain(touching).chain(others)
+        let others = nameless(piece, shapes, j).map(|(role, cost)| (role, 0, cost));
+        let all = letter.into_iter().chain(touching).chain(others);
+        all.map(move |(role, n, cost)| (role, n, cost + astray))
     });
     let take = take.map(move |(role, n, cost)| (Step::Take(role), (i + 1, j + n), cost));
     pass.into_iter().chain(take)

@@ -27,6 +27,27 @@ const UNLIKE: f64 = 0.6;
 /// pages that are rightly read two are by 0.9 and 1.0, and the next one by 0.6.
 const SPARE: (f64, f64) = (0.7, 1.1);
 
+/// The names of a page's letters, in order.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Names<'a> {
+    /// What each says of its letter, `None` where nothing at all is known of it.
+    pub(super) shapes: &'a [Option<Shape>],
+    /// How many stand in each line, where lines are taken for the page's rows; else nothing.
+    pub(super) lines: &'a [usize],
+}
+
+impl Names<'_> {
+    /// Whether a row may begin after so many names.
+    fn begins(&self, names: usize) -> bool {
+        let after = |sum: &mut usize, line: &usize| {
+            *sum += line;
+            Some(*sum)
+        };
+        let mut ends = self.lines.iter().scan(0, after);
+        names == 0 || self.lines.is_empty() || ends.any(|end| end == names)
+    }
+}
+
 /// What is seen of a piece.
 #[derive(Debug, Clone, Copy)]
 #[expect(
@@ -50,6 +71,8 @@ pub(super) struct Seen {
     pub(super) within: bool,
     /// Whether it may be dirt.
     pub(super) dirt: bool,
+    /// Whether it is the first of its row.
+    pub(super) first: bool,
     /// How many letters that touch each other it may be at most.
     pub(super) letters: usize,
 }
@@ -151,18 +174,19 @@ impl Reading {
     }
 }
 
-/// Reads pieces and names together. A name is `None` where nothing at all is known of its letter.
-pub(super) fn align(pieces: &[Seen], names: &[Option<Shape>]) -> Reading {
-    let mut table = Table::new(pieces.len(), names.len());
+/// Reads pieces and names together.
+pub(super) fn align(pieces: &[Seen], names: Names<'_>) -> Reading {
+    let count = names.shapes.len();
+    let mut table = Table::new(pieces.len(), count);
     for i in 0..=pieces.len() {
-        for j in 0..=names.len() {
+        for j in 0..=count {
             let here = table.cost[i * table.width + j];
             for (step, to, cost) in steps(pieces, names, (i, j)) {
                 table.step(to, step, here + cost);
             }
         }
     }
-    let mut reading = table.reading(pieces.len(), names.len());
+    let mut reading = table.reading(pieces.len(), count);
     let rest = rest(pieces, names);
     reading.margins = margins((pieces, names), &table, &rest, &reading);
     reading.spare = without_a_name((pieces, names), &table, &rest, &reading);

@@ -3,13 +3,12 @@
 
 use super::costs::{Step, steps};
 use super::table::Table;
-use super::{DOUBT, Reading, Role, Seen};
-use crate::scan::letters::Shape;
+use super::{DOUBT, Names, Reading, Role, Seen};
 use std::ops::RangeInclusive;
 
 /// By how much each piece's role makes the reading likelier than the best one in which it is something else.
 pub(super) fn margins(
-    (pieces, names): (&[Seen], &[Option<Shape>]),
+    (pieces, names): (&[Seen], Names<'_>),
     table: &Table,
     rest: &[f64],
     reading: &Reading,
@@ -17,7 +16,7 @@ pub(super) fn margins(
     let width = table.width;
     let mut margins = vec![f64::INFINITY; pieces.len()];
     for (i, margin) in margins.iter_mut().enumerate() {
-        for j in 0..=names.len() {
+        for j in 0..=names.shapes.len() {
             let others = steps(pieces, names, (i, j));
             let others =
                 others.filter(|s| matches!(s.0, Step::Take(role) if role != reading.roles[i]));
@@ -32,7 +31,7 @@ pub(super) fn margins(
 
 /// The names without one of which pieces and names cost least, and how much less that is.
 pub(super) fn without_a_name(
-    (pieces, names): (&[Seen], &[Option<Shape>]),
+    (pieces, names): (&[Seen], Names<'_>),
     table: &Table,
     rest: &[f64],
     reading: &Reading,
@@ -42,18 +41,18 @@ pub(super) fn without_a_name(
         let gains = places.map(|at| reading.cost - table.cost[at] - rest[at + 1]);
         (j, gains.fold(f64::NEG_INFINITY, f64::max))
     };
-    likeliest((0..names.len()).map(gain))
+    likeliest((0..names.shapes.len()).map(gain))
 }
 
 /// The first and the last of the letters without one of which they cost least.
 pub(super) fn without_a_letter(
-    names: &[Option<Shape>],
+    names: Names<'_>,
     table: &Table,
     rest: &[f64],
     reading: &Reading,
 ) -> Option<RangeInclusive<usize>> {
     let gain = |i: usize| {
-        let places = (0..=names.len()).map(|j| i * table.width + j);
+        let places = (0..=names.shapes.len()).map(|j| i * table.width + j);
         let gains = places.map(|at| reading.cost - table.cost[at] - rest[at + table.width]);
         (i, gains.fold(f64::NEG_INFINITY, f64::max))
     };

@@ -1,8 +1,7 @@
 //! The least costs of all beginnings and of all ends, and the steps between.
 
 use super::costs::{Step, steps};
-use super::{Reading, Role, Seen};
-use crate::scan::letters::Shape;
+use super::{Names, Reading, Role, Seen};
 
 /// Costs of all beginnings: of so many pieces and so many names, and the last step of each.
 pub(super) struct Table {
@@ -63,14 +62,14 @@ impl Table {
     }
 }
 /// Costs of all ends, behind so many pieces and so many names.
-pub(super) fn rest(pieces: &[Seen], names: &[Option<Shape>]) -> Vec<f64> {
-    let width = names.len() + 1;
+pub(super) fn rest(pieces: &[Seen], names: Names<'_>) -> Vec<f64> {
+    let width = names.shapes.len() + 1;
     let mut rest = vec![f64::INFINITY; (pieces.len() + 1) * width];
     if let Some(last) = rest.last_mut() {
         *last = 0.0;
     }
     for i in (0..=pieces.len()).rev() {
-        for j in (0..=names.len()).rev() {
+        for j in (0..=names.shapes.len()).rev() {
             let behind =
                 |(_, to, cost): (Step, (usize, usize), f64)| cost + rest[to.0 * width + to.1];
             let least = steps(pieces, names, (i, j)).map(behind).reduce(f64::min);

@@ -9,6 +9,10 @@ fn shapes(names: &str) -> Vec<Option<Shape>> {
     names.split(' ').map(shape).collect()
 }
 
+fn align(pieces: &[Seen], shapes: &[Option<Shape>]) -> Reading {
+    super::align(pieces, Names { shapes, lines: &[] })
+}
+
 fn letter() -> Seen {
     Seen {
         full: 1.0,
@@ -19,6 +23,7 @@ fn letter() -> Seen {
         body: None,
         within: false,
         dirt: false,
+        first: false,
         letters: 1,
     }
 }
