@@ -85,11 +85,40 @@ const HEAD: &str = "\
 
 ";
 
-/// What to look at on a page, a line each.
+/// What to look at on a page, a line each; cells of which the same is said share one.
 pub(super) fn warnings(page: &Page) -> String {
-    let warnings = page.cut.warnings.iter();
-    let line = |w: &Warning| format!("warning: {}, {w}\n", page.name);
-    warnings.map(line).collect()
+    let mut said: Vec<Vec<&Warning>> = Vec::new();
+    for warning in &page.cut.warnings {
+        let alike = |of: &&mut Vec<&Warning>| {
+            warning.index.is_some() && of.iter().any(|w| w.message == warning.message)
+        };
+        match said.iter_mut().find(alike) {
+            Some(of) => of.push(warning),
+            None => said.push(vec![warning]),
+        }
+    }
+    let line = |of: &Vec<&Warning>| match of.as_slice() {
+        [one] => format!("warning: {}, {one}\n", page.name),
+        [] => String::new(),
+        [one, ..] => format!("warning: {}, {}: {}\n", page.name, cells(of), one.message),
+    };
+    said.iter().map(line).collect()
+}
+
+/// The cells of some warnings; runs by their ends.
+fn cells(warnings: &[&Warning]) -> String {
+    let place = |w: &Warning| {
+        let number = w.index.map_or(0, |i| i + 1);
+        let label = w.label.as_ref().map(|l| format!(" “{}”", l.0));
+        format!("{number}{}", label.unwrap_or_default())
+    };
+    let follows = |a: &&Warning, b: &&Warning| a.index.map(|i| i + 1) == b.index;
+    let run = |run: &[&Warning]| match run {
+        [first, _, .., last] => format!("{} to {}", place(first), place(last)),
+        few => few.iter().map(|w| place(w)).collect::<Vec<_>>().join(", "),
+    };
+    let runs: Vec<String> = warnings.chunk_by(follows).map(run).collect();
+    format!("cells {}", runs.join(", "))
 }
 
 /// Pictures that say how much light their numbers stand for, and are not asked: a line each.
@@ -176,4 +205,25 @@ fn entry(page: &Page) -> (Vec<(String, Vec<u8>)>, Value) {
 /// Left, top, right and bottom.
 fn corners(r: Rect) -> [f64; 4] {
     [r.x0, r.y0, r.x1, r.y1]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use khatt::types::Label;
+
+    #[test]
+    fn cells_of_one_remark_are_runs() {
+        let warning = |i: usize| Warning {
+            index: Some(i),
+            label: Some(Label(format!("{i}"))),
+            message: "odd".to_owned(),
+        };
+        let told = |of: &[usize]| {
+            let all: Vec<Warning> = of.iter().map(|&i| warning(i)).collect();
+            cells(&all.iter().collect::<Vec<_>>())
+        };
+        assert_eq!(told(&[2, 3, 4, 6]), "cells 3 “2” to 5 “4”, 7 “6”");
+        assert_eq!(told(&[2, 3]), "cells 3 “2”, 4 “3”");
+    }
 }

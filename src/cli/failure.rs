@@ -33,6 +33,13 @@ impl Complaint {
         let what = what.into();
         Self::Said { what, help }
     }
+
+    fn remedy(&self) -> Option<&str> {
+        match self {
+            Self::Said { help, .. } => help.as_deref(),
+            Self::Drawn(_) => None,
+        }
+    }
 }
 
 impl Failure {
@@ -97,11 +104,14 @@ impl FromIterator<Complaint> for Failure {
 
 impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for complaint in &self.complaints {
+        let mut complaints = self.complaints.iter().peekable();
+        while let Some(complaint) = complaints.next() {
             match complaint {
                 Complaint::Said { what, help } => {
                     writeln!(f, "error: {what}")?;
-                    if let Some(help) = help {
+                    // errors with one remedy share it
+                    let next = complaints.peek().and_then(|next| next.remedy());
+                    if let Some(help) = help.as_deref().filter(|help| next != Some(help)) {
                         writeln!(f, "  help: {help}")?;
                     }
                 }
