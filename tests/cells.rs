@@ -215,6 +215,27 @@ fn several_drawings_of_a_glyph_are_settled() {
 }
 
 #[test]
+fn a_drawing_that_lost_its_dot_is_not_taken() {
+    // cells of 200 × 200 px with three i, the first of which has no dot, and six o
+    let page = png(600, 600, |x, y| {
+        let (cell, dx, dy) = ((x / 200, y / 200), x % 200, y % 200);
+        let stem = (90..110).contains(&dx) && (80..150).contains(&dy);
+        let dot = dx.abs_diff(100).pow(2) + dy.abs_diff(55).pow(2) < 144;
+        match cell {
+            (column, 0) => 255 * u8::from(stem || dot && column > 0),
+            _ => rings(x, y),
+        }
+    });
+    let desk = Desk::project("i i i o o o o o o", &page);
+    let said = desk.done(&BUILD);
+    assert!(said.contains("i: drawn 3 times"), "{said}");
+    let font = desk.read("out/test.ttf");
+    // 95 px of 150 an em with its dot, 70 without
+    let height = bounds_in(&font, 'i').unwrap().height();
+    assert!(height > 600, "{height}");
+}
+
+#[test]
 fn drawings_beyond_the_stylistic_sets_are_told() {
     let glyphs = ["o"; 24].join(" ");
     let desk = Desk::project(&glyphs, &png(1000, 1000, rings));

@@ -6,6 +6,7 @@ use super::problem::Problem;
 use crate::assemble::{Note, names};
 use crate::numeric::distance::{Polyline, chords};
 use crate::types::{Cell, Label, Name};
+use kurbo::Shape;
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -13,7 +14,7 @@ use std::collections::{BTreeMap, BTreeSet};
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Repeated {
-    /// The drawing whose edge strays least from its smooth outline is taken.
+    /// Of the drawings in as many pieces as most are, the one whose edge strays least from its smooth outline is taken.
     #[default]
     Best,
     /// The drawing in the middle of them: laid upon each other, the edge runs where the median of them does.
@@ -90,11 +91,11 @@ pub(super) fn settle(
             notes.push(note("the one in the middle of them is taken".to_owned()));
             continue;
         }
-        let noise = |&&i: &&usize| noise(&letters[i]);
-        let best = all
-            .iter()
-            .min_by(|a, b| noise(a).total_cmp(&noise(b)))
-            .copied();
+        let whole = whole(all.iter().map(|&i| (i, pieces(&letters[i]))));
+        let noise = |&i: &usize| noise(&letters[i]);
+        let best = whole
+            .into_iter()
+            .min_by(|a, b| noise(a).total_cmp(&noise(b)));
         out.extend(all.iter().copied().filter(|&i| Some(i) != best));
         notes.extend(best.map(|i| {
             let place = letters[i].spot();
@@ -140,6 +141,29 @@ fn rotation(rings: &[Vec<String>], letters: &[Letter]) -> String {
         }
     }
     out + "} calt;\n"
+}
+
+/// Those of some drawings that are in as many pieces as most: a dot that a small picture does not show leaves the
+/// calmest edge.
+fn whole(drawings: impl Iterator<Item = (usize, usize)>) -> Vec<usize> {
+    let mut by_pieces: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+    drawings.for_each(|(i, pieces)| by_pieces.entry(pieces).or_default().push(i));
+    let most = by_pieces.values().map(Vec::len).max();
+    let usual = by_pieces
+        .into_values()
+        .filter(|all| Some(all.len()) == most);
+    usual.flatten().collect()
+}
+
+/// How many pieces a drawing is in: contours that run as the largest one does.
+fn pieces(letter: &Letter) -> usize {
+    let areas: Vec<f64> = letter.paths.iter().map(Shape::area).collect();
+    let largest = areas
+        .iter()
+        .copied()
+        .max_by(|a, b| a.abs().total_cmp(&b.abs()));
+    let alike = |area: &&f64| largest.is_some_and(|largest| **area * largest > 0.0);
+    areas.iter().filter(alike).count()
 }
 
 /// Root mean square distance of the scanned edge from the outline, as a share of the em.
