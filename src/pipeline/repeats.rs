@@ -5,6 +5,7 @@ use super::letter::Letter;
 use super::problem::Problem;
 use crate::assemble::{Note, names};
 use crate::numeric::distance::{Polyline, chords};
+use crate::scan;
 use crate::types::{Cell, Label, Name};
 use kurbo::Shape;
 use serde::{Deserialize, Serialize};
@@ -14,7 +15,8 @@ use std::collections::{BTreeMap, BTreeSet};
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Repeated {
-    /// Of the drawings in as many pieces as most are, the one whose edge strays least from its smooth outline is taken.
+    /// Of the drawings in as many pieces as their letter has, the one whose edge strays least from its smooth outline is
+    /// taken.
     #[default]
     Best,
     /// The drawing in the middle of them: laid upon each other, the edge runs where the median of them does.
@@ -91,9 +93,8 @@ pub(super) fn settle(
             notes.push(note("the one in the middle of them is taken".to_owned()));
             continue;
         }
-        let whole = whole(all.iter().map(|&i| (i, pieces(&letters[i]))));
         let noise = |&i: &usize| noise(&letters[i]);
-        let best = whole
+        let best = whole(&letters, all)
             .into_iter()
             .min_by(|a, b| noise(a).total_cmp(&noise(b)));
         out.extend(all.iter().copied().filter(|&i| Some(i) != best));
@@ -143,11 +144,20 @@ fn rotation(rings: &[Vec<String>], letters: &[Letter]) -> String {
     out + "} calt;\n"
 }
 
-/// Those of some drawings that are in as many pieces as most: a dot that a small picture does not show leaves the
-/// calmest edge.
-fn whole(drawings: impl Iterator<Item = (usize, usize)>) -> Vec<usize> {
+/// Those of some drawings that are in as many pieces as their label says, or as most: a dot that a small picture does
+/// not show leaves the calmest edge.
+fn whole(letters: &[Letter], drawings: &[usize]) -> Vec<usize> {
+    let told = drawings
+        .first()
+        .and_then(|&i| scan::pieces(&letters[i].label));
     let mut by_pieces: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
-    drawings.for_each(|(i, pieces)| by_pieces.entry(pieces).or_default().push(i));
+    for &i in drawings {
+        by_pieces.entry(pieces(&letters[i])).or_default().push(i);
+    }
+    let right = told.map(|told| by_pieces.range(told).flat_map(|d| d.1).copied().collect());
+    if let Some(right) = right.filter(|right: &Vec<usize>| !right.is_empty()) {
+        return right;
+    }
     let most = by_pieces.values().map(Vec::len).max();
     let usual = by_pieces
         .into_values()

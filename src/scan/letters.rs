@@ -2,6 +2,7 @@
 
 use crate::types::characters::spelled;
 use crate::types::{Form, Label};
+use std::ops::RangeInclusive;
 use unicode_normalization::UnicodeNormalization;
 use unicode_normalization::char::canonical_combining_class;
 
@@ -252,10 +253,25 @@ impl Shape {
         }
     }
 
+    /// In how many pieces its letter is drawn, from dots that run together to dots apart; `None` where its name does
+    /// not tell.
+    fn drawn(&self) -> Option<RangeInclusive<usize>> {
+        match self.pieces {
+            Pieces::One => Some(1..=1),
+            Pieces::DotAbove | Pieces::DotBelow if self.dots > 0 => Some(2..=1 + self.dots),
+            _ => None,
+        }
+    }
+
     /// The same number for Arabic letters that differ by their signs and forms alone.
     pub(super) fn skeleton(&self) -> Option<usize> {
         self.body.map(|b| b / Form::ALL.len())
     }
+}
+
+/// In how many pieces the letter of a label is drawn; `None` where the label does not tell.
+pub(crate) fn pieces(label: &Label) -> Option<RangeInclusive<usize>> {
+    Shape::of(label).drawn()
 }
 
 /// On which side the marks of a letter lie, as Unicode parts them from it; `None` where there are none, or on both, or
@@ -286,6 +302,16 @@ mod tests {
             assert_eq!(of(label), Some(Side::Below), "{label}");
         }
         for label in ["ị", "ậ", "ڜ", "ك", "l", "uni06440627", "x.alt"] {
+            assert_eq!(of(label), None, "{label}");
+        }
+    }
+
+    #[test]
+    fn labels_tell_in_how_many_pieces_letters_are() {
+        let of = |s: &str| pieces(&Label(s.to_owned()));
+        assert_eq!(of("l"), Some(1..=1));
+        assert_eq!(of("ش.init"), Some(2..=4));
+        for label in ["é", "ك", "section", "ٹ"] {
             assert_eq!(of(label), None, "{label}");
         }
     }

@@ -39,6 +39,7 @@ pub(crate) use cut::{SMALL_LETTER, SMALL_SHARE, is_full};
 pub use error::{Fault, ScanError};
 pub use grain::{InkGrain, grained};
 pub use ink::{Ink, Inks};
+pub(crate) use letters::pieces;
 pub use load::{ColourDetail, Polarity, Reading, Tones, Turn, describes_light, load, load_page};
 pub use options::{Layout, Options, Order, Scale};
 pub use range::{full_range, is_all_dark};
