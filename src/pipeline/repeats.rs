@@ -154,8 +154,9 @@ fn whole(letters: &[Letter], drawings: &[usize]) -> Vec<usize> {
     for &i in drawings {
         by_pieces.entry(pieces(&letters[i])).or_default().push(i);
     }
-    let right = told.map(|told| by_pieces.range(told).flat_map(|d| d.1).copied().collect());
-    if let Some(right) = right.filter(|right: &Vec<usize>| !right.is_empty()) {
+    let right = told.into_iter().flat_map(|told| by_pieces.range(told));
+    let right: Vec<usize> = right.flat_map(|(_, all)| all).copied().collect();
+    if !right.is_empty() {
         return right;
     }
     let most = by_pieces.values().map(Vec::len).max();

@@ -33,13 +33,16 @@ const ONE_PIECE: &str = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghklmnopqrstuvwxyz01234
 /// Letters with a dot above, dots, or another small sign.
 const DOT_ABOVE: &str = "ijةتثخذزشضظغفقنٹٺٿڈڌڎڏڐڑڒڗژڙڞڟڠڤڦڧڨڬڭڴڱڵڷڻڽۆۇۈۉۋ";
 /// Letters and signs with a dot below or dots.
-const DOT_BELOW: &str = "!?؟بجيیپچٻڀڃڄڇڍڊڔڕڝڢڣڥڮڳڸې";
+const DOT_BELOW: &str = "!?؟بجيپچٻڀڃڄڇڍڊڔڕڝڢڣڥڮڳڸې";
+
+/// Letters with dots below where something follows, and none where nothing does.
+const DOTS_BEFORE: &str = "ی";
 
 /// Letters with signs above and below.
 const SIGNS: &str = "ڜێ";
 
 /// Letters with one dot, two and three, and no other sign.
-const DOTS: [&str; 3] = ["ij!?؟بجخذزضظغفن", "تةقي", "ثشپچژڤ"];
+const DOTS: [&str; 3] = ["ij!?؟بجخذزضظغفن", "تةقيی", "ثشپچژڤ"];
 
 /// Lam-alef, the ligature without a sign.
 const LAM_ALEF: [char; 2] = ['ل', 'ا'];
@@ -179,13 +182,15 @@ impl Shape {
         let pieces = match () {
             () if letter.is_some() && !plain || any(base, SIGNS) => Pieces::Marked,
             () if any(base, SIGN_WITHIN) && form.joins_after() => Pieces::Bare,
+            () if any(base, DOTS_BEFORE) && form.joins_after() => Pieces::DotBelow,
             () if any(base, SIGN_WITHIN) => Pieces::Within,
-            () if ligature || any(base, ONE_PIECE) => Pieces::One,
+            () if ligature || any(base, ONE_PIECE) || any(base, DOTS_BEFORE) => Pieces::One,
             () if any(base, DOT_ABOVE) => Pieces::DotAbove,
             () if any(base, DOT_BELOW) => Pieces::DotBelow,
             () => Pieces::Unknown,
         };
-        let dots = (1..).zip(DOTS).find(|(_, set)| plain && any(base, set));
+        let dotted = plain && pieces != Pieces::One;
+        let dots = (1..).zip(DOTS).find(|(_, set)| dotted && any(base, set));
         let dots = dots.map_or(0, |d| d.0);
         let signs = match pieces {
             Pieces::DotAbove => Some(Side::Above),
@@ -310,6 +315,8 @@ mod tests {
     fn labels_tell_in_how_many_pieces_letters_are() {
         let of = |s: &str| pieces(&Label(s.to_owned()));
         assert_eq!(of("l"), Some(1..=1));
+        assert_eq!(of("uni06CC.fina"), Some(1..=1));
+        assert_eq!(of("uni06CC.medi"), Some(2..=3));
         assert_eq!(of("ش.init"), Some(2..=4));
         for label in ["é", "ك", "section", "ٹ"] {
             assert_eq!(of(label), None, "{label}");

@@ -19,6 +19,10 @@ FONT = ("A B C D E F G H I J|K L M N O P Q R S T|U V W X Y Z 0 1 2 3|4 5 6 7 8 9
 ALL = ("_ _ _ _ _ _ _ _ _ _ _ _ _ _|_ _ _ _ _ _ _ _ _ _ _ _|A B C D E F G H I J K L M N O P Q R S|"
        "T U V W X Y Z 0 1 2 3 4 5 6 7 8 9 a b|c d e f g h i j k l m n o p q r s t u v|"
        "w x _ y z ! @ # $ % ^ & _ * ( ) - underscore +|= { } bar bracketleft bracketright backslash : \" ; ' < > ? , . /")
+DIGITS = "۰ ۱ ۲ ۳ ۴ ۵ ۶ ۷ ۸ ۹".split()
+TEN, FOURTEEN = (lambda c: "_ _ " + f"{c} " * 10 + "_ _"), (lambda c: " ".join([c] * 14))
+PERSIAN = ["|".join([*map(TEN, DIGITS[:2]), *map(FOURTEEN, "ابپتثجچحخدذرزژسشص"), *map(TEN, DIGITS[2:4])]),
+           "|".join([*map(TEN, DIGITS[4:6]), *map(FOURTEEN, "ضطظعغفقکگلمنوهی" + "۶۷"), *map(TEN, DIGITS[8:])])]
 EEZYCADE = "EEzycade/handwriting-font-software/test-images/full-handwriting/"
 MANISH = "manishgun/hand-written-font-maker/public/"
 # page, layout ("boxes", "free", or the columns of a grid), names of each row
@@ -38,6 +42,8 @@ PAGES = [
     ("SettSatyaki98/handwritten-image-from-text-file/font.jpg", "boxes", FONT),
     ("SettSatyaki98/handwritten-image-from-text-file/font.jpg", 10, FONT),
     ("SettSatyaki98/handwritten-image-from-text-file/all.jpg", "free", ALL),
+    ("sadafnazari/Persian_handwriting_recognition/assets/dataset_sample1.jpg", 14, PERSIAN[0]),
+    ("sadafnazari/Persian_handwriting_recognition/assets/dataset_sample2.jpg", 14, PERSIAN[1]),
     ("jsamaviciusstudent/IS-Lab4/letters.jpg", "free", "|".join(["A B C D E F G H I J K"] * 8)),
 ]
 
@@ -51,8 +57,10 @@ def project(image, layout, rows, name):
     else:
         layout = json.dumps(layout)
     names = "\n".join(" ".join(row) for row in rows)
+    arabic = any("\u0600" <= c < "\u0700" for c in names)
+    scale = 'direction = "rtl"\npixels_per_em = 50' if arabic else "cap_height = 700"
     return (f'[font]\nfamily = {json.dumps(name)}\n\n[[sheet]]\nimage = {json.dumps(image)}\nlayout = {layout}\n'
-            f"glyphs = '''\n{names}\n'''\ncap_height = 700\n\n[output]\nttf = \"{name}.ttf\"\nproof = \"{name}.html\"\n")
+            f"glyphs = '''\n{names}\n'''\n{scale}\n\n[output]\nttf = \"{name}.ttf\"\nproof = \"{name}.html\"\n")
 
 
 def main():

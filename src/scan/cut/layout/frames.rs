@@ -125,8 +125,8 @@ impl Reduced {
             let mut darkest = vec![0.0_f32; columns];
             for row in (y * step..(y + 1) * step).map(|y| gray.row(y)) {
                 let blocks = row.chunks_exact(step);
-                for (least, block) in darkest.iter_mut().zip(blocks) {
-                    *least = block.iter().fold(*least, |a, &v| if v > a { v } else { a });
+                for (most, block) in darkest.iter_mut().zip(blocks) {
+                    *most = block.iter().fold(*most, |a, &v| if v > a { v } else { a });
                 }
             }
             darkest

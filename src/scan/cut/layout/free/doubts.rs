@@ -112,9 +112,14 @@ impl Unread {
         }
     }
 
+    /// How many letters each row has that has any: places that only dirt makes are no rows.
+    fn lettered(&self) -> Vec<usize> {
+        self.rows.iter().copied().filter(|&n| n > 0).collect()
+    }
+
     /// Whether its rows have as many letters as names stand in lines, but for one of them.
     pub(super) fn is_nearly(&self, lines: &[usize]) -> bool {
-        let rows: Vec<usize> = self.rows.iter().copied().filter(|&n| n > 0).collect();
+        let rows = self.lettered();
         let odd = rows.iter().zip(lines).filter(|(a, b)| a != b).count();
         rows.len() == lines.len() && odd < 2
     }
@@ -139,8 +144,7 @@ impl Unread {
         if let Some(pieces) = self.crowd {
             return Fault::ManyPieces { pieces, names };
         }
-        // places that only dirt makes are no rows
-        let rows: Vec<usize> = self.rows.iter().copied().filter(|&n| n > 0).collect();
+        let rows = self.lettered();
         if rows.is_empty() {
             return Fault::NoLetters(names);
         }

@@ -268,6 +268,11 @@ struct Read {
 }
 
 impl Read {
+    /// How many letters each row has.
+    fn lengths(&self) -> Vec<usize> {
+        self.rows.iter().map(Vec::len).collect()
+    }
+
     /// What is less of the likelier reading.
     fn rank(&self) -> (bool, f64) {
         (self.astray, self.cost)
@@ -325,8 +330,7 @@ impl<'a> Bare<'a> {
         };
         let mut read = counted.or_else(|()| self.choose(names, |ink| self.read(ink, names)))?;
         if read.scattered > 0 && self.left_out(&read) > LEFT_OUT {
-            let lengths = read.rows.iter().map(Vec::len);
-            return Err(Unread::unlike(lengths.collect()));
+            return Err(Unread::unlike(read.lengths()));
         }
         let lines = self.lines.iter().map(|&i| (i, Reason::Line));
         read.out.extend(lines);
@@ -455,10 +459,7 @@ impl<'a> Bare<'a> {
         if self.listed.len() < 2 || free.as_ref().is_ok_and(|r| !r.astray) {
             return free;
         }
-        let shifts = |r: &Read| {
-            let lengths: Vec<usize> = r.rows.iter().map(Vec::len).collect();
-            listed::check(self.listed, (Order::Rows, &lengths)).is_err()
-        };
+        let shifts = |r: &Read| listed::check(self.listed, (Order::Rows, &r.lengths())).is_err();
         // a line that shifts those after it is told as that
         let told = free.as_ref().is_ok_and(shifts);
         match (free, read(self.listed)) {
